@@ -1,0 +1,27 @@
+# One static library a module, and the compiler flags that all of them share.
+
+add_library(gaussdrift_flags INTERFACE)
+target_compile_options(gaussdrift_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas)
+if(GAUSSDRIFT_WARNINGS_AS_ERRORS)
+  target_compile_options(gaussdrift_flags INTERFACE -Werror)
+endif()
+if(GAUSSDRIFT_SANITIZE)
+  target_compile_options(gaussdrift_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(gaussdrift_flags INTERFACE -fsanitize=address,undefined)
+endif()
+if(GAUSSDRIFT_NATIVE)
+  target_compile_options(gaussdrift_flags INTERFACE -march=native)
+endif()
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  target_compile_definitions(gaussdrift_flags INTERFACE _GLIBCXX_ASSERTIONS)
+endif()
+
+# gaussdrift_module(name SOURCES a.cpp ... DEPENDS target ... PRIVATE_DEPENDS target ...)
+# Includes are written from src/ ("field/velocity.hpp") and from include/ ("fgtd/fgtd.hpp").
+function(gaussdrift_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_library(gaussdrift_${name} STATIC ${MODULE_SOURCES})
+  target_include_directories(gaussdrift_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(gaussdrift_${name} PUBLIC ${MODULE_DEPENDS} PRIVATE gaussdrift_flags ${MODULE_PRIVATE_DEPENDS})
+  set_target_properties(gaussdrift_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()

@@ -1,0 +1,97 @@
+// A case: everything that one run needs, as plain validated data. `input` reads it from a file, `sim` runs it.
+// Numbers are in the units of the case; expressions keep their text because fields compile them again for each thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace gaussdrift {
+
+/// Named constants of `[params]`, in file order.
+using Params = std::vector<std::pair<std::string, double>>;
+
+struct Domain {
+  int dimension = 2;               // 2 or 3
+  std::array<double, 3> min{};     // entries beyond the dimension are 0
+  std::array<double, 3> max{};
+};
+
+// --- velocity ---------------------------------------------------------------------------------------------------
+
+/// u = [...]: one expression a component in x, y, z, t and the params.
+struct ExpressionVelocity {
+  std::vector<std::string> components;
+};
+/// Rigid rotation u = rate (-(y - center_y), x - center_x), in 3D about the z axis; div u = 0.
+struct RotationVelocity {
+  std::array<double, 3> center{};
+  double rate = 1;  // radians a time unit, counter-clockwise
+};
+using VelocitySpec = std::variant<ExpressionVelocity, RotationVelocity>;
+
+// --- initial density --------------------------------------------------------------------------------------------
+
+/// expression = "...": rho_0 in x, y, z and the params.
+struct ExpressionDensity {
+  std::string text;
+};
+/// A radial shape of s = |x - center| / radius (docs/cases.md gives the formulas).
+struct ShapeDensity {
+  enum class Shape { wendland, cone, gaussian, disk };
+  Shape shape = Shape::wendland;
+  std::array<double, 3> center{};
+  double radius = 1;
+  double height = 1;
+};
+using DensitySpec = std::variant<ExpressionDensity, ShapeDensity>;
+
+// --- discretisation ---------------------------------------------------------------------------------------------
+
+struct ParticleSpec {
+  int per_axis = 0;               // n_g on the longest axis
+  double overlap = 2;             // c: eps = c h
+  std::string cutoff = "gauss2";  // gauss2 | gauss4
+};
+
+struct TimeSpec {
+  double end = 0;
+  double step = 0;             // tau
+  std::string method = "rk4";  // name of a tableau
+};
+
+struct EvaluateSpec {
+  int per_axis = 200;           // n_ge on the longest axis
+  double tolerance = 1e-8;      // of the Gauss transform, relative to max |rho| at that output
+  std::string method = "auto";  // auto | direct | hermite
+};
+
+struct OutputSpec {
+  enum class Vtk { density, particles };
+  enum class Image { surface, contour, heatmap };
+  std::vector<double> times;  // ascending, 0 <= t <= end
+  std::vector<Vtk> vtk{Vtk::density, Vtk::particles};
+  std::vector<Image> images{Image::surface};
+};
+
+struct Case {
+  std::string name;                // stem of the file: names the output folder
+  std::filesystem::path file;      // where it came from; empty for a case built in memory
+  std::string source;              // text of that file
+  std::string title;
+  std::string cite;
+  Params params;
+  Domain domain;
+  std::vector<VelocitySpec> velocity;  // the fields add up
+  std::vector<DensitySpec> density;    // the densities add up
+  ParticleSpec particles;
+  TimeSpec time;
+  EvaluateSpec evaluate;
+  OutputSpec output;
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,31 @@
+#include "base/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gaussdrift {
+
+std::vector<double> Lattice::nodes(int axis) const {
+  std::vector<double> list(points[axis]);
+  for (std::size_t i = 0; i < list.size(); ++i) list[i] = coordinate(axis, i);
+  return list;
+}
+
+Lattice make_lattice(int dimension, const Vector& min, const Vector& max, int per_axis) {
+  Lattice lattice;
+  lattice.dimension = dimension;
+  double longest = 0;
+  for (int k = 0; k < dimension; ++k) longest = std::max(longest, max[k] - min[k]);
+  lattice.spacing = longest / (per_axis - 1);
+  for (int k = 0; k < dimension; ++k) {
+    const double length = max[k] - min[k];
+    // A length that is a multiple of the spacing up to rounding keeps its last point.
+    const double steps = std::floor(length / lattice.spacing * (1 + 1e-12) + 1e-12);
+    lattice.points[k] = static_cast<std::size_t>(steps) + 1;
+    lattice.origin[k] = min[k] + 0.5 * (length - steps * lattice.spacing);
+    if (length == longest) lattice.origin[k] = min[k];
+  }
+  return lattice;
+}
+
+}  // namespace gaussdrift

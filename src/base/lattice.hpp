@@ -1,0 +1,28 @@
+// Uniform lattices over a box: n points on the longest axis, the same spacing on all axes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "base/points.hpp"
+
+namespace gaussdrift {
+
+/// Points origin + index * spacing, first axis fastest. Axes beyond the dimension have one point.
+struct Lattice {
+  int dimension = 2;
+  std::array<std::size_t, max_dimension> points{1, 1, 1};
+  Vector origin{};
+  double spacing = 0;
+
+  std::size_t size() const { return points[0] * points[1] * points[2]; }
+  double coordinate(int axis, std::size_t index) const { return origin[axis] + static_cast<double>(index) * spacing; }
+  std::vector<double> nodes(int axis) const;
+};
+
+/// The lattice with `per_axis` >= 2 points on the longest axis of [min, max], spacing L/(per_axis - 1); the other axes get
+/// floor(L_k / spacing) + 1 points, centred.
+Lattice make_lattice(int dimension, const Vector& min, const Vector& max, int per_axis);
+
+}  // namespace gaussdrift

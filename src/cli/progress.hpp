@@ -1,0 +1,34 @@
+// One line that tells how far a run is: rewritten in place on a terminal, a plain line now and then elsewhere.
+#pragma once
+
+#include <string>
+
+#include "base/stopwatch.hpp"
+#include "sim/simulation.hpp"
+
+namespace gaussdrift::cli {
+
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Progress& progress);
+  /// A short note instead of a run's progress ("12 of 120 heights").
+  void show(const std::string& text);
+  /// Removes the line from a terminal, before other output.
+  void clear();
+
+ private:
+  bool terminal_;
+  bool visible_ = false;
+  base::Stopwatch watch_;
+  double last_ = -1;  // seconds at which the line was last written
+};
+
+/// "42 %  t = 2.64 of 6.28  step 2 640 of 6 284  0.02 ms a step  3 s left"
+std::string progress_text(const Progress& progress);
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "cli/progress.hpp"
+#include "cli/verbs.hpp"
+#include "input/read_case.hpp"
+#include "render/picture_series.hpp"
+#include "sim/simulation.hpp"
+#include "study/describe.hpp"
+#include "study/reproduce_cone.hpp"
+#include "write/atomic_file.hpp"
+#include "write/observers.hpp"
+#include "write/run_folder.hpp"
+#include "write/summary.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+Case read(const CaseOptions& options) {
+  input::ReadResult result = input::read_case(options.file, options.overrides);
+  for (const std::string& warning : result.warnings) fmt::print(stderr, "{}\n", warning);
+  return std::move(result.scene);
+}
+
+std::vector<render::Style> styles_of(const Case& scene) {
+  std::vector<render::Style> styles;
+  for (const OutputSpec::Image image : scene.output.images) {
+    switch (image) {
+      case OutputSpec::Image::surface: styles.push_back(render::Style::surface); break;
+      case OutputSpec::Image::contour: styles.push_back(render::Style::contour); break;
+      case OutputSpec::Image::heatmap: styles.push_back(render::Style::heatmap); break;
+    }
+  }
+  return styles;
+}
+
+void add_observers(Simulation& simulation, const Case& scene, const fs::path& folder) {
+  simulation.observe(write::series_table(folder, scene.domain.dimension));
+  for (const OutputSpec::Vtk kind : scene.output.vtk)
+    simulation.observe(kind == OutputSpec::Vtk::density ? write::density_files(folder) : write::particle_files(folder));
+  if (const auto styles = styles_of(scene); !styles.empty()) {
+    if (const std::string reason = render::unavailable_reason(); !reason.empty())
+      fmt::print(stderr, "warning: no pictures are drawn: {}\n", reason);
+    else
+      simulation.observe(render::picture_series(folder, styles, scene.title.empty() ? scene.name : scene.title));
+  }
+}
+
+double seconds_of(const RunSummary& summary, const std::string& beginning) {
+  double total = 0;
+  for (const auto& [stage, seconds] : summary.stages.stages())
+    if (stage.rfind(beginning, 0) == 0) total += seconds;
+  return total;
+}
+
+void print_ending(const Case& scene, const RunSummary& summary, const fs::path& folder) {
+  double worst = 0;
+  for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
+  fmt::print("done   {} particles, {} steps, {} frames in {:.2f} s on {} threads (transport {:.2f}, density {:.2f}, files {:.2f}, pictures {:.2f})\n",
+             summary.particles, summary.steps, summary.frames.size(), summary.seconds, summary.threads, seconds_of(summary, "transport"),
+             seconds_of(summary, "density"), seconds_of(summary, "write"), seconds_of(summary, "pictures"));
+  if (!summary.frames.empty()) {
+    const auto& [t0, first] = summary.frames.front();
+    const auto& [t1, last] = summary.frames.back();
+    fmt::print("result max rho = {:.6f} at t = {:.4g}, {:.6f} at t = {:.4g}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n",
+               first.maximum, t0, last.maximum, t1, last.mass, worst, scene.evaluate.tolerance);
+  }
+  const bool pictures = fs::exists(folder / "images");
+  const bool density = fs::exists(folder / "density.pvd");
+  fmt::print("open   {}{}{}\n", density ? (folder / "density.pvd").string() + " in ParaView" : (folder / "series.csv").string(),
+             pictures ? ", pictures in " : "", pictures ? (folder / "images").string() : "");
+}
+
+}  // namespace
+
+ExitCode run(const RunOptions& options) {
+  const Case scene = read(options.scene);
+  const fs::path folder = options.folder.empty() ? fs::path("output") / scene.name : options.folder;
+  Simulation simulation(scene, options.scene.threads);
+  write::prepare_run_folder(folder, options.force);
+  write::write_run_inputs(folder, scene, input::resolved_toml(scene));
+  add_observers(simulation, scene, folder);
+
+  RunSummary summary;
+  {
+    ProgressLine line;
+    simulation.on_progress([&](const Progress& progress) { line.show(progress); });
+    summary = simulation.run();
+  }
+  if (summary.transform_achievable > scene.evaluate.tolerance)
+    fmt::print(stderr, "warning: evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is {:.1e} of max rho\n",
+               scene.evaluate.tolerance, summary.transform_achievable);
+  const std::string json = write::summary_json(scene, summary);
+  write::write_text(folder / "summary.json", json);
+  if (options.scene.json)
+    fmt::print("{}", json);
+  else
+    print_ending(scene, summary, folder);
+  return ExitCode::ok;
+}
+
+ExitCode check(const CaseOptions& options) {
+  const Case scene = read(options);
+  const study::Description description = study::describe(scene, options.threads);
+  fmt::print("{}", options.json ? study::to_json(scene, description) : study::to_text(scene, description));
+  return ExitCode::ok;
+}
+
+ExitCode reproduce(const std::string& table, int threads, bool json) {
+  if (table.empty()) {
+    fmt::print("tables that can be reproduced:\n  cone   heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n");
+    return ExitCode::ok;
+  }
+  if (table != "cone") throw CommandLineError(fmt::format("nothing called \"{}\" can be reproduced; there is: cone", table));
+  study::ConeReproduction result;
+  {
+    ProgressLine line;
+    result = study::reproduce_cone(threads, [&](std::size_t done, std::size_t total) { line.show(fmt::format("{} of {} heights", done, total)); });
+  }
+  fmt::print("{}", json ? study::to_json(result) : study::to_text(result));
+  return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,72 @@
+// Expressions of a case file, "-y * exp(-a*t)", compiled once and evaluated over arrays.
+// The one place that knows muParser. Functions, operators and constants are listed in docs/cases.md.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gaussdrift {
+
+/// A text that is not an expression: what is wrong, and where in the text (0-based position in bytes, length >= 1).
+class ExpressionError : public std::runtime_error {
+ public:
+  ExpressionError(const std::string& message, std::size_t position, std::size_t length)
+      : std::runtime_error(message), position_(position), length_(length) {}
+  std::size_t position() const { return position_; }
+  std::size_t length() const { return length_; }
+
+ private:
+  std::size_t position_, length_;
+};
+
+/// One expression in given variables and constants (pi and e are always known).
+/// A value that is not finite (1/0, log(-1)) is no error here: it follows IEEE arithmetic and callers check.
+/// Evaluation is const and safe to call from several threads; the same arguments give the same bits.
+/// A copy shares the compiled program.
+class Expression {
+ public:
+  /// Throws ExpressionError; an unknown name is answered with the nearest known one.
+  Expression(std::string text, std::vector<std::string> variables,
+             std::vector<std::pair<std::string, double>> constants);
+  ~Expression();
+  Expression(const Expression&);
+  Expression(Expression&&) noexcept;
+  Expression& operator=(Expression) noexcept;
+
+  /// values[i] = the expression at variable k = arguments[k][i], i < count. `arguments` in the order of `variables`;
+  /// a variable that used_names() lacks may be null. `values` may be one of the arguments.
+  void evaluate(const double* const* arguments, std::size_t count, double* values) const;
+  /// For expressions of single numbers: `arguments` has one value a variable.
+  double evaluate(const std::vector<double>& arguments = {}) const;
+
+  const std::string& text() const;
+  /// Names among the variables and constants that the text mentions, in the order of their first mention.
+  const std::vector<std::string>& used_names() const;
+
+ private:
+  struct Implementation;
+  std::shared_ptr<const Implementation> implementation_;
+};
+
+/// A function that expressions may call.
+struct FunctionInfo {
+  std::string_view name;
+  int arguments;  // negative: at least -arguments
+  std::string_view meaning;
+};
+
+/// All of them, in the order of docs/cases.md.
+const std::vector<FunctionInfo>& expression_functions();
+
+/// Names that an expression may not define: functions, pi, e.
+bool is_reserved_name(std::string_view name);
+
+/// A name is a letter or underscore followed by letters, digits and underscores.
+bool is_name(std::string_view text);
+
+}  // namespace gaussdrift

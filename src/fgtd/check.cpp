@@ -1,0 +1,113 @@
+// Refuses bad arguments; see check.hpp.
+#include "fgtd/check.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include "fgtd/kernels.hpp"
+
+namespace fgtd::detail {
+
+std::string text(double value) {
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return std::string(buffer, end);
+}
+
+namespace {
+
+std::string text(std::size_t value) { return std::to_string(value); }
+
+}  // namespace
+
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride) {
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t l = 0; l < dimension; ++l) {
+      const double value = points[j * stride + l];
+      if (!std::isfinite(value)) {
+        throw InvalidArgument("fgtd: " + std::string(kind) + " " + text(j) + ", coordinate " + text(l) + " is " + text(value) + "; " + kind +
+                              "s must be finite");
+      }
+    }
+}
+
+void check_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights, std::size_t sources) {
+  if (static_cast<std::size_t>(weights.rows()) != sources) {
+    throw InvalidArgument("fgtd: weights have " + std::to_string(weights.rows()) + " rows for " + text(sources) +
+                          " sources; there must be one row for every source");
+  }
+  for (Eigen::Index k = 0; k < weights.cols(); ++k)
+    for (Eigen::Index j = 0; j < weights.rows(); ++j)
+      if (!std::isfinite(weights(j, k))) {
+        throw InvalidArgument("fgtd: weight " + std::to_string(j) + ", column " + std::to_string(k) + " is " + text(weights(j, k)) +
+                              "; weights must be finite");
+      }
+}
+
+void check_sigma(double sigma) {
+  if (!(sigma > 0) || !std::isfinite(sigma)) {
+    throw InvalidArgument("fgtd: sigma = " + text(sigma) + ", must be positive and finite");
+  }
+}
+
+void check_options(const Options& options, std::size_t dimension) {
+  const double tolerance = options.tolerance;
+  if (!(tolerance > 0) || !(tolerance < 1)) {
+    throw InvalidArgument("fgtd: Options::tolerance = " + text(tolerance) + ", must lie in [1e-14, 1)");
+  }
+  if (tolerance < smallest_tolerance) {
+    throw ToleranceError("fgtd: Options::tolerance = " + text(tolerance) +
+                         " cannot be promised in double precision, must lie in [1e-14, 1)");
+  }
+  if (options.derivative_order < 0 || options.derivative_order > max_derivative_order) {
+    throw InvalidArgument("fgtd: Options::derivative_order = " + std::to_string(options.derivative_order) + ", must lie in 0 .. " +
+                          std::to_string(max_derivative_order));
+  }
+  if (options.threads < 0) {
+    throw InvalidArgument("fgtd: Options::threads = " + std::to_string(options.threads) + ", must be positive, or 0 for all");
+  }
+  if (options.expected_grid) check_grid("Options::expected_grid", *options.expected_grid, dimension);
+  if (!options.hermite) return;
+  const HermiteParameters& by_hand = *options.hermite;
+  if (options.method == Method::direct) {
+    throw InvalidArgument("fgtd: Options::hermite is given but Options::method = direct; leave the method to auto or hermite");
+  }
+  if (!(by_hand.box_scale > 0) || !std::isfinite(by_hand.box_scale)) {
+    throw InvalidArgument("fgtd: HermiteParameters::box_scale = " + text(by_hand.box_scale) + ", must be positive and finite");
+  }
+  if (by_hand.expansion_order < 1 || by_hand.expansion_order > 1000) {
+    throw InvalidArgument("fgtd: HermiteParameters::expansion_order = " + std::to_string(by_hand.expansion_order) +
+                          ", must lie in 1 .. 1000");
+  }
+  if (by_hand.neighbours < 0 && by_hand.neighbours != HermiteParameters::all_boxes) {
+    throw InvalidArgument("fgtd: HermiteParameters::neighbours = " + std::to_string(by_hand.neighbours) +
+                          ", must be at least 0, or all_boxes (-1)");
+  }
+}
+
+void check_grid(const char* name, const TensorGrid& grid, std::size_t dimension) {
+  if (grid.axes.size() != dimension) {
+    throw InvalidArgument("fgtd: " + std::string(name) + " has " + text(grid.axes.size()) + " axes, must have " + text(dimension));
+  }
+  for (std::size_t axis = 0; axis < dimension; ++axis) {
+    const auto& nodes = grid.axes[axis];
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      if (!std::isfinite(nodes[i])) {
+        throw InvalidArgument("fgtd: " + std::string(name) + ", axis " + text(axis) + ", node " + text(i) + " is " + text(nodes[i]) +
+                              "; nodes must be finite");
+      }
+      if (i > 0 && !(nodes[i - 1] < nodes[i])) {
+        throw InvalidArgument("fgtd: " + std::string(name) + ", axis " + text(axis) + ", node " + text(i) + " = " + text(nodes[i]) +
+                              " does not exceed the node before it, " + text(nodes[i - 1]) + "; nodes must ascend");
+      }
+    }
+  }
+}
+
+void check_memory(const char* what, double bytes, std::size_t limit) {
+  if (bytes <= static_cast<double>(limit)) return;
+  throw MemoryLimitError("fgtd: " + std::string(what) + " needs about " + text(std::ceil(bytes)) + " bytes, Options::memory_limit is " +
+                         text(limit) + " bytes");
+}
+
+}  // namespace fgtd::detail

@@ -1,0 +1,40 @@
+// What is to be evaluated, made flat: the distinct derivatives, and every combination as a list of (derivative, factor)
+// whose factor contains the sign and the scale of that derivative,
+//   D^alpha exp(-sigma |y-x|^2) = (-1)^|alpha| N_alpha prod_l h~_{alpha_l}(sqrt(sigma) (y-x)_l),  h~_n = h_n / sqrt(2^n n!).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "fgtd/fgtd.hpp"
+#include "fgtd/kernels.hpp"
+
+namespace fgtd::detail {
+
+template <int d>
+struct Request {
+  struct Part {
+    std::size_t derivative;  // index into `derivatives`
+    double factor;           // coefficient (-1)^|alpha| N_alpha
+  };
+  std::vector<Derivative<d>> derivatives;        // distinct
+  std::vector<std::vector<Part>> combinations;
+  std::array<int, d> highest{};                  // of each axis
+};
+
+/// Throws InvalidArgument if a derivative is negative, beyond `derivative_order`, or its scale is not a double.
+template <int d>
+Request<d> make_request(const std::vector<Combination<d>>& combinations, double sigma, int derivative_order);
+
+/// The factors sqrt(2/(n+1)) and sqrt(n/(n+1)) of the recurrence, for n < orders.
+class RecurrenceTable {
+ public:
+  explicit RecurrenceTable(int orders);
+  Recurrence view() const { return {up_.data(), back_.data()}; }
+
+ private:
+  std::vector<double> up_, back_;
+};
+
+}  // namespace fgtd::detail

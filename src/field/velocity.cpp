@@ -1,0 +1,71 @@
+#include "field/velocity.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace gaussdrift {
+
+namespace {
+constexpr std::size_t block_length = 512;  // points an expression sees at once: its arrays stay in the first-level cache
+}
+
+void RotationField::add(double /*t*/, const PointsView& x, const VectorsView& u) const {
+  const double rate = rate_, cx = center_[0], cy = center_[1];
+  const double *px = x.axis[0], *py = x.axis[1];
+  double *ux = u.axis[0], *uy = u.axis[1];
+  for (std::size_t i = 0; i < x.count; ++i) {
+    const double dx = px[i] - cx, dy = py[i] - cy;
+    ux[i] -= rate * dy;
+    uy[i] += rate * dx;
+  }
+}
+
+std::string RotationField::describe() const {
+  const std::string about =
+      dimension_ == 2 ? fmt::format("({}, {})", center_[0], center_[1]) : fmt::format("the axis ({}, {}, z)", center_[0], center_[1]);
+  return fmt::format("rotation about {}, {} rad a time unit, div u = 0", about, rate_);
+}
+
+ExpressionField::ExpressionField(const std::vector<std::string>& components,
+                                 const std::vector<std::pair<std::string, double>>& params) {
+  std::vector<std::string> variables{"x", "y"};
+  if (components.size() == 3) variables.push_back("z");
+  variables.push_back("t");
+  for (const auto& text : components) components_.emplace_back(text, variables, params);
+}
+
+void ExpressionField::add(double t, const PointsView& x, const VectorsView& u) const {
+  std::array<double, block_length> times, values;
+  times.fill(t);
+  for (std::size_t first = 0; first < x.count; first += block_length) {
+    const std::size_t length = std::min(block_length, x.count - first);
+    const PointsView points = x.block(first, length);
+    std::array<const double*, max_dimension + 1> arguments{};
+    for (int k = 0; k < x.dimension; ++k) arguments[k] = points.axis[k];
+    arguments[x.dimension] = times.data();
+    for (int k = 0; k < x.dimension; ++k) {
+      components_[k].evaluate(arguments.data(), length, values.data());
+      double* out = u.axis[k] + first;
+      for (std::size_t i = 0; i < length; ++i) out[i] += values[i];
+    }
+  }
+}
+
+std::string ExpressionField::describe() const {
+  std::string text = "u = (";
+  for (std::size_t k = 0; k < components_.size(); ++k) text += (k ? ", " : "") + components_[k].text();
+  return text + ")";
+}
+
+void SumField::add(double t, const PointsView& x, const VectorsView& u) const {
+  for (const auto& field : fields_) field->add(t, x, u);
+}
+
+std::string SumField::describe() const {
+  std::string text;
+  for (const auto& field : fields_) text += (text.empty() ? "" : " + ") + field->describe();
+  return text.empty() ? "u = 0" : text;
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,748 @@
+#include "input/read_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "base/lattice.hpp"
+#include "base/suggest.hpp"
+#include "expression/expression.hpp"
+#include "input/diagnostics.hpp"
+#include "input/document.hpp"
+#include "input/registry.hpp"
+
+namespace gaussdrift::input {
+namespace {
+
+constexpr double largest_lattice = 2147483648.0;  // 2^31 points: 16 GiB a column
+constexpr double most_steps = 2147483648.0;
+constexpr double same_time =
+    1e-12;  // an output this close to the end, relative to it, is the end: "2*pi" in two spellings
+
+using Kind = Value::Kind;
+
+std::string label_of(const Key& key) {
+  return key.table.empty() ? std::string(key.name) : fmt::format("{}.{}", key.table, key.name);
+}
+
+std::string without_backticks(std::string_view text) {
+  std::string plain(text);
+  std::erase(plain, '`');
+  return plain;
+}
+
+std::string meaning_note(const Key& key) { return fmt::format("{}: {}", key.name, without_backticks(key.meaning)); }
+
+std::string quoted_list(const std::vector<std::string_view>& words) {
+  std::vector<std::string> shown;
+  for (const auto word : words) shown.push_back(fmt::format("\"{}\"", word));
+  return fmt::format("{}", fmt::join(shown, ", "));
+}
+
+/// "2.5", or "0 (from "R - R")" for an expression.
+std::string found_number(double value, const Value& written) {
+  return written.kind == Kind::text ? fmt::format("{} (from \"{}\")", value, written.text) : fmt::format("{}", value);
+}
+
+/// A number with the value it was written as.
+struct Number {
+  double number;
+  const Value* written;  // null: the default
+};
+
+struct Parameter {
+  std::string name;
+  double value = 1;
+  Place place;
+  bool valid = false;  // false: already complained about
+  bool used = false;
+};
+
+/// Turns the tree into a Case. Every read_ function complains about everything wrong in its table and carries on.
+class Reader {
+ public:
+  Reader(const Value& root, const Source& source, Diagnostics& diagnostics)
+      : root_(root), source_(source), diagnostics_(diagnostics) {}
+
+  Case read() {
+    Case scene;
+    read_version();
+    check_names();
+    scene.title = text("case", "title");
+    scene.cite = text("case", "cite");
+    read_params(scene.params);
+    read_domain(scene.domain);
+    read_velocity(scene.velocity);
+    read_density(scene.density);
+    read_particles(scene.particles, scene.domain);
+    read_time(scene.time);
+    read_evaluate(scene.evaluate, scene.domain);
+    read_output(scene.output, scene.time);
+    if (diagnostics_.errors() == 0) warn_unused_params();
+    return scene;
+  }
+
+ private:
+  // --- structure --------------------------------------------------------------------------------------------------
+
+  void read_version() {
+    const Key& key = find_key("", "gaussdrift");
+    const Entry* entry = root_.find("gaussdrift");
+    if (!entry) {
+      diagnostics_.error({-1, 1, 0, 1}, "the file does not say which version of the format it has",
+                         "begin the file with: gaussdrift = 1");
+      return;
+    }
+    const Value& value = entry->value;
+    if (value.kind != Kind::whole)
+      diagnostics_.error(value.place,
+                         fmt::format("gaussdrift must be the version of the format, found {}", value.description()),
+                         "begin the file with: gaussdrift = 1");
+    else if (!key.range.contains(value.number))
+      diagnostics_.error(value.place,
+                         fmt::format("this program reads version {} of the format, the file has version {}",
+                                     key.range.text(), value.whole));
+  }
+
+  void check_names() {
+    const std::vector<std::string> known = table_names();
+    for (const Entry& entry : root_.entries) {
+      if (entry.name == "gaussdrift") continue;
+      if (std::find(known.begin(), known.end(), entry.name) == known.end())
+        unknown_at_top(entry, known);
+      else if (entry.value.kind != Kind::table)
+        diagnostics_.error(entry.place, fmt::format("{} must be one table [{}], found {}", entry.name, entry.name,
+                                                    entry.value.description()));
+      else if (entry.name != "params")
+        check_keys(entry);
+    }
+    std::vector<std::string> missing;
+    for (const Table& table : tables())
+      if (table.required && !root_.find(std::string(table.name)) && !is_meant(table.name))
+        missing.push_back(fmt::format("[{}]", table.name));
+    if (!missing.empty())
+      diagnostics_.error(source_.end(),
+                         fmt::format("missing table{}: {}", missing.size() == 1 ? "" : "s", fmt::join(missing, ", ")),
+                         "a case has at least [domain], [velocity], [density], [particles] and [time]");
+  }
+
+  bool is_meant(std::string_view label) const { return std::find(meant_.begin(), meant_.end(), label) != meant_.end(); }
+
+  /// "; did you mean "overlap"?" or "; it belongs in [time]".
+  std::string remedy_for(const std::string& name, const std::vector<std::string>& known, std::string_view table_name) {
+    const auto near = base::suggest(name, known);
+    if (!near) return home_of(name);
+    meant_.push_back(table_name.empty() ? *near : fmt::format("{}.{}", table_name, *near));
+    return fmt::format("; did you mean {}?",
+                       table_name.empty() ? fmt::format("[{}]", *near) : fmt::format("\"{}\"", *near));
+  }
+
+  void unknown_at_top(const Entry& entry, const std::vector<std::string>& known) {
+    const bool is_table = entry.value.kind == Kind::table;
+    const std::string remedy = remedy_for(entry.name, known, "");
+    diagnostics_.error(entry.place,
+                       is_table ? fmt::format("unknown table [{}]{}", entry.name, remedy)
+                                : fmt::format("unknown key \"{}\" at the top of the file{}", entry.name, remedy),
+                       fmt::format("known tables: {}", fmt::join(known, ", ")));
+  }
+
+  void check_keys(const Entry& table) {
+    const std::vector<std::string> known = key_names(table.name);
+    for (const Entry& entry : table.value.entries) {
+      if (std::find(known.begin(), known.end(), entry.name) != known.end()) continue;
+      const std::string remedy = remedy_for(entry.name, known, table.name);
+      diagnostics_.error(entry.place, fmt::format("unknown key \"{}\" in [{}]{}", entry.name, table.name, remedy),
+                         fmt::format("known keys: {}", fmt::join(known, ", ")));
+    }
+  }
+
+  /// "; it belongs in [time]" for a key that exists elsewhere.
+  static std::string home_of(const std::string& name) {
+    std::vector<std::string> homes;
+    for (const Key& key : keys())
+      if (key.name == name && !key.table.empty()) homes.push_back(fmt::format("[{}]", key.table));
+    return homes.empty() ? "" : fmt::format("; it belongs in {}", fmt::join(homes, " or "));
+  }
+
+  const Entry* table(std::string_view name) const {
+    const Entry* entry = root_.find(std::string(name));
+    return entry && entry->value.kind == Kind::table ? entry : nullptr;
+  }
+
+  const Entry* find(std::string_view table_name, std::string_view name) const {
+    const Entry* entry = table(table_name);
+    return entry ? entry->value.find(std::string(name)) : nullptr;
+  }
+
+  /// The entry of a required key, or a complaint at the head of its table (a missing table has been complained about).
+  const Entry* require(const Key& key) {
+    const Entry* entry = find(key.table, key.name);
+    const Entry* home = table(key.table);
+    if (!entry && home && !is_meant(label_of(key)))
+      diagnostics_.error(home->value.place, fmt::format("{} is missing", label_of(key)), meaning_note(key));
+    return entry;
+  }
+
+  void wrong_type(const Value& value, const std::string& label, const std::string& wanted) {
+    diagnostics_.error(value.place, fmt::format("{} must be {}, found {}", label, wanted, value.description()));
+  }
+
+  /// Complains unless exactly one of two keys that exclude each other is there.
+  void check_exactly_one(std::string_view table_name, std::string_view a, std::string_view b) {
+    const Entry *first = find(table_name, a), *second = find(table_name, b), *home = table(table_name);
+    const std::string rule = fmt::format("give either \"{}\" or \"{}\"", a, b);
+    if (first && second)
+      diagnostics_.error(comes_before(first->place, second->place) ? second->place : first->place,
+                         fmt::format("[{}] has both \"{}\" and \"{}\"", table_name, a, b), rule);
+    const bool misspelt =
+        is_meant(fmt::format("{}.{}", table_name, a)) || is_meant(fmt::format("{}.{}", table_name, b));
+    if (!first && !second && home && !misspelt)
+      diagnostics_.error(home->value.place, fmt::format("[{}] has neither \"{}\" nor \"{}\"", table_name, a, b), rule);
+  }
+
+  void only_with(std::string_view table_name, std::initializer_list<std::string_view> names, std::string_view needed,
+                 std::string_view present) {
+    for (const auto name : names)
+      if (const Entry* entry = find(table_name, name))
+        diagnostics_.error(entry->place,
+                           fmt::format("\"{}\" goes with \"{}\", not with \"{}\"", name, needed, present));
+  }
+
+  // --- values -----------------------------------------------------------------------------------------------------
+
+  std::string text(std::string_view table_name, std::string_view name) {
+    const Key& key = find_key(table_name, name);
+    const Entry* entry = find(table_name, name);
+    if (!entry) return std::string(key.fallback);
+    if (entry->value.kind != Kind::text) wrong_type(entry->value, label_of(key), type_text(key));
+    return entry->value.text;
+  }
+
+  std::vector<std::pair<std::string, double>> constants() const {
+    std::vector<std::pair<std::string, double>> list;
+    for (const Parameter& parameter : params_) list.emplace_back(parameter.name, parameter.value);
+    return list;
+  }
+
+  /// Marks parameters as used; false if one of them has no value because of an earlier error.
+  bool use(const std::vector<std::string>& names) {
+    bool valid = true;
+    for (Parameter& parameter : params_)
+      if (std::find(names.begin(), names.end(), parameter.name) != names.end()) {
+        parameter.used = true;
+        valid = valid && parameter.valid;
+      }
+    return valid;
+  }
+
+  void expression_error(const Value& value, const ExpressionError& error, const std::string& message,
+                        const std::string& note) {
+    diagnostics_.error(place_in_text(value, source_, error.position(), error.length()), message, note);
+  }
+
+  /// A number or an expression of the params, finite. Nothing after a complaint.
+  std::optional<double> number_in(const Value& value, const std::string& label) {
+    double number = value.number;
+    if (value.kind == Kind::text) {
+      try {
+        const Expression expression(value.text, {}, constants());
+        if (!use(expression.used_names())) return std::nullopt;
+        number = expression.evaluate();
+      } catch (const ExpressionError& error) {
+        const std::string token = value.text.substr(std::min(error.position(), value.text.size()), error.length());
+        std::string message = error.what();
+        if (token == "x" || token == "y" || token == "z" || token == "t")
+          message = fmt::format("\"{}\" has no value here: {} is one number for the whole run", token, label);
+        else if (std::find(later_params_.begin(), later_params_.end(), token) != later_params_.end())
+          message = fmt::format("\"{}\" is not defined yet; a parameter may use those before it", token);
+        expression_error(value, error, message, fmt::format("{} may be an expression of the params, pi and e", label));
+        return std::nullopt;
+      }
+    } else if (value.kind != Kind::whole && value.kind != Kind::number) {
+      wrong_type(value, label, "a number or an expression");
+      return std::nullopt;
+    }
+    if (!std::isfinite(number)) {
+      diagnostics_.error(value.place, fmt::format("{} must be finite, found {}", label, found_number(number, value)));
+      return std::nullopt;
+    }
+    return number;
+  }
+
+  /// The same for a key, in its range; its default if it is absent.
+  std::optional<Number> number(std::string_view table_name, std::string_view name, const std::string& note = "") {
+    const Key& key = find_key(table_name, name);
+    const Entry* entry = key.required ? require(key) : find(table_name, name);
+    if (!entry) {
+      double value = 0;
+      const auto read = std::from_chars(key.fallback.data(), key.fallback.data() + key.fallback.size(), value);
+      return read.ec == std::errc() ? std::optional(Number{value, nullptr}) : std::nullopt;
+    }
+    const auto value = number_in(entry->value, label_of(key));
+    if (!value || !check_range(key, *value, entry->value, note)) return std::nullopt;
+    return Number{*value, &entry->value};
+  }
+
+  bool check_range(const Key& key, double value, const Value& written, const std::string& note = "") {
+    std::string rule;
+    if (key.type == Type::whole && value != std::floor(value)) rule = "a whole number";
+    if (!key.range.contains(value)) rule = key.range.text();
+    if (rule.empty()) return true;
+    diagnostics_.error(written.place,
+                       fmt::format("{} must be {}, found {}", label_of(key), rule, found_number(value, written)),
+                       note.empty() ? meaning_note(key) : note);
+    return false;
+  }
+
+  /// A list of numbers; nothing if one of them was complained about.
+  std::optional<std::vector<double>> numbers(const Entry& entry, const Key& key) {
+    if (entry.value.kind != Kind::list) {
+      wrong_type(entry.value, label_of(key), type_text(key));
+      return std::nullopt;
+    }
+    std::vector<double> list;
+    bool valid = true;
+    for (std::size_t k = 0; k < entry.value.items.size(); ++k) {
+      const auto value = number_in(entry.value.items[k], fmt::format("entry {} of {}", k + 1, label_of(key)));
+      valid = valid && value;
+      list.push_back(value.value_or(0));
+    }
+    return valid ? std::optional(list) : std::nullopt;
+  }
+
+  /// A list of as many numbers as there are dimensions.
+  void point(std::string_view table_name, std::string_view name, std::array<double, 3>& result) {
+    const Key& key = find_key(table_name, name);
+    const Entry* entry = find(table_name, name);
+    const auto list = entry ? numbers(*entry, key) : std::nullopt;
+    if (!list || (dimension_ && !has_entries(entry->value, key, "number"))) return;
+    std::copy_n(list->begin(), std::min<std::size_t>(3, list->size()), result.begin());
+  }
+
+  /// As many entries as the domain has dimensions?
+  bool has_entries(const Value& value, const Key& key, std::string_view what) {
+    if (value.items.size() == static_cast<std::size_t>(dimension_)) return true;
+    diagnostics_.error(value.place, fmt::format("{} needs {} {}s, one a dimension of the domain, found {}",
+                                                label_of(key), dimension_, what, value.items.size()));
+    return false;
+  }
+
+  /// One of the key's choices; the index, or nothing after a complaint.
+  std::optional<std::size_t> choice_in(const Value& value, const Key& key, const std::string& label) {
+    const std::string note = fmt::format("known values: {}", quoted_list(key.choices));
+    if (value.kind != Kind::text) {
+      diagnostics_.error(value.place, fmt::format("{} must be a string, found {}", label, value.description()), note);
+      return std::nullopt;
+    }
+    const auto found = std::find(key.choices.begin(), key.choices.end(), value.text);
+    if (found != key.choices.end()) return static_cast<std::size_t>(found - key.choices.begin());
+    const auto near = base::suggest(value.text, {key.choices.begin(), key.choices.end()});
+    diagnostics_.error(value.place,
+                       fmt::format("unknown value \"{}\" for {}{}", value.text, label,
+                                   near ? fmt::format("; did you mean \"{}\"?", *near) : ""),
+                       note);
+    return std::nullopt;
+  }
+
+  std::string choice(std::string_view table_name, std::string_view name) {
+    const Key& key = find_key(table_name, name);
+    const Entry* entry = find(table_name, name);
+    const auto index = entry ? choice_in(entry->value, key, label_of(key)) : std::nullopt;
+    return std::string(index ? key.choices[*index] : key.fallback);
+  }
+
+  template <class Enum>
+  void choices(std::string_view name, std::vector<Enum>& result) {
+    const Key& key = find_key("output", name);
+    const Entry* entry = find("output", name);
+    result.clear();
+    if (!entry) {  // the default: those choices that the registry names
+      const auto named = [&](std::string_view word) {
+        const auto words = ", " + std::string(key.fallback) + ",";
+        return words.find(fmt::format(", {},", word)) != std::string::npos;
+      };
+      for (std::size_t k = 0; k < key.choices.size(); ++k)
+        if (named(key.choices[k])) result.push_back(static_cast<Enum>(k));
+      return;
+    }
+    if (entry->value.kind != Kind::list) return wrong_type(entry->value, label_of(key), type_text(key));
+    for (std::size_t k = 0; k < entry->value.items.size(); ++k) {
+      const Value& item = entry->value.items[k];
+      if (const auto index = choice_in(item, key, fmt::format("entry {} of {}", k + 1, label_of(key)))) {
+        if (std::find(result.begin(), result.end(), static_cast<Enum>(*index)) != result.end())
+          diagnostics_.error(item.place, fmt::format("\"{}\" appears twice in {}", item.text, label_of(key)));
+        result.push_back(static_cast<Enum>(*index));
+      }
+    }
+  }
+
+  /// An expression of position, perhaps time; compiled here to find its errors. A plain number is one too.
+  std::string field_expression(const Value& value, const std::string& label, bool with_time) {
+    if (value.kind == Kind::whole || value.kind == Kind::number) {
+      if (!std::isfinite(value.number))
+        diagnostics_.error(value.place, fmt::format("{} must be finite, found {}", label, value.number));
+      return value.kind == Kind::whole ? fmt::format("{}", value.whole) : fmt::format("{}", value.number);
+    }
+    if (value.kind != Kind::text) {
+      wrong_type(value, label, "an expression in a string");
+      return "";
+    }
+    std::vector<std::string> variables{"x", "y"};
+    if (dimension_ != 2) variables.emplace_back("z");
+    if (with_time) variables.emplace_back("t");
+    try {
+      use(Expression(value.text, variables, constants()).used_names());
+    } catch (const ExpressionError& error) {
+      const std::string token = value.text.substr(std::min(error.position(), value.text.size()), error.length());
+      std::string message = error.what();
+      if (token == "z" && dimension_ == 2) message = "z exists only in 3D; the domain has 2 dimensions";
+      if (token == "t" && !with_time) message = "the density at the start cannot depend on t";
+      expression_error(value, error, message, "");
+    }
+    return value.text;
+  }
+
+  // --- tables, in the order of the registry -----------------------------------------------------------------------
+
+  void read_params(Params& params) {
+    const Entry* home = table("params");
+    if (!home) return;
+    for (const Entry& entry : home->value.entries) later_params_.push_back(entry.name);
+    for (const Entry& entry : home->value.entries) {
+      const bool named = check_param_name(entry);
+      const auto value = number_in(entry.value, fmt::format("params.{}", entry.name));
+      std::erase(later_params_, entry.name);
+      if (!named) continue;
+      params_.push_back({entry.name, value.value_or(1), entry.place, value.has_value(), false});
+      params.emplace_back(entry.name, value.value_or(1));
+    }
+  }
+
+  bool check_param_name(const Entry& entry) {
+    const std::string& name = entry.name;
+    std::string why;
+    if (!is_name(name) || name.size() > 100)
+      why = fmt::format(
+          "\"{}\" cannot be a parameter's name: at most 100 letters, digits and _, beginning with a letter or _", name);
+    else if (name == "x" || name == "y" || name == "z")
+      why = fmt::format("\"{}\" cannot be a parameter's name: it is a coordinate", name);
+    else if (name == "t")
+      why = "\"t\" cannot be a parameter's name: it is the time";
+    else if (is_reserved_name(name))
+      why = fmt::format("\"{}\" cannot be a parameter's name: it is a {}", name,
+                        name == "pi" || name == "e" ? "constant" : "function");
+    if (!why.empty()) diagnostics_.error(entry.place, why, "reserved names: x, y, z, t, pi, e and the functions");
+    return why.empty();
+  }
+
+  void warn_unused_params() {
+    for (const Parameter& parameter : params_)
+      if (!parameter.used)
+        diagnostics_.warning(parameter.place, fmt::format("the parameter \"{}\" is not used", parameter.name),
+                             "no expression of the case mentions it");
+  }
+
+  void read_domain(Domain& domain) {
+    const Key &min_key = find_key("domain", "min"), &max_key = find_key("domain", "max");
+    const Entry *min_entry = require(min_key), *max_entry = require(max_key);
+    const auto min = min_entry ? numbers(*min_entry, min_key) : std::nullopt;
+    const auto max = max_entry ? numbers(*max_entry, max_key) : std::nullopt;
+    const bool min_fits = min && is_corner(min_entry->value, min_key),
+               max_fits = max && is_corner(max_entry->value, max_key);
+    if (min_fits && max_fits && min->size() != max->size()) {
+      diagnostics_.error(max_entry->value.place,
+                         fmt::format("domain.min has {} numbers, domain.max has {}", min->size(), max->size()),
+                         "2 numbers each in 2D, 3 in 3D");
+      return;
+    }
+    if (min_fits || max_fits) dimension_ = static_cast<int>(min_fits ? min->size() : max->size());
+    if (!min_fits || !max_fits) return;
+    domain.dimension = dimension_;
+    bool valid = true;
+    for (std::size_t k = 0; k < min->size(); ++k) {
+      const double lower = (*min)[k], upper = (*max)[k];
+      domain.min[k] = lower, domain.max[k] = upper;
+      if (lower < upper && std::isfinite(upper - lower)) continue;
+      valid = false;
+      diagnostics_.error(max_entry->value.items[k].place,
+                         lower < upper
+                             ? fmt::format("the domain is too wide along {} for double precision", "xyz"[k])
+                             : fmt::format("the domain is empty along {}: min = {}, max = {}", "xyz"[k], lower, upper),
+                         "min must be less than max on every axis");
+    }
+    domain_valid_ = valid;
+  }
+
+  bool is_corner(const Value& value, const Key& key) {
+    if (value.items.size() == 2 || value.items.size() == 3) return true;
+    diagnostics_.error(value.place, fmt::format("{} needs 2 numbers (2D) or 3 numbers (3D), found {}", label_of(key),
+                                                value.items.size()));
+    return false;
+  }
+
+  void read_velocity(std::vector<VelocitySpec>& velocity) {
+    check_exactly_one("velocity", "u", "field");
+    if (const Entry* field = find("velocity", "field")) {
+      RotationVelocity rotation;
+      choice_in(field->value, find_key("velocity", "field"), "velocity.field");
+      point("velocity", "center", rotation.center);
+      if (const auto rate = number("velocity", "rate")) rotation.rate = rate->number;
+      velocity.emplace_back(rotation);
+    } else if (find("velocity", "u")) {
+      only_with("velocity", {"center", "rate"}, "field", "u");
+    }
+    if (const Entry* u = find("velocity", "u")) velocity.emplace_back(expression_velocity(u->value));
+  }
+
+  ExpressionVelocity expression_velocity(const Value& value) {
+    const Key& key = find_key("velocity", "u");
+    ExpressionVelocity field;
+    if (value.kind != Kind::list) {
+      wrong_type(value, "velocity.u", type_text(key));
+      return field;
+    }
+    if (dimension_) has_entries(value, key, "expression");
+    for (std::size_t k = 0; k < value.items.size(); ++k)
+      field.components.push_back(field_expression(value.items[k], fmt::format("entry {} of velocity.u", k + 1), true));
+    return field;
+  }
+
+  void read_density(std::vector<DensitySpec>& density) {
+    check_exactly_one("density", "expression", "shape");
+    if (const Entry* form = find("density", "shape")) {
+      ShapeDensity shape;
+      if (const auto index = choice_in(form->value, find_key("density", "shape"), "density.shape"))
+        shape.shape = static_cast<ShapeDensity::Shape>(*index);
+      for (const char* name : {"center", "radius"}) require(find_key("density", name));
+      point("density", "center", shape.center);
+      if (const auto radius = number("density", "radius")) shape.radius = radius->number;
+      if (const auto height = number("density", "height")) shape.height = height->number;
+      density.emplace_back(shape);
+    } else if (find("density", "expression")) {
+      only_with("density", {"center", "radius", "height"}, "shape", "expression");
+    }
+    if (const Entry* expression = find("density", "expression"))
+      density.emplace_back(ExpressionDensity{field_expression(expression->value, "density.expression", false)});
+  }
+
+  void read_particles(ParticleSpec& particles, const Domain& domain) {
+    if (const auto count = per_axis("particles", "one particle an axis has no spacing")) {
+      if (const auto lattice = make_checked_lattice("particle lattice", domain, *count)) warn_thin(*lattice, *count);
+      particles.per_axis = to_int(*count);
+    }
+    particles.cutoff = choice("particles", "cutoff");
+    if (const auto overlap = number("particles", "overlap")) {
+      particles.overlap = overlap->number;
+      if (overlap->written && particles.overlap < 1) warn_small_overlap(particles, *overlap);
+    }
+  }
+
+  /// The density of equal blobs on a lattice ripples by 2 d zeta^(2 pi c), zeta^ the Fourier transform of the cutoff
+  /// (Poisson's sum): zeta^ = e^{-k^2/4} for gauss2, (1 + k^2/4) e^{-k^2/4} for gauss4.
+  void warn_small_overlap(const ParticleSpec& particles, const Number& overlap) {
+    const double q = std::pow(std::numbers::pi * particles.overlap, 2);
+    const double ripple = 2 * (dimension_ ? dimension_ : 2) * std::exp(-q) * (particles.cutoff == "gauss4" ? 1 + q : 1);
+    diagnostics_.warning(overlap.written->place,
+                         fmt::format("overlap = {} leaves gaps between the blobs: a constant density ripples by {:.1g}",
+                                     particles.overlap, ripple),
+                         "2 is usual; 1 ripples by about 2e-4");
+  }
+
+  void warn_thin(const Lattice& lattice, const Number& count) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(lattice.dimension); ++k)
+      if (lattice.points[k] == 1)
+        diagnostics_.warning(count.written->place,
+                             fmt::format("the domain is narrower along {} than the spacing {:.3g}: one particle across",
+                                         "xyz"[k], lattice.spacing),
+                             "raise per_axis or widen the domain");
+  }
+
+  std::optional<Number> per_axis(std::string_view table_name, std::string_view why_not_one) {
+    const Entry* entry = find(table_name, "per_axis");
+    const Key& key = find_key(table_name, "per_axis");
+    return number(table_name, "per_axis", entry ? fmt::format("{}; {}", meaning_note(key), why_not_one) : "");
+  }
+
+  /// Only for numbers that passed their range; larger ones have been complained about.
+  static int to_int(const Number& count) {
+    return static_cast<int>(std::min<double>(count.number, std::numeric_limits<int>::max()));
+  }
+
+  /// The lattice, or nothing (with a complaint) if it has too many points; it is not allocated.
+  std::optional<Lattice> make_checked_lattice(const std::string& what, const Domain& domain, const Number& count) {
+    if (!domain_valid_) return std::nullopt;
+    const Place place = count.written ? count.written->place : source_.end();
+    const auto limit = static_cast<long long>(largest_lattice);
+    if (count.number > largest_lattice - 1) {
+      diagnostics_.error(place,
+                         fmt::format("the {} would have {} points on one axis; at most {} in all are possible", what,
+                                     count.number, limit),
+                         "lower per_axis");
+      return std::nullopt;
+    }
+    const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, to_int(count));
+    double size = 1, farthest = 0;
+    std::vector<std::size_t> points;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k) {
+      points.push_back(lattice.points[k]);
+      size *= static_cast<double>(lattice.points[k]);
+      farthest = std::max({farthest, std::abs(domain.min[k]), std::abs(domain.max[k])});
+    }
+    if (size > largest_lattice) {
+      diagnostics_.error(place,
+                         fmt::format("the {} would have {:.3g} points ({}); at most {} are possible", what, size,
+                                     fmt::join(points, " x "), limit),
+                         "lower per_axis");
+      return std::nullopt;
+    }
+    if (farthest + lattice.spacing / 8 == farthest) {
+      diagnostics_.error(place,
+                         fmt::format("the spacing {:.3g} of the {} is lost to rounding at coordinates like {}",
+                                     lattice.spacing, what, farthest),
+                         "move the domain towards the origin, or lower per_axis");
+      return std::nullopt;
+    }
+    return lattice;
+  }
+
+  void read_time(TimeSpec& time) {
+    const auto end = number("time", "end");
+    const auto step = number("time", "step");
+    time.method = choice("time", "method");
+    if (end) time.end = end->number, end_ = end->number;
+    if (step) time.step = step->number;
+    if (end && step && time.end / time.step > most_steps)
+      diagnostics_.error(step->written->place,
+                         fmt::format("time.end / time.step is {:.3g} steps; at most {} are possible",
+                                     time.end / time.step, static_cast<long long>(most_steps)),
+                         "raise time.step");
+  }
+
+  void read_evaluate(EvaluateSpec& evaluate, const Domain& domain) {
+    if (const auto count = per_axis("evaluate", "a lattice has at least two points an axis")) {
+      make_checked_lattice("evaluation lattice", domain, *count);
+      evaluate.per_axis = to_int(*count);
+    }
+    if (const auto tolerance = number("evaluate", "tolerance")) evaluate.tolerance = tolerance->number;
+    evaluate.method = choice("evaluate", "method");
+  }
+
+  void read_output(OutputSpec& output, const TimeSpec& time) {
+    const Entry *times = find("output", "times"), *frames = find("output", "frames");
+    if (times && frames &&
+        times->place.override_index != frames->place.override_index)  // the later one replaces the other
+      (times->place.override_index > frames->place.override_index ? frames : times) = nullptr;
+    if (times && frames)
+      check_exactly_one("output", "times", "frames");
+    else if (times)
+      read_times(*times, output.times);
+    else if (const auto count = number("output", "frames"); count && end_)
+      spread_frames(*count, time.end, output.times);
+
+    choices("vtk", output.vtk);
+    choices("images", output.images);
+    if (dimension_ != 3) return;
+    const Entry* images = find("output", "images");
+    if (images && !output.images.empty())
+      diagnostics_.error(images->value.place,
+                         "there are no pictures of 3D scenes yet; output.images must be [] or left out",
+                         "output.vtk = [\"density\", \"particles\"] opens in ParaView");
+    output.images.clear();
+  }
+
+  void spread_frames(const Number& count, double end, std::vector<double>& times) {
+    const int frames = static_cast<int>(count.number);
+    if (end == 0) {
+      if (count.written && frames > 1)
+        diagnostics_.error(count.written->place,
+                           fmt::format("output.frames = {}, but time.end = 0 leaves one time", frames),
+                           "give frames = 1");
+      times = {0.0};
+      return;
+    }
+    for (int k = 0; k < frames; ++k) times.push_back(k == frames - 1 ? end : end * (double(k) / (frames - 1)));
+    if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
+      diagnostics_.error(count.written ? count.written->place : source_.end(),
+                         fmt::format("{} times between 0 and {} cannot be told apart", frames, end),
+                         "lower output.frames");
+  }
+
+  void read_times(const Entry& entry, std::vector<double>& times) {
+    const Key& key = find_key("output", "times");
+    const auto list = numbers(entry, key);
+    if (!list || !end_) return;
+    if (list->empty())
+      diagnostics_.error(entry.value.place, "output.times is empty; give at least one time",
+                         "output.frames = 5 spreads 5 times evenly");
+    const double end = *end_;
+    for (std::size_t k = 0; k < list->size(); ++k) {
+      double time = (*list)[k];
+      if (std::abs(time - end) <= same_time * end) time = end;
+      const Value& written = entry.value.items[k];
+      const std::string found = found_number(time, written);
+      if (time < 0)
+        diagnostics_.error(written.place,
+                           fmt::format("entry {} of output.times is {}; the run begins at 0", k + 1, found));
+      else if (time > end)
+        diagnostics_.error(written.place,
+                           fmt::format("entry {} of output.times is {}, after time.end = {}", k + 1, found, end));
+      else if (!times.empty() && time <= times.back())
+        diagnostics_.error(written.place,
+                           fmt::format("entry {} of output.times is {}, not after the entry before it, {}", k + 1,
+                                       found, times.back()),
+                           "output.times must ascend");
+      times.push_back(time);
+    }
+  }
+
+  const Value& root_;
+  const Source& source_;
+  Diagnostics& diagnostics_;
+  std::vector<Parameter> params_;
+  std::vector<std::string> later_params_;  // not read yet
+  int dimension_ = 0;                      // 0: not known because of an error
+  bool domain_valid_ = false;
+  std::optional<double> end_;
+  std::vector<std::string> meant_;  // tables and keys that a misspelt name was taken for: not missing, then
+};
+
+}  // namespace
+
+ReadResult parse_case(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides) {
+  const Source source(file.string(), text, overrides);
+  Diagnostics diagnostics(source);
+  const auto root = read_document(text, source, diagnostics);
+  ReadResult result;
+  if (root) result.scene = Reader(*root, source, diagnostics).read();
+  if (diagnostics.errors() > 0) throw CaseError(diagnostics.error_text(), diagnostics.errors());
+  result.scene.name = file.stem().string();
+  result.scene.file = file;
+  result.scene.source = text;
+  result.warnings = diagnostics.warnings();
+  return result;
+}
+
+ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw FileError(fmt::format("{} is a folder, not a case file", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw FileError(fmt::format("the case file {} cannot be read: {}", file.string(),
+                                std::filesystem::exists(file, error) ? "no permission" : "there is no such file"));
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (stream.bad()) throw FileError(fmt::format("the case file {} cannot be read", file.string()));
+  return parse_case(text, file, overrides);
+}
+
+}  // namespace gaussdrift::input

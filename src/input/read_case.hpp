@@ -1,0 +1,39 @@
+// From a case file to a Case: parse, override, validate; and back.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "gaussdrift/case.hpp"
+
+namespace gaussdrift::input {
+
+/// Several complaints about one case file, already laid out for people (place, line, caret, rule, remedy).
+class CaseError : public InputError {
+ public:
+  CaseError(const std::string& text, int count) : InputError(text), count_(count) {}
+  int count() const { return count_; }
+
+ private:
+  int count_;
+};
+
+struct ReadResult {
+  Case scene;
+  std::vector<std::string> warnings;  // laid out like the errors: unused parameters, small overlap, ...
+};
+
+/// Reads and validates. `overrides` are "key=value" with dotted keys as in --set; values have the types of the file.
+/// Throws FileError (the file cannot be read) or CaseError with all errors of the file in one pass.
+ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same from a text; `file` names it in messages.
+ReadResult parse_case(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides = {});
+
+/// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case.
+std::string resolved_toml(const Case& scene);
+
+}  // namespace gaussdrift::input

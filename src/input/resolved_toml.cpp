@@ -1,0 +1,119 @@
+// A Case as a case file again, every default spelt out. Numbers have as many digits as it takes to read the same bits.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "input/read_case.hpp"
+#include "input/registry.hpp"
+
+namespace gaussdrift::input {
+namespace {
+
+std::string written(double value) {
+  if (value == 0 && std::signbit(value)) return "-0.0";  // -0 would be a whole number and lose its sign
+  return fmt::format("{}", value);
+}
+
+std::string written(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      out += fmt::format("\\{}", c);
+    else if (code < 0x20 || code == 0x7F)
+      out += fmt::format("\\u{:04X}", code);
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+template <class Item>
+std::string written(const std::vector<Item>& list) {
+  std::vector<std::string> items;
+  for (const auto& item : list) items.push_back(written(item));
+  return fmt::format("[{}]", fmt::join(items, ", "));
+}
+
+std::string written_point(const std::array<double, 3>& point, int dimension) {
+  return written(std::vector<double>(point.begin(), point.begin() + dimension));
+}
+
+/// The names of enumerators are the choices of the key, in the same order.
+template <class Enum>
+std::string choice(std::string_view table, std::string_view name, Enum value) {
+  return std::string(find_key(table, name).choices.at(static_cast<std::size_t>(value)));
+}
+
+template <class Enum>
+std::vector<std::string> choices(std::string_view name, const std::vector<Enum>& values) {
+  std::vector<std::string> names;
+  for (const Enum value : values) names.push_back(choice("output", name, value));
+  return names;
+}
+
+class Writer {
+ public:
+  void table(std::string_view name) { text_ += fmt::format("\n[{}]\n", name); }
+  void entry(std::string_view name, const std::string& value) { text_ += fmt::format("{} = {}\n", name, value); }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+std::string resolved_toml(const Case& scene) {
+  if (scene.velocity.size() != 1 || scene.density.size() != 1)
+    throw InputError(fmt::format("a case file has one velocity and one density; this case has {} and {}",
+                                 scene.velocity.size(), scene.density.size()));
+  const int dimension = scene.domain.dimension;
+  Writer out;
+  out.entry("gaussdrift", "1");
+  out.table("case");
+  out.entry("title", written(scene.title));
+  out.entry("cite", written(scene.cite));
+  if (!scene.params.empty()) out.table("params");
+  for (const auto& [name, value] : scene.params) out.entry(name, written(value));
+  out.table("domain");
+  out.entry("min", written_point(scene.domain.min, dimension));
+  out.entry("max", written_point(scene.domain.max, dimension));
+  out.table("velocity");
+  if (const auto* field = std::get_if<ExpressionVelocity>(&scene.velocity[0])) {
+    out.entry("u", written(field->components));
+  } else if (const auto* rotation = std::get_if<RotationVelocity>(&scene.velocity[0])) {
+    out.entry("field", written(std::string("rotation")));
+    out.entry("center", written_point(rotation->center, dimension));
+    out.entry("rate", written(rotation->rate));
+  }
+  out.table("density");
+  if (const auto* field = std::get_if<ExpressionDensity>(&scene.density[0])) {
+    out.entry("expression", written(field->text));
+  } else if (const auto* shape = std::get_if<ShapeDensity>(&scene.density[0])) {
+    out.entry("shape", written(choice("density", "shape", shape->shape)));
+    out.entry("center", written_point(shape->center, dimension));
+    out.entry("radius", written(shape->radius));
+    out.entry("height", written(shape->height));
+  }
+  out.table("particles");
+  out.entry("per_axis", fmt::format("{}", scene.particles.per_axis));
+  out.entry("overlap", written(scene.particles.overlap));
+  out.entry("cutoff", written(scene.particles.cutoff));
+  out.table("time");
+  out.entry("end", written(scene.time.end));
+  out.entry("step", written(scene.time.step));
+  out.entry("method", written(scene.time.method));
+  out.table("evaluate");
+  out.entry("per_axis", fmt::format("{}", scene.evaluate.per_axis));
+  out.entry("tolerance", written(scene.evaluate.tolerance));
+  out.entry("method", written(scene.evaluate.method));
+  out.table("output");
+  out.entry("times", written(scene.output.times));
+  out.entry("vtk", written(choices("vtk", scene.output.vtk)));
+  out.entry("images", written(choices("images", scene.output.images)));
+  return out.text();
+}
+
+}  // namespace gaussdrift::input

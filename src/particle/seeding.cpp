@@ -1,0 +1,70 @@
+#include "particle/seeding.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+// One line of lattice points along the first axis, other indices fixed; what it carries is joined in the order of lines.
+Particles seed_line(const Lattice& lattice, std::size_t line, const DensityFunction& rho_0) {
+  const std::size_t length = lattice.points[0];
+  const std::size_t j = line % lattice.points[1], k = line / lattice.points[1];
+  std::array<std::vector<double>, max_dimension> x;
+  x[0] = lattice.nodes(0);
+  x[1].assign(length, lattice.coordinate(1, j));
+  x[2].assign(length, lattice.coordinate(2, k));
+  std::vector<double> rho(length, 0.0);
+  PointsView points{lattice.dimension, length, {}};
+  for (int a = 0; a < lattice.dimension; ++a) points.axis[a] = x[a].data();
+  rho_0(points, rho.data());
+
+  Particles carried;
+  carried.dimension = lattice.dimension;
+  const double cell = std::pow(lattice.spacing, lattice.dimension);
+  for (std::size_t i = 0; i < length; ++i) {
+    if (!std::isfinite(rho[i])) {
+      std::string place = fmt::format("({}, {}", x[0][i], x[1][i]);
+      place += lattice.dimension == 3 ? fmt::format(", {})", x[2][i]) : ")";
+      throw NumericalError(fmt::format(
+          "the initial density is {} at {}; it must be finite on the whole domain: guard the expression, or move the domain", rho[i],
+          place));
+    }
+    const double alpha = cell * rho[i];
+    if (alpha == 0) continue;
+    for (int a = 0; a < lattice.dimension; ++a) carried.position[a].push_back(x[a][i]);
+    carried.alpha.push_back(alpha);
+    carried.id.push_back(static_cast<std::int64_t>(line * length + i));
+  }
+  return carried;
+}
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads) {
+  const std::size_t lines = lattice.points[1] * lattice.points[2];
+  std::vector<Particles> parts(lines);
+  base::parallel_for(lines, threads, [&](std::size_t line) { parts[line] = seed_line(lattice, line, rho_0); });
+  Particles all;
+  all.dimension = lattice.dimension;
+  for (Particles& part : parts) {
+    for (int a = 0; a < lattice.dimension; ++a) append(all.position[a], part.position[a]);
+    append(all.alpha, part.alpha);
+    append(all.id, part.id);
+    part = {};
+  }
+  return all;
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,47 @@
+// What all pictures have around the density: heading, axes, colour bar. Sizes are those of a picture of 1280 x 960
+// pixels and grow with it.
+#pragma once
+
+#include <string>
+
+#include "render/canvas.hpp"
+#include "render/height_field.hpp"
+#include "render/picture.hpp"
+#include "render/ticks.hpp"
+
+namespace gaussdrift::render {
+
+/// Sizes relative to a picture of 1280 x 960.
+class Scale {
+ public:
+  explicit Scale(const Canvas& canvas);
+  double operator()(double length) const { return unit_ * length; }
+  int font(int size) const;
+
+ private:
+  double unit_;
+};
+
+/// A stretch of true values with its name; `name` goes through Ticks::title.
+struct Axis {
+  std::string name;
+  double min = 0, max = 1;
+  Ticks ticks;
+
+  Axis(std::string what, double from, double to, int intervals)
+      : name(std::move(what)), min(from), max(to), ticks(make_ticks(from, to, intervals)) {}
+  double position(double at) const { return (at - min) / (max - min); }
+  std::string title() const { return ticks.title(name); }
+};
+
+/// Title, time, and the extremes of the density, which colours alone do not tell.
+void draw_heading(Canvas& canvas, const PictureOptions& options, const HeightField& field);
+
+/// Axes with numbers along the lower and left side of a plane panel.
+void draw_axes(Canvas& canvas, const Rectangle& panel, const Axis& across, const Axis& upwards);
+
+/// `marks`: positions at which lines are drawn across the bar.
+void draw_colour_bar(Canvas& canvas, const Rectangle& bar, bool upwards, const Axis& axis,
+                     const std::vector<double>& marks);
+
+}  // namespace gaussdrift::render

@@ -1,0 +1,36 @@
+// A density as the pictures use it: thinned to what a picture can show, in a scene whose longer side is 1.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "render/colour.hpp"
+#include "sim/frame.hpp"
+
+namespace gaussdrift::render {
+
+/// Values on nx x ny points, x fastest, over [0, width] x [0, depth] with max(width, depth) = 1; nx, ny >= 2.
+/// A value is its position in the range of the colours: 0 at the lower end, 1 at the upper.
+struct HeightField {
+  std::size_t nx = 2, ny = 2;
+  double width = 1, depth = 1;
+  std::vector<float> value;
+
+  // What the scene stands for: true coordinates x_min + X * length, y_min + Y * length.
+  double x_min = 0, y_min = 0, length = 1;
+  double minimum = 0, maximum = 0;  // of the density itself, of its finite values
+  std::size_t not_finite = 0;       // values of the density that are NaN or infinite; NaN in `value`
+
+  float at(std::size_t i, std::size_t j) const { return value[j * nx + i]; }
+  double x(std::size_t i) const { return width * static_cast<double>(i) / static_cast<double>(nx - 1); }
+  double y(std::size_t j) const { return depth * static_cast<double>(j) / static_cast<double>(ny - 1); }
+};
+
+/// The density on at most `most` points an axis, interpolated bilinearly where it has more.
+/// Throws Error(ExitCode::internal) unless it has two dimensions and a value at every point.
+HeightField make_height_field(const DensityGrid& density, const ColourRange& range, std::size_t most);
+
+/// The field on nx x ny points of the same rectangle, interpolated bilinearly.
+HeightField resample(const HeightField& field, std::size_t nx, std::size_t ny);
+
+}  // namespace gaussdrift::render

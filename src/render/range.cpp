@@ -1,0 +1,35 @@
+#include <algorithm>
+#include <cmath>
+
+#include "render/picture.hpp"
+
+namespace gaussdrift::render {
+
+std::pair<double, double> rounded_range(double minimum, double maximum) {
+  if (!std::isfinite(minimum) || !std::isfinite(maximum)) return {0, 1};
+  if (minimum > maximum) std::swap(minimum, maximum);
+  if (minimum == 0 && maximum == 0) return {0, 1};
+
+  // 0 is an end if the values start near it, or cross it by no more than the overshoot of a smoothed step.
+  constexpr double near = 0.25, overshoot = 0.01;
+  const double size = std::max(std::fabs(minimum), std::fabs(maximum));
+  if (minimum > -overshoot * size && minimum < near * size) minimum = 0;
+  if (maximum < overshoot * size && maximum > -near * size) maximum = 0;
+  if (minimum == maximum) (minimum > 0 ? minimum : maximum) = 0;  // a constant: from 0 to there
+
+  // Ends are multiples of a tenth or so of the range, and may leave out 1 % of it.
+  const double rough = (maximum - minimum) / 10;
+  const double power = std::pow(10., std::floor(std::log10(rough) + 1e-9));
+  if (!(power > 0) || !std::isfinite(rough)) return {minimum, maximum};
+  double step = 10 * power;
+  for (const double factor : {5., 2., 1.})
+    if (factor * power >= rough * (1 - 1e-9)) step = factor * power;
+  const double slack = overshoot * (maximum - minimum) / step;
+  const auto times_step = [&](double count) {  // 3 * 0.1 as 3 / 10, which is 0.3
+    return step < 1 ? count / std::round(1 / step) : count * step;
+  };
+  if (step < 1e-15) return {std::floor(minimum / step + slack) * step, std::ceil(maximum / step - slack) * step};
+  return {times_step(std::floor(minimum / step + slack)), times_step(std::ceil(maximum / step - slack))};
+}
+
+}  // namespace gaussdrift::render

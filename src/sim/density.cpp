@@ -1,0 +1,265 @@
+#include "sim/density.hpp"
+
+#include <fgtd/fgtd.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "base/stopwatch.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+template <int d>
+fgtd::Points<d> points_of(const Particles& particles) {
+  fgtd::Points<d> points(d, static_cast<Eigen::Index>(particles.size()));
+  for (int k = 0; k < d; ++k)
+    points.row(k) = Eigen::Map<const Eigen::RowVectorXd>(particles.position[k].data(), points.cols());
+  return points;
+}
+
+// All terms of one Gaussian width: one prepared transform, evaluated with derivatives.
+template <int d>
+struct WidthGroup {
+  double sigma = 0;  // 1 / width^2
+  fgtd::Combination<d> combination;
+  int derivative_order = 0;
+  double scale = 0;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight
+};
+
+template <int d>
+std::vector<WidthGroup<d>> group_by_width(const Cutoff& cutoff) {
+  std::map<double, WidthGroup<d>> groups;
+  for (const CutoffTerm& term : cutoff) {
+    WidthGroup<d>& group = groups[term.width];
+    group.sigma = 1 / (term.width * term.width);
+    fgtd::Derivative<d> alpha{};
+    for (int k = 0; k < d; ++k) alpha[static_cast<std::size_t>(k)] = term.derivative[static_cast<std::size_t>(k)];
+    group.combination.push_back({alpha, term.coefficient});
+    group.derivative_order = std::max(group.derivative_order, std::accumulate(alpha.begin(), alpha.end(), 0));
+    group.scale += std::abs(term.coefficient) * fgtd::derivative_scale<d>(alpha, group.sigma);
+  }
+  std::vector<WidthGroup<d>> list;
+  for (auto& [width, group] : groups) list.push_back(std::move(group));
+  return list;
+}
+
+fgtd::Method method_by_name(const std::string& name) {
+  for (const auto method : {fgtd::Method::automatic, fgtd::Method::direct, fgtd::Method::hermite})
+    if (fgtd::to_string(method) == name) return method;
+  throw InputError("evaluate.method = \"" + name + "\" is not a method of the Gauss transform; use auto, direct or hermite");
+}
+
+// Some particles where the density is probably large: those of largest weight, and a few spread over all of them.
+std::vector<std::size_t> promising_particles(const Particles& particles) {
+  constexpr std::size_t wanted = 16;
+  const std::size_t count = particles.size();
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t heaviest = std::min(wanted, count);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(heaviest), order.end(), [&](std::size_t a, std::size_t b) {
+    const double wa = std::abs(particles.alpha[a]), wb = std::abs(particles.alpha[b]);
+    return wa != wb ? wa > wb : a < b;
+  });
+  order.resize(heaviest);
+  for (std::size_t i = 0; i < wanted; ++i) order.push_back(i * count / wanted);
+  return order;
+}
+
+// Grid points to compare with `direct`: the one of the largest |rho|, and a low-discrepancy choice of others.
+std::vector<std::size_t> sample_of_grid(const std::vector<double>& rho, std::size_t wanted) {
+  std::vector<std::size_t> sample;
+  const auto largest = std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  sample.push_back(static_cast<std::size_t>(largest - rho.begin()));
+  constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
+  for (std::size_t i = 1; i < wanted; ++i) {
+    const double fraction = std::fmod(static_cast<double>(i) * golden, 1.0);
+    sample.push_back(std::min(rho.size() - 1, static_cast<std::size_t>(fraction * static_cast<double>(rho.size()))));
+  }
+  return sample;
+}
+
+template <int d>
+class Evaluation {
+ public:
+  Evaluation(const Particles& particles, const Cutoff& cutoff, const DensityOptions& options)
+      : options_(options),
+        sources_(points_of<d>(particles)),
+        weights_(Eigen::Map<const Eigen::VectorXd>(particles.alpha.data(), static_cast<Eigen::Index>(particles.size()))),
+        groups_(group_by_width<d>(cutoff)) {}
+
+  // Largest |rho| among some promising points, by `direct`: a lower bound of max |rho|.
+  double lower_bound_of_maximum(const Particles& particles) const {
+    const std::vector<std::size_t> chosen = promising_particles(particles);
+    fgtd::Points<d> targets(d, static_cast<Eigen::Index>(chosen.size()));
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      targets.col(static_cast<Eigen::Index>(i)) = sources_.col(static_cast<Eigen::Index>(chosen[i]));
+    return direct(targets).cwiseAbs().maxCoeff();
+  }
+
+  // The promise of fgtd is tolerance * N * (weight around the target); the simulator's is relative to max |rho|.
+  void choose_tolerance(const Particles& particles, DensityReport& report) {
+    const double maximum = lower_bound_of_maximum(particles);
+    double error_of_unit_tolerance = 0;  // per-term tolerance 1 would give this error, at most
+    for (const WidthGroup<d>& group : groups_) {
+      const double reach = std::sqrt((2 * std::log(1 / options_.tolerance) + 40) / group.sigma);
+      error_of_unit_tolerance += group.scale * largest_weight_within(particles, reach);
+    }
+    constexpr double coarsest = 0.1;  // nothing is gained above
+    const double wanted = error_of_unit_tolerance > 0 ? options_.tolerance * maximum / error_of_unit_tolerance : coarsest;
+    tolerance_ = std::clamp(wanted, fgtd::smallest_tolerance, coarsest);
+    report.requested_tolerance = tolerance_;
+    report.achievable = wanted >= fgtd::smallest_tolerance || maximum == 0
+                            ? options_.tolerance
+                            : fgtd::smallest_tolerance * error_of_unit_tolerance / maximum;
+  }
+
+  Eigen::VectorXd transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
+    Eigen::VectorXd rho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
+    for (const WidthGroup<d>& group : groups_) {
+      fgtd::Options options;
+      options.tolerance = tolerance_;
+      options.derivative_order = group.derivative_order;
+      options.method = method_by_name(options_.method);
+      options.threads = options_.threads;
+      options.expected_grid = grid;
+      const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options);
+      rho += plan.evaluate_combination(grid, group.combination);
+      std::ostringstream text;
+      text << plan.choice();
+      report.choice += (report.choice.empty() ? "" : "\n") + text.str();
+    }
+    return rho;
+  }
+
+  Eigen::VectorXd direct(const fgtd::Points<d>& targets) const {
+    Eigen::VectorXd rho = Eigen::VectorXd::Zero(targets.cols());
+    for (const WidthGroup<d>& group : groups_) {
+      fgtd::Options options;
+      options.method = fgtd::Method::direct;
+      options.derivative_order = group.derivative_order;
+      options.threads = options_.threads;
+      rho += fgtd::Plan<d>(sources_, weights_, group.sigma, options).evaluate_combination(targets, group.combination);
+    }
+    return rho;
+  }
+
+  void measure(const Lattice& lattice, const std::vector<double>& rho, DensityReport& report) const {
+    // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
+    const std::size_t wanted = std::clamp<std::size_t>(20'000'000 / static_cast<std::size_t>(sources_.cols()), 4, 200);
+    const std::vector<std::size_t> sample = sample_of_grid(rho, std::min(wanted, rho.size()));
+    fgtd::Points<d> targets(d, static_cast<Eigen::Index>(sample.size()));
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+      std::size_t index = sample[i];
+      for (int k = 0; k < d; ++k) {
+        targets(k, static_cast<Eigen::Index>(i)) = lattice.coordinate(k, index % lattice.points[static_cast<std::size_t>(k)]);
+        index /= lattice.points[static_cast<std::size_t>(k)];
+      }
+    }
+    const Eigen::VectorXd exact = direct(targets);
+    double error = 0;
+    for (std::size_t i = 0; i < sample.size(); ++i) error = std::max(error, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[sample[i]]));
+    const double maximum = std::abs(rho[sample.front()]);
+    report.measured_error = maximum > 0 ? error / maximum : error;
+    report.sample = sample.size();
+  }
+
+ private:
+  const DensityOptions& options_;
+  fgtd::Points<d> sources_;
+  Eigen::MatrixXd weights_;
+  std::vector<WidthGroup<d>> groups_;
+  double tolerance_ = 0;
+};
+
+template <int d>
+void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, DensityGrid& grid, const DensityOptions& options,
+                           DensityReport& report) {
+  const base::Stopwatch evaluating;
+  fgtd::TensorGrid nodes;
+  for (int k = 0; k < d; ++k) nodes.axes.push_back(grid.lattice.nodes(k));
+  Evaluation<d> evaluation(particles, cutoff, options);
+  evaluation.choose_tolerance(particles, report);
+  const Eigen::VectorXd rho = evaluation.transform(nodes, report);
+  grid.rho.assign(rho.data(), rho.data() + rho.size());
+  report.evaluate_seconds = evaluating.seconds();
+  if (options.measure) {
+    const base::Stopwatch measuring;
+    evaluation.measure(grid.lattice, grid.rho, report);
+    report.measure_seconds = measuring.seconds();
+  }
+}
+
+}  // namespace
+
+double largest_weight_within(const Particles& particles, double reach) {
+  // Boxes of half the reach: a ball of that radius around any point of a box lies within two boxes on each side.
+  const std::size_t count = particles.size();
+  if (count == 0) return 0;
+  const int dimension = particles.dimension;
+  Vector low{}, high{};
+  for (int k = 0; k < dimension; ++k) {
+    const auto [a, b] = std::minmax_element(particles.position[k].begin(), particles.position[k].end());
+    low[k] = *a, high[k] = *b;
+  }
+  // The box array may have a few entries a particle; a very short reach gets longer boxes, which only raises the bound.
+  const double allowed = 4.0 * static_cast<double>(count) + 1e6;
+  double side = reach / 2;
+  std::array<std::size_t, max_dimension> boxes{1, 1, 1};
+  for (;; side *= 1.5) {
+    double total = 1;
+    for (int k = 0; k < dimension; ++k) total *= std::floor((high[k] - low[k]) / side) + 1;
+    if (total <= allowed) break;
+  }
+  for (int k = 0; k < dimension; ++k) boxes[k] = static_cast<std::size_t>((high[k] - low[k]) / side) + 1;
+
+  std::vector<double> weight(boxes[0] * boxes[1] * boxes[2], 0.0);
+  for (std::size_t j = 0; j < count; ++j) {
+    std::size_t index = 0;
+    for (int k = dimension - 1; k >= 0; --k)
+      index = index * boxes[k] + std::min(boxes[k] - 1, static_cast<std::size_t>((particles.position[k][j] - low[k]) / side));
+    weight[index] += std::abs(particles.alpha[j]);
+  }
+  // Sums over 5 boxes, one axis after the other.
+  std::size_t stride = 1;
+  std::vector<double> line;
+  for (int k = 0; k < dimension; ++k) {
+    line.resize(boxes[k]);
+    for (std::size_t start = 0; start < weight.size(); ++start) {
+      if ((start / stride) % boxes[k] != 0) continue;
+      for (std::size_t i = 0; i < boxes[k]; ++i) line[i] = weight[start + i * stride];
+      for (std::size_t i = 0; i < boxes[k]; ++i) {
+        double sum = 0;
+        for (std::size_t n = i < 2 ? 0 : i - 2; n <= std::min(i + 2, boxes[k] - 1); ++n) sum += line[n];
+        weight[start + i * stride] = sum;
+      }
+    }
+    stride *= boxes[k];
+  }
+  return *std::max_element(weight.begin(), weight.end());
+}
+
+DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
+                             DensityReport* report) {
+  DensityReport ignored;
+  DensityReport& filled = report ? *report : ignored;
+  filled = {};
+  DensityGrid grid{lattice, {}};
+  if (particles.size() == 0) {
+    grid.rho.assign(lattice.size(), 0.0);
+    filled.choice = "no particles carry weight";
+    return grid;
+  }
+  if (lattice.dimension == 2)
+    evaluate_in_dimension<2>(particles, cutoff, grid, options, filled);
+  else
+    evaluate_in_dimension<3>(particles, cutoff, grid, options, filled);
+  return grid;
+}
+
+}  // namespace gaussdrift

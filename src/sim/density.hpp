@@ -1,0 +1,38 @@
+// The density rho_eps^h = sum_j alpha_j zeta_eps(x - X_j) on the evaluation lattice, by fgtd, to a tolerance relative to
+// its own maximum. method.md, section 5.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "particle/cutoff.hpp"
+#include "sim/frame.hpp"
+
+namespace gaussdrift {
+
+struct DensityOptions {
+  double tolerance = 1e-8;      // relative to max |rho| at that output
+  std::string method = "auto";  // auto | direct | hermite
+  int threads = 0;              // 0: all
+  bool measure = true;          // compare with `direct` on a sample of the grid
+};
+
+/// What one evaluation did.
+struct DensityReport {
+  double requested_tolerance = 0;  // per term, asked of fgtd
+  double achievable = 0;           // bound on the error relative to max |rho|: above the tolerance only if that cannot be promised
+  double measured_error = 0;       // on the sample, relative to max |rho| on the grid
+  std::size_t sample = 0;          // grid points compared
+  double evaluate_seconds = 0;
+  double measure_seconds = 0;
+  std::string choice;              // what fgtd chose, one line a Gaussian width
+};
+
+/// The density of the particles on the lattice. An absent particle set gives rho = 0.
+DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+                             const DensityOptions& options, DensityReport* report = nullptr);
+
+/// An upper bound for the weight sum_{|X_j - y| < reach} |alpha_j| over all y, from box sums.
+double largest_weight_within(const Particles& particles, double reach);
+
+}  // namespace gaussdrift

@@ -1,0 +1,48 @@
+// What a run shows to its observers (write, render, series): one frame per output time.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/lattice.hpp"
+#include "base/points.hpp"
+#include "particle/particles.hpp"
+
+namespace gaussdrift {
+
+/// rho_eps^h on the evaluation lattice, first axis fastest.
+struct DensityGrid {
+  Lattice lattice;
+  std::vector<double> rho;
+};
+
+/// Numbers of one output, a row of series.csv.
+struct FrameNumbers {
+  double mass = 0;     // sum_j alpha_j, the exact integral of rho_eps^h over all space
+  double minimum = 0;  // of rho on the grid
+  double maximum = 0;
+  Vector centroid{};   // sum_j alpha_j X_j / mass
+  double transform_error = 0;      // of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|
+  double transform_tolerance = 0;  // per-term tolerance that was asked of fgtd
+  double evaluate_seconds = 0;     // preparing and evaluating the transform
+};
+
+struct Frame {
+  int index = 0;
+  double time = 0;
+  const Particles* particles = nullptr;
+  const std::vector<double>* velocity = nullptr;  // u(X_j, t) [j][dimension]; only if particle files are written, else null
+  const DensityGrid* density = nullptr;
+  FrameNumbers numbers;
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual std::string name() const = 0;  // names the stage in summary.json
+  virtual void frame(const Frame& frame) = 0;
+  virtual void finish() {}
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,200 @@
+#include "sim/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "particle/seeding.hpp"
+#include "sim/stepper.hpp"
+#include "time/schedule.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+std::unique_ptr<VelocityField> make_velocity(const Case& description) {
+  std::vector<std::unique_ptr<VelocityField>> fields;
+  for (const VelocitySpec& spec : description.velocity) {
+    if (const auto* written = std::get_if<ExpressionVelocity>(&spec))
+      fields.push_back(std::make_unique<ExpressionField>(written->components, description.params));
+    else if (const auto* rotation = std::get_if<RotationVelocity>(&spec))
+      fields.push_back(std::make_unique<RotationField>(description.domain.dimension, rotation->center, rotation->rate));
+  }
+  if (fields.size() == 1) return std::move(fields.front());
+  return std::make_unique<SumField>(std::move(fields));
+}
+
+RadialDensity::Profile profile_of(ShapeDensity::Shape shape) {
+  switch (shape) {
+    case ShapeDensity::Shape::wendland: return RadialDensity::Profile::wendland;
+    case ShapeDensity::Shape::cone: return RadialDensity::Profile::cone;
+    case ShapeDensity::Shape::gaussian: return RadialDensity::Profile::gaussian;
+    case ShapeDensity::Shape::disk: return RadialDensity::Profile::disk;
+  }
+  throw Error(ExitCode::internal, "a density shape without a profile");
+}
+
+std::unique_ptr<InitialDensity> make_density(const Case& description) {
+  std::vector<std::unique_ptr<InitialDensity>> parts;
+  for (const DensitySpec& spec : description.density) {
+    if (const auto* written = std::get_if<ExpressionDensity>(&spec))
+      parts.push_back(std::make_unique<WrittenDensity>(written->text, description.domain.dimension, description.params));
+    else if (const auto* shape = std::get_if<ShapeDensity>(&spec))
+      parts.push_back(std::make_unique<RadialDensity>(profile_of(shape->shape), shape->center, shape->radius, shape->height));
+  }
+  if (parts.size() == 1) return std::move(parts.front());
+  return std::make_unique<SumDensity>(std::move(parts));
+}
+
+// Times at which steps must land: the outputs, and the end.
+std::vector<double> landings(const Case& description) {
+  std::vector<double> times = description.output.times;
+  if (times.empty() || times.back() < description.time.end) times.push_back(description.time.end);
+  return times;
+}
+
+FrameNumbers measure_frame(const Particles& particles, const DensityGrid& density) {
+  FrameNumbers numbers;
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    numbers.mass += particles.alpha[j];
+    for (int k = 0; k < particles.dimension; ++k) numbers.centroid[k] += particles.alpha[j] * particles.position[k][j];
+  }
+  for (int k = 0; k < particles.dimension; ++k) numbers.centroid[k] /= numbers.mass;
+  const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
+  numbers.minimum = *low;
+  numbers.maximum = *high;
+  return numbers;
+}
+
+}  // namespace
+
+Scene make_scene(const Case& description) {
+  Scene scene;
+  const Domain& domain = description.domain;
+  scene.velocity = make_velocity(description);
+  scene.density = make_density(description);
+  scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
+  scene.evaluation = make_lattice(domain.dimension, domain.min, domain.max, description.evaluate.per_axis);
+  scene.core_radius = description.particles.overlap * scene.seeding.spacing;
+  scene.cutoff = make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius);
+  return scene;
+}
+
+Particles seed_scene(const Scene& scene, int threads) {
+  Particles particles =
+      seed(scene.seeding, [&](const PointsView& x, double* values) { scene.density->add(x, values); }, threads);
+  if (particles.size() == 0)
+    throw InputError(
+        "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or enlarge "
+        "the density, or raise particles.per_axis");
+  return particles;
+}
+
+std::size_t total_steps(const Case& description) {
+  std::size_t steps = 0;
+  double from = 0;
+  for (const double to : landings(description)) {
+    steps += time::Interval(from, to, description.time.step).steps();
+    from = to;
+  }
+  return steps;
+}
+
+Simulation::Simulation(const Case& description, int threads)
+    : case_(description), threads_(base::resolve_threads(threads)), scene_(make_scene(case_)) {}
+
+void Simulation::carry(double from, double to, RunSummary& summary) {
+  const time::Tableau& tableau = time::find_tableau(case_.time.method);
+  const time::Interval interval(from, to, case_.time.step);
+  const Stepper stepper(*scene_.velocity, tableau, threads_);
+  // Batches are short enough for a lively progress line and long enough that threads start rarely.
+  constexpr std::size_t stages_a_batch = 4'000'000;
+  const std::size_t stages_a_step = std::max<std::size_t>(1, particles_.size() * static_cast<std::size_t>(tableau.stages));
+  const std::size_t batch = std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000);
+  for (std::size_t done = 0; done < interval.steps();) {
+    const std::size_t count = std::min(batch, interval.steps() - done);
+    summary.stages.run("transport", [&] { stepper.advance(particles_, interval, done, count, steps_done_ - done); });
+    done += count;
+    steps_done_ += count;
+    if (progress_) {
+      double stepping = 0;
+      for (const auto& [name, seconds] : summary.stages.stages())
+        if (name == "transport") stepping = seconds;
+      progress_({steps_done_, steps_total_, interval.start(done), case_.time.end, watch_.seconds(), stepping});
+    }
+  }
+}
+
+void Simulation::show_frame(int index, double time, RunSummary& summary) {
+  DensityReport report;
+  DensityOptions options;
+  options.tolerance = case_.evaluate.tolerance;
+  options.method = case_.evaluate.method;
+  options.threads = threads_;
+  const DensityGrid density = evaluate_density(particles_, scene_.cutoff, scene_.evaluation, options, &report);
+  summary.stages.add("density", report.evaluate_seconds);
+  summary.stages.add("measure transform error", report.measure_seconds);
+  summary.transform_choice = report.choice;
+  summary.transform_achievable = std::max(summary.transform_achievable, report.achievable);
+
+  const bool velocity_wanted = std::find(case_.output.vtk.begin(), case_.output.vtk.end(), OutputSpec::Vtk::particles) != case_.output.vtk.end();
+  std::vector<double> velocity;  // [j][dimension]
+  if (velocity_wanted) {
+    const auto dimension = static_cast<std::size_t>(particles_.dimension);
+    std::vector<double> columns(particles_.size() * dimension, 0.0);
+    VectorsView u{particles_.dimension, particles_.size(), {}};
+    for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * particles_.size();
+    scene_.velocity->add(time, particles_.view(), u);
+    velocity.resize(columns.size());
+    for (std::size_t j = 0; j < particles_.size(); ++j)
+      for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
+  }
+
+  Frame frame;
+  frame.index = index;
+  frame.time = time;
+  frame.particles = &particles_;
+  frame.velocity = velocity_wanted ? &velocity : nullptr;
+  frame.density = &density;
+  frame.numbers = measure_frame(particles_, density);
+  frame.numbers.transform_error = report.measured_error;
+  frame.numbers.transform_tolerance = report.requested_tolerance;
+  frame.numbers.evaluate_seconds = report.evaluate_seconds;
+  summary.frames.emplace_back(time, frame.numbers);
+  for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->frame(frame); });
+}
+
+RunSummary Simulation::run() {
+  watch_ = base::Stopwatch();
+  steps_done_ = 0;
+  steps_total_ = total_steps(case_);
+  RunSummary summary;
+  summary.threads = threads_;
+  summary.effects = {"transport"};
+  summary.transform_tolerance = case_.evaluate.tolerance;
+  summary.stages.run("seed", [&] { particles_ = seed_scene(scene_, threads_); });
+  summary.lattice_points = scene_.seeding.size();
+  summary.particles = particles_.size();
+  summary.grid_points = scene_.evaluation.size();
+  summary.spacing = scene_.seeding.spacing;
+  summary.core_radius = scene_.core_radius;
+
+  double now = 0;
+  int index = 0;
+  for (const double landing : landings(case_)) {
+    carry(now, landing, summary);
+    now = landing;
+    const auto& outputs = case_.output.times;
+    if (std::find(outputs.begin(), outputs.end(), landing) != outputs.end()) show_frame(index++, landing, summary);
+  }
+  for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->finish(); });
+  summary.steps = steps_done_;
+  summary.seconds = watch_.seconds();
+  return summary;
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,88 @@
+// A run: seeds the particles of a case, carries them from output time to output time, and shows each frame to observers.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/lattice.hpp"
+#include "base/stopwatch.hpp"
+#include "field/density.hpp"
+#include "field/velocity.hpp"
+#include "gaussdrift/case.hpp"
+#include "particle/cutoff.hpp"
+#include "sim/density.hpp"
+#include "sim/frame.hpp"
+
+namespace gaussdrift {
+
+/// The parts of a case that are made from its text and numbers, shared by `run` and `check`.
+struct Scene {
+  std::unique_ptr<VelocityField> velocity;
+  std::unique_ptr<InitialDensity> density;
+  Lattice seeding;     // where particles start
+  Lattice evaluation;  // where rho is summed
+  double core_radius = 0;  // eps = c h
+  Cutoff cutoff;
+};
+
+Scene make_scene(const Case& description);
+
+/// Particles of the scene at t = 0. Throws NumericalError where rho_0 is not finite, InputError if it is 0 everywhere.
+Particles seed_scene(const Scene& scene, int threads);
+
+/// Steps from t = 0 to time.end with landings on all output times.
+std::size_t total_steps(const Case& description);
+
+struct Progress {
+  std::size_t steps_done = 0, steps_total = 0;
+  double time = 0, end = 0;
+  double seconds = 0;  // since the run began
+  double step_seconds = 0;  // of these, in steps
+};
+
+/// What a run did, for summary.json and the closing lines.
+struct RunSummary {
+  std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0;
+  double spacing = 0, core_radius = 0;
+  int threads = 1;
+  std::string transform_choice;     // of the last frame
+  double transform_tolerance = 0;   // requested by the case, relative to max |rho|
+  double transform_achievable = 0;  // worst frame; above the tolerance only where that cannot be promised
+  std::vector<std::string> effects;  // that ran: what the scene called for, nothing else
+  std::vector<std::pair<double, FrameNumbers>> frames;
+  base::StageTimes stages;
+  double seconds = 0;
+};
+
+class Simulation {
+ public:
+  /// threads: 0 for all.
+  explicit Simulation(const Case& description, int threads = 0);
+
+  void observe(std::unique_ptr<Observer> observer) { observers_.push_back(std::move(observer)); }
+  /// Called between batches of steps, several times a second at most.
+  void on_progress(std::function<void(const Progress&)> report) { progress_ = std::move(report); }
+
+  /// Runs to time.end. Errors of fields and observers pass through; frames already shown stay as they are.
+  RunSummary run();
+
+  const Particles& particles() const { return particles_; }
+
+ private:
+  void carry(double from, double to, RunSummary& summary);
+  void show_frame(int index, double time, RunSummary& summary);
+
+  const Case case_;
+  int threads_;
+  Scene scene_;
+  Particles particles_;
+  std::vector<std::unique_ptr<Observer>> observers_;
+  std::function<void(const Progress&)> progress_;
+  base::Stopwatch watch_;
+  std::size_t steps_done_ = 0, steps_total_ = 0;
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,33 @@
+// Carries particles through the velocity field: X_j' = u(X_j, t), by any explicit Runge-Kutta method.
+#pragma once
+
+#include <cstddef>
+
+#include "field/velocity.hpp"
+#include "particle/particles.hpp"
+#include "time/schedule.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift {
+
+/// Particles do not see each other, so each block of them takes many steps at a time while its arrays stay in the cache.
+/// The result of a particle does not depend on the blocks or the number of threads.
+class Stepper {
+ public:
+  /// The field must outlive the stepper. threads: 0 for all.
+  Stepper(const VelocityField& velocity, const time::Tableau& tableau, int threads)
+      : velocity_(velocity), tableau_(tableau), threads_(threads) {}
+
+  /// Takes steps first .. first + count - 1 of the interval. `steps_before` steps were taken before the interval; messages
+  /// count from there. Throws NumericalError naming step, time, particle and place where the field or a position is not
+  /// finite; the particles are then as they were before the call.
+  void advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+               std::size_t steps_before) const;
+
+ private:
+  const VelocityField& velocity_;
+  const time::Tableau& tableau_;
+  int threads_;
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,210 @@
+#include "study/describe.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stepper.hpp"
+#include "time/schedule.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift::study {
+
+namespace {
+
+// Up to this many particles, evenly spread over the list, stand for all when fields are sampled.
+constexpr std::size_t sampled_particles = 2000;
+
+Particles sample_of(const Particles& all) {
+  Particles some;
+  some.dimension = all.dimension;
+  const std::size_t wanted = std::min(sampled_particles, all.size());
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const std::size_t j = i * all.size() / wanted;
+    for (int k = 0; k < all.dimension; ++k) some.position[k].push_back(all.position[k][j]);
+    some.alpha.push_back(all.alpha[j]);
+    some.id.push_back(all.id[j]);
+  }
+  return some;
+}
+
+using Columns = std::array<std::vector<double>, max_dimension>;
+
+Columns velocity_at(const VelocityField& field, double t, const Particles& particles) {
+  Columns u;
+  VectorsView view{particles.dimension, particles.size(), {}};
+  for (int k = 0; k < particles.dimension; ++k) {
+    u[k].assign(particles.size(), 0.0);
+    view.axis[k] = u[k].data();
+  }
+  field.add(t, particles.view(), view);
+  return u;
+}
+
+void sample_field(const Scene& scene, const Particles& particles, double end, Description& result) {
+  Particles sample = sample_of(particles);
+  const double delta = 1e-3 * scene.core_radius;  // a thousandth of the smallest length that the density resolves
+  for (const double t : {0.0, 0.5 * end, end}) {
+    const Columns u = velocity_at(*scene.velocity, t, sample);
+    for (std::size_t j = 0; j < sample.size(); ++j) {
+      double square = 0;
+      for (int k = 0; k < sample.dimension; ++k) square += u[k][j] * u[k][j];
+      if (!std::isfinite(square)) {
+        std::string place;
+        for (int k = 0; k < sample.dimension; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", sample.position[k][j]);
+        throw NumericalError(fmt::format("the velocity is not finite at t = {:.6g}, ({}); guard the expression or move the density", t, place));
+      }
+      result.largest_speed = std::max(result.largest_speed, std::sqrt(square));
+    }
+    std::vector<double> divergence(sample.size(), 0.0);
+    for (int k = 0; k < sample.dimension; ++k) {
+      const std::vector<double> kept = sample.position[k];
+      for (const double side : {1.0, -1.0}) {
+        for (std::size_t j = 0; j < sample.size(); ++j) sample.position[k][j] = kept[j] + side * delta;
+        const Columns shifted = velocity_at(*scene.velocity, t, sample);
+        for (std::size_t j = 0; j < sample.size(); ++j) divergence[j] += side * shifted[k][j] / (2 * delta);
+      }
+      sample.position[k] = kept;
+    }
+    for (const double value : divergence) result.largest_divergence = std::max(result.largest_divergence, std::abs(value));
+  }
+  result.divergence_noise = 10 * std::numeric_limits<double>::epsilon() * result.largest_speed / delta;
+}
+
+// Seconds a step, from a few steps of a copy that is thrown away.
+double time_steps(const Case& description, const Scene& scene, const Particles& particles, int threads) {
+  if (description.time.end <= 0) return 0;
+  const time::Interval interval(0, description.time.end, description.time.step);
+  const Stepper stepper(*scene.velocity, time::find_tableau(description.time.method), threads);
+  Particles copy = particles;
+  std::size_t taken = 0;
+  const base::Stopwatch watch;
+  for (std::size_t count = 1; taken < interval.steps() && watch.seconds() < 0.05; count *= 2) {
+    count = std::min(count, interval.steps() - taken);
+    stepper.advance(copy, interval, taken, count, 0);
+    taken += count;
+  }
+  return taken > 0 ? watch.seconds() / static_cast<double>(taken) : 0;
+}
+
+bool wants(const Case& scene, OutputSpec::Vtk kind) {
+  return std::find(scene.output.vtk.begin(), scene.output.vtk.end(), kind) != scene.output.vtk.end();
+}
+
+std::string grouped(std::size_t number) {
+  std::string digits = std::to_string(number), text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string bytes_text(double bytes) {
+  if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
+  if (bytes < 1e9) return fmt::format("{:.3g} MB", bytes / 1e6);
+  return fmt::format("{:.3g} GB", bytes / 1e9);
+}
+
+std::string effects_text() { return "transport only"; }
+
+}  // namespace
+
+Description describe(const Case& description, int threads) {
+  Description result;
+  result.threads = base::resolve_threads(threads);
+  const Scene scene = make_scene(description);
+  const Particles particles = seed_scene(scene, threads);
+  result.velocity = scene.velocity->describe();
+  result.lattice_points = scene.seeding.size();
+  result.particles = particles.size();
+  result.grid_points = scene.evaluation.size();
+  result.steps = total_steps(description);
+  result.frames = description.output.times.size();
+  result.spacing = scene.seeding.spacing;
+  result.core_radius = scene.core_radius;
+  sample_field(scene, particles, description.time.end, result);
+
+  DensityOptions options;
+  options.tolerance = description.evaluate.tolerance;
+  options.method = description.evaluate.method;
+  options.threads = threads;
+  const DensityGrid density = evaluate_density(particles, scene.cutoff, scene.evaluation, options, &result.density);
+  result.density_maximum = *std::max_element(density.rho.begin(), density.rho.end());
+  result.step_seconds = time_steps(description, scene, particles, threads);
+  result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
+
+  const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
+  result.picture_seconds = pictures > 0 ? 0.6 + 0.2 * pictures : 0;  // start of the renderer, and a picture, on two cores
+  const auto frames = static_cast<double>(result.frames), n = static_cast<double>(result.particles),
+             m = static_cast<double>(result.grid_points), d = static_cast<double>(description.domain.dimension);
+  result.seconds = static_cast<double>(result.steps) * result.step_seconds + frames * result.evaluate_seconds + result.picture_seconds;
+  // Positions, weights, ids, a stepped copy, the sorted copy of the transform; density, its transform's result and sample.
+  result.memory_bytes = n * 8 * (4 * d + 6) + m * 8 * 3 + (pictures > 0 ? 3e8 + frames * m * 4 : 0);
+  if (wants(description, OutputSpec::Vtk::density)) result.disk_bytes += frames * (8 * m + 1500);
+  if (wants(description, OutputSpec::Vtk::particles)) result.disk_bytes += frames * (8 * n * 9 + 2500);
+  result.disk_bytes += pictures * 1.5e5;
+  return result;
+}
+
+std::string to_text(const Case& scene, const Description& r) {
+  const Domain& domain = scene.domain;
+  std::string box, grid_shape;
+  for (int k = 0; k < domain.dimension; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    box += fmt::format("{}[{:g},{:g}]", k ? "x" : "", domain.min[axis], domain.max[axis]);
+  }
+  const std::string divergence = r.largest_divergence <= r.divergence_noise ? "div u = 0 (sampled)"
+                                                                            : fmt::format("max|div u| = {:.3g} (sampled)", r.largest_divergence);
+  std::string text = fmt::format("{}  {}D  {}   {}   max|u| = {:.3g}\n", scene.name, domain.dimension, box, divergence, r.largest_speed);
+  if (!scene.title.empty()) text += fmt::format("title      {}{}\n", scene.title, scene.cite.empty() ? "" : ", after " + scene.cite);
+  text += fmt::format("velocity   {}\n", r.velocity);
+  text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n", grouped(r.lattice_points),
+                      r.spacing, scene.particles.overlap, r.core_radius, scene.particles.cutoff, grouped(r.particles));
+  text += fmt::format("effects    {}\n", effects_text());
+  text += fmt::format("transform  {}\n", r.density.choice);
+  text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n", scene.evaluate.tolerance,
+                      r.density.measured_error, r.density.sample);
+  if (r.density.achievable > scene.evaluate.tolerance)
+    text += fmt::format("           this tolerance cannot be promised here: the bound is {:.1e}\n", r.density.achievable);
+  text += fmt::format("density    max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum, grouped(r.grid_points));
+  text += fmt::format(
+      "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (steps {:.2g}, density {:.2g}, "
+      "pictures {:.2g}); memory {}; disk {}\n",
+      grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads,
+      static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds, r.picture_seconds,
+      bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
+  return text;
+}
+
+std::string to_json(const Case& scene, const Description& r) {
+  const nlohmann::ordered_json document{
+      {"case", scene.name},
+      {"dimension", scene.domain.dimension},
+      {"velocity", r.velocity},
+      {"largest_speed", r.largest_speed},
+      {"largest_divergence", r.largest_divergence},
+      {"effects", {"transport"}},
+      {"lattice_points", r.lattice_points},
+      {"particles", r.particles},
+      {"spacing", r.spacing},
+      {"core_radius", r.core_radius},
+      {"grid_points", r.grid_points},
+      {"steps", r.steps},
+      {"frames", r.frames},
+      {"density_maximum", r.density_maximum},
+      {"transform", {{"chosen", r.density.choice}, {"measured_error", r.density.measured_error}, {"achievable", r.density.achievable}}},
+      {"predicted", {{"seconds", r.seconds}, {"memory_bytes", r.memory_bytes}, {"disk_bytes", r.disk_bytes}, {"threads", r.threads}}}};
+  return document.dump(2) + "\n";
+}
+
+}  // namespace gaussdrift::study

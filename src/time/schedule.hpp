@@ -1,0 +1,24 @@
+// When steps are taken: full steps of tau, the last one before a landing time shortened to meet it exactly.
+#pragma once
+
+#include <cstddef>
+
+namespace gaussdrift::time {
+
+/// The steps from one landing time to the next.
+class Interval {
+ public:
+  /// begin <= end, step > 0. A remainder below 1e-9 steps is rounding and joins the step before.
+  Interval(double begin, double end, double step);
+
+  std::size_t steps() const { return steps_; }
+  /// Time at which step i begins, i <= steps(); start(steps()) is exactly `end`. Not accumulated, so it does not drift.
+  double start(std::size_t i) const { return i >= steps_ ? end_ : begin_ + static_cast<double>(i) * step_; }
+  double length(std::size_t i) const { return i + 1 < steps_ ? step_ : end_ - start(i); }
+
+ private:
+  double begin_, end_, step_;
+  std::size_t steps_;
+};
+
+}  // namespace gaussdrift::time

@@ -1,0 +1,29 @@
+// Explicit Runge-Kutta methods as data (Butcher tableaux).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gaussdrift::time {
+
+struct Tableau {
+  std::string name;
+  int stages = 0;
+  int time_order = 0;
+  std::vector<double> stage_weights;  // a_il, row i has i entries: strictly lower triangle, row by row
+  std::vector<double> weights;        // b_i
+  std::vector<double> nodes;          // c_i
+
+  double a(int i, int l) const { return stage_weights[static_cast<std::size_t>(i * (i - 1) / 2 + l)]; }
+  double b(int i) const { return weights[static_cast<std::size_t>(i)]; }
+  double c(int i) const { return nodes[static_cast<std::size_t>(i)]; }
+};
+
+/// All methods, by the names of `time.method`.
+const std::vector<Tableau>& tableaux();
+
+/// Throws std::out_of_range for an unknown name.
+const Tableau& find_tableau(std::string_view name);
+
+}  // namespace gaussdrift::time

@@ -1,0 +1,96 @@
+#include "write/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "base/error.hpp"
+#include "write/atomic_file.hpp"
+
+namespace gaussdrift::write {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Everything that a run writes at the top of its folder.
+constexpr std::array<std::string_view, 10> run_entries{"density",      "density.pvd", "particles", "particles.pvd",
+                                                       "images",       "case.toml",   "run.toml",  "series.csv",
+                                                       "summary.json", "view.py"};
+
+std::string view_script(const Case& scene) {
+  const auto wants = [&](OutputSpec::Vtk kind) {
+    return std::find(scene.output.vtk.begin(), scene.output.vtk.end(), kind) != scene.output.vtk.end();
+  };
+  std::string script =
+      "# Opens this run in ParaView:   paraview --script=view.py   (in this folder), or   pvpython view.py\n"
+      "import os\n"
+      "\n"
+      "from paraview.simple import *\n"
+      "\n"
+      "try:\n"
+      "    here = os.path.dirname(os.path.abspath(__file__))\n"
+      "except NameError:  # some versions of ParaView do not say where a script lies\n"
+      "    here = os.getcwd()\n"
+      "\n"
+      "view = GetActiveViewOrCreate('RenderView')\n";
+  if (wants(OutputSpec::Vtk::density)) {
+    script +=
+        "density = PVDReader(registrationName='density', FileName=os.path.join(here, 'density.pvd'))\n"
+        "shown = Show(density, view)\n"
+        "ColorBy(shown, ('POINTS', 'rho'))\n"
+        "shown.RescaleTransferFunctionToDataRange(False, True)\n"
+        "shown.SetScalarBarVisibility(view, True)\n";
+    script += scene.domain.dimension == 2 ? "shown.SetRepresentationType('Surface')\n"
+                                          : "shown.SetRepresentationType('Volume')\n";
+  }
+  if (wants(OutputSpec::Vtk::particles)) {
+    script += "particles = PVDReader(registrationName='particles', FileName=os.path.join(here, 'particles.pvd'))\n";
+    script += wants(OutputSpec::Vtk::density) ? "Hide(particles, view)\n" : "Show(particles, view)\n";
+  }
+  script +=
+      "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"
+      "ResetCamera(view)\n"
+      "Render(view)\n";
+  return script;
+}
+
+}  // namespace
+
+void prepare_run_folder(const fs::path& folder, bool force) {
+  std::error_code problem;
+  const auto refuse = [&](const std::string& what) {
+    throw FileError(
+        fmt::format("cannot use {} as output folder: {}; choose another folder with --out", folder.string(), what));
+  };
+  const fs::file_status status = fs::status(folder, problem);
+  if (fs::exists(status) && !fs::is_directory(status)) refuse("it is a file");
+  if (fs::exists(status)) {
+    const bool empty = fs::is_empty(folder, problem);
+    if (problem) refuse(problem.message());
+    if (!empty && !force)
+      throw FileError(fmt::format("{} is not empty; --force replaces the earlier run in it, --out DIR writes elsewhere",
+                                  folder.string()));
+    for (const std::string_view entry : run_entries) {
+      fs::remove_all(folder / entry, problem);
+      if (problem) refuse(fmt::format("{} of an earlier run cannot be removed ({})", entry, problem.message()));
+    }
+  } else {
+    fs::create_directories(folder, problem);
+    if (problem) refuse(problem.message());
+  }
+  // A folder that cannot be written is found out now and not after the first hour of stepping.
+  write_text(folder / "run.toml", "# this run has not begun\n");
+}
+
+void write_run_inputs(const fs::path& folder, const Case& scene, const std::string& resolved) {
+  if (!scene.source.empty()) write_text(folder / "case.toml", scene.source);
+  write_text(folder / "run.toml", resolved);
+  write_text(folder / "view.py", view_script(scene));
+}
+
+}  // namespace gaussdrift::write

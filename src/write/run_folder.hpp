@@ -1,0 +1,17 @@
+// The folder that a run leaves: made, checked and emptied of an older run before anything is computed.
+#pragma once
+
+#include <filesystem>
+
+#include "gaussdrift/case.hpp"
+
+namespace gaussdrift::write {
+
+/// Makes `folder` ready for a run. A folder that is not empty is refused unless `force`; then the files of an earlier run
+/// (and nothing else) are removed. Throws FileError with the remedy.
+void prepare_run_folder(const std::filesystem::path& folder, bool force);
+
+/// case.toml (as it was), run.toml (resolved), view.py (opens the series in ParaView). Throws FileError.
+void write_run_inputs(const std::filesystem::path& folder, const Case& scene, const std::string& resolved);
+
+}  // namespace gaussdrift::write

@@ -1,0 +1,15 @@
+// summary.json: what was chosen, what it cost, and what came out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "gaussdrift/case.hpp"
+#include "sim/simulation.hpp"
+
+namespace gaussdrift::write {
+
+/// The summary as JSON text. Numbers that are not finite become null.
+std::string summary_json(const Case& scene, const RunSummary& summary);
+
+}  // namespace gaussdrift::write

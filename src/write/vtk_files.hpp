@@ -1,0 +1,34 @@
+// ParaView files: density as .vti, particles as .vtp, each with a .pvd that lists the times.
+// Every file is written beside its name and renamed, so what is there is always whole. Arrays are Float64.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/frame.hpp"
+
+namespace gaussdrift::write {
+
+/// density/density_0000.vti: image data with the point array "rho" and TimeValue. Throws FileError.
+void write_density(const std::filesystem::path& file, const DensityGrid& density, double time);
+
+/// particles/particles_0000.vtp: points with id (Int64), alpha, u; vertex cells; TimeValue. Throws FileError.
+/// velocity [j][dimension]; points and u are padded with 0 to three components.
+void write_particles(const std::filesystem::path& file, const Particles& particles, const std::vector<double>& velocity,
+                     double time);
+
+/// A ParaView collection: `add` writes the whole .pvd again, beside its name, and renames it. Throws FileError.
+class Collection {
+ public:
+  explicit Collection(std::filesystem::path file) : file_(std::move(file)) {}
+  /// `data` is written relative to the folder of the .pvd.
+  void add(double time, const std::filesystem::path& data);
+
+ private:
+  std::filesystem::path file_;
+  std::vector<std::pair<double, std::string>> entries_;
+};
+
+}  // namespace gaussdrift::write

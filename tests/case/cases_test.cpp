@@ -1,0 +1,104 @@
+// Every file in cases/ runs at reduced size and approaches its exact solution: both rotate, so rho(x, t) = rho_0 at x turned back.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "input/read_case.hpp"
+#include "sim/simulation.hpp"
+
+namespace gaussdrift {
+namespace {
+
+const std::string cases_folder = std::string(SOURCE_DIR) + "/cases/";
+
+std::vector<std::string> all_cases() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(cases_folder))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Errors {
+  double l1 = 0, linf = 0;  // relative to the norms of the exact density
+};
+
+class CompareWithExact : public Observer {
+ public:
+  CompareWithExact(const Scene& scene, std::vector<Errors>& errors) : scene_(scene), errors_(errors) {}
+  std::string name() const override { return "compare"; }
+  void frame(const Frame& frame) override {
+    const Lattice& lattice = frame.density->lattice;
+    const double c = std::cos(frame.time), s = std::sin(frame.time);
+    double difference = 0, norm = 0, largest_difference = 0, largest = 0;
+    for (std::size_t i = 0; i < lattice.size(); ++i) {
+      const double x = lattice.coordinate(0, i % lattice.points[0]), y = lattice.coordinate(1, i / lattice.points[0]);
+      const double x0 = c * x + s * y, y0 = -s * x + c * y;
+      double exact = 0;
+      scene_.density->add({2, 1, {&x0, &y0, nullptr}}, &exact);
+      const double error = std::abs(frame.density->rho[i] - exact);
+      difference += error, norm += std::abs(exact);
+      largest_difference = std::max(largest_difference, error), largest = std::max(largest, std::abs(exact));
+    }
+    errors_.push_back({difference / norm, largest_difference / largest});
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<Errors>& errors_;
+};
+
+std::vector<Errors> errors_of(const std::string& name, const std::vector<std::string>& overrides) {
+  const Case scene = input::read_case(cases_folder + name + ".toml", overrides).scene;
+  const Scene parts = make_scene(scene);
+  std::vector<Errors> errors;
+  Simulation simulation(scene);
+  simulation.observe(std::make_unique<CompareWithExact>(parts, errors));
+  simulation.run();
+  return errors;
+}
+
+TEST(Cases, AreAllKnownToThisTest) { EXPECT_EQ(all_cases(), (std::vector<std::string>{"rotating_cone", "rotating_gap"})); }
+
+TEST(RotatingCone, ApproachesTheExactConeAtEveryOutput) {
+  for (const Errors& error : errors_of("rotating_cone", {"particles.per_axis=100", "time.step=0.05", "evaluate.per_axis=100"}))
+    // Smoothing lowers the peak by 10 (eps/R)^2 = 0.26 to second order, by 1 - 0.831819 = 0.168 in all [Sch06, Table 5.1].
+    EXPECT_NEAR(error.linf, 0.168, 0.003);
+}
+
+TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
+  const Case scene =
+      input::read_case(cases_folder + "rotating_cone.toml", {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"}).scene;
+  Simulation simulation(scene);
+  const RunSummary summary = simulation.run();
+  EXPECT_EQ(summary.particles, 4386u);
+  EXPECT_NEAR(summary.frames.front().second.maximum, 0.974870, 6e-7);  // Table 5.1, n_g = 300, c = 2
+  EXPECT_NEAR(summary.frames.back().second.maximum, summary.frames.front().second.maximum, 1e-9);
+}
+
+TEST(RotatingCone, ErrorFallsWithTheCutoffsOrder) {
+  // A Gaussian in place of the Wendland cone: smooth, so that each cutoff shows its order in eps.
+  const auto error = [](const char* cutoff, int per_axis) {
+    return errors_of("rotating_cone", {std::string("particles.cutoff=") + cutoff, "particles.per_axis=" + std::to_string(per_axis), "density.shape=gaussian", "params.R=0.1",
+                                       "time.step=0.05", "evaluate.per_axis=81", "output.times=[\"2*pi\"]"})
+        .back()
+        .linf;
+  };
+  EXPECT_NEAR(std::log2(error("gauss2", 201) / error("gauss2", 401)), 2, 0.1);  // eps/R = 0.2 and 0.1: the next term is (eps/R)^2 smaller
+  EXPECT_NEAR(std::log2(error("gauss4", 201) / error("gauss4", 401)), 4, 0.3);
+}
+
+TEST(RotatingGap, StaysADiskWithAGap) {
+  const auto errors = errors_of("rotating_gap", {"particles.per_axis=100", "time.end=4*pi", "output.times=[0, \"2*pi\", \"4*pi\"]", "evaluate.per_axis=100"});
+  for (const Errors& error : errors) {
+    EXPECT_LT(error.l1, 0.25);     // a rim of width eps = 0.04 around a perimeter of 2.1, over an area of 0.18, and lattice edges
+    EXPECT_GT(error.linf, 0.3);    // on a jump the smoothed density is about half way
+  }
+  EXPECT_NEAR(errors.back().l1, errors.front().l1, 1e-3);  // turning adds nothing visible to the error
+}
+
+}  // namespace
+}  // namespace gaussdrift

@@ -1,0 +1,79 @@
+// Order and error of the time integrators, against exact solutions.
+#include "time/runge_kutta.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "field/velocity.hpp"
+#include "sim/stepper.hpp"
+
+namespace gaussdrift {
+namespace {
+
+class EveryTableau : public ::testing::TestWithParam<time::Tableau> {};
+
+TEST_P(EveryTableau, IsConsistent) {
+  const time::Tableau& rk = GetParam();
+  double sum = 0;
+  for (int i = 0; i < rk.stages; ++i) {
+    sum += rk.b(i);
+    double row = 0;
+    for (int l = 0; l < i; ++l) row += rk.a(i, l);
+    EXPECT_NEAR(row, rk.c(i), 1e-15) << rk.name << ", stage " << i;
+  }
+  EXPECT_NEAR(sum, 1, 1e-15) << rk.name;
+}
+
+TEST_P(EveryTableau, ReachesItsOrderOnATimeDependentProblem) {
+  // y' = -2 t y^2, y(0) = 1:  y = 1 / (1 + t^2).
+  const auto error = [&](int steps) {
+    double y = 1;
+    time::Stages work(GetParam(), 1);
+    for (int i = 0; i < steps; ++i)
+      time::step(GetParam(), i * 2.0 / steps, 2.0 / steps, [](double t, const double* at, double* rate) { *rate = -2 * t * *at * *at; }, &y, work);
+    return std::abs(y - 0.2);
+  };
+  const double order = std::log2(error(40) / error(80));
+  EXPECT_NEAR(order, GetParam().time_order, 0.2) << GetParam().name;  // the next term of the expansion, at h = 1/40
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()), [](const auto& info) { return info.param.name; });
+
+struct Turn {
+  double step, radius_loss, phase_lag;
+};
+class Rk4OnARotation : public ::testing::TestWithParam<Turn> {};
+
+TEST_P(Rk4OnARotation, HasThePredictedAmplitudeAndPhaseAfterOneTurn) {
+  const double end = 2 * std::numbers::pi;
+  const RotationField rotation(2, {}, 1);
+  const time::Interval interval(0, end, GetParam().step);
+  Particles particles;
+  particles.position[0] = {1};
+  particles.position[1] = {0};
+  particles.alpha = {1};
+  particles.id = {0};
+  Stepper(rotation, time::find_tableau("rk4"), 1).advance(particles, interval, 0, interval.steps(), 0);
+  const double x = particles.position[0][0], y = particles.position[1][0];
+
+  // |A| = 1 - theta^6/144 and a phase error of -theta^5/120 a step, theta the step: summed over the steps taken.
+  double radius_loss = 0, phase_lag = 0;
+  for (std::size_t i = 0; i < interval.steps(); ++i) {
+    radius_loss += std::pow(interval.length(i), 6) / 144;
+    phase_lag += std::pow(interval.length(i), 5) / 120;
+  }
+  const double rounding = 2e-13;  // thousands of steps, each with a few roundings of 1e-16
+  EXPECT_NEAR(1 - std::hypot(x, y), radius_loss, 0.03 * radius_loss + rounding);  // next term: theta^2/10 at theta = 0.2
+  EXPECT_NEAR(-std::atan2(y, x), phase_lag, 0.03 * phase_lag + rounding);
+  EXPECT_NEAR(radius_loss, GetParam().radius_loss, 0.02 * GetParam().radius_loss);  // the published figures have two or three digits
+  EXPECT_NEAR(phase_lag, GetParam().phase_lag, 0.02 * GetParam().phase_lag);
+}
+
+INSTANTIATE_TEST_SUITE_P(, Rk4OnARotation,
+                         ::testing::Values(Turn{0.2, 1.37e-5, 8.15e-5}, Turn{0.1, 4.3e-7, 5.2e-6}, Turn{0.05, 1.3e-8, 3.2e-7},
+                                           Turn{0.01, 4.3e-12, 5.2e-10}));
+
+}  // namespace
+}  // namespace gaussdrift

@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program/program.hpp"
+
+namespace gaussdrift {
+namespace {
+
+TEST(CommandLine, AnswersHelpAndVersion) {
+  const ScratchFolder folder;
+  const Outcome help = gaussdrift_in(folder, "--help");
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* word : {"run", "check", "reproduce", "Exit codes"}) EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  EXPECT_EQ(gaussdrift_in(folder, "--version").out.rfind("gaussdrift ", 0), 0u);
+  EXPECT_NE(gaussdrift_in(folder, "run --help").out.find("--set"), std::string::npos);
+}
+
+TEST(CommandLine, RefusesWhatItDoesNotKnow) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  for (const char* wrong : {"", "fly", "run", "run small.toml --frce", "run small.toml --threads 0", "run small.toml --threads two", "reproduce moon"}) {
+    const Outcome refused = gaussdrift_in(folder, wrong);
+    EXPECT_EQ(refused.exit_code, 2) << wrong;
+    EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;
+    EXPECT_EQ(refused.out, "") << wrong;
+  }
+  EXPECT_FALSE(fs::exists(folder / "output"));
+}
+
+TEST(CommandLine, GivesAllErrorsOfACaseAndExitsWith3) {
+  const ScratchFolder folder;
+  std::string text = small_case;
+  text.replace(text.find("per_axis = 60"), 13, "per_axis = 60\noverlapp = 2");
+  text.replace(text.find("step = 0.05"), 11, "step = -0.05");
+  write_file(folder / "wrong.toml", text);
+  for (const char* verb : {"run", "check"}) {
+    const Outcome refused = gaussdrift_in(folder, std::string(verb) + " wrong.toml");
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_NE(refused.err.find("unknown key \"overlapp\" in [particles]; did you mean \"overlap\"?"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("wrong.toml:17:1"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("step = -0.05"), std::string::npos) << refused.err;
+  }
+  EXPECT_FALSE(fs::exists(folder / "output"));
+}
+
+TEST(CommandLine, ExitsWith6WhereTheCaseCannotBeRead) {
+  const ScratchFolder folder;
+  const Outcome refused = gaussdrift_in(folder, "run nowhere.toml");
+  EXPECT_EQ(refused.exit_code, 6);
+  EXPECT_NE(refused.err.find("nowhere.toml"), std::string::npos) << refused.err;
+}
+
+TEST(Check, DescribesACaseWithoutRunningIt) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome check = gaussdrift_in(folder, "check small.toml");
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  for (const char* part : {"small  2D  [-1,1]x[-1,1]   div u = 0 (sampled)", "3 600 on the lattice", "transport only", "126 steps", "3 frames of 1 600 points"})
+    EXPECT_NE(check.out.find(part), std::string::npos) << part << " in:\n" << check.out;
+  EXPECT_FALSE(fs::exists(folder / "output"));
+}
+
+TEST(Check, FindsTheDivergenceOfAFlow) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome check = gaussdrift_in(folder, "check small.toml --json --set 'velocity.u=[\"0.5*x\", \"0.25*y\"]'");
+  ASSERT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NEAR(nlohmann::json::parse(check.out)["largest_divergence"].get<double>(), 0.75, 1e-9);  // exact for a linear field up to rounding
+}
+
+TEST(Check, RefusesAFieldThatIsNotFinite) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  EXPECT_EQ(gaussdrift_in(folder, "check small.toml --set 'velocity.u=[\"log(-1 - x*x)\", \"0\"]'").exit_code, 4);
+}
+
+TEST(Reproduce, ListsWhatItCan) {
+  const ScratchFolder folder;
+  const Outcome list = gaussdrift_in(folder, "reproduce");
+  EXPECT_EQ(list.exit_code, 0);
+  EXPECT_NE(list.out.find("cone"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gaussdrift

@@ -1,0 +1,196 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "program/program.hpp"
+
+namespace gaussdrift {
+namespace {
+
+// One row of a CSV file as numbers; row 0 is the first below the header.
+std::vector<double> csv_row(const std::string& text, int row) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int i = -1; i <= row; ++i) std::getline(lines, line);
+  std::vector<double> numbers;
+  std::istringstream cells(line);
+  for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
+  return numbers;
+}
+
+int count(const std::string& text, const std::string& what) {
+  int found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+bool any_part_files(const fs::path& folder) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().extension() == ".part") return true;
+  return false;
+}
+
+TEST(Run, LeavesTheFolderThatTheDocumentationPromises) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome run = gaussdrift_in(folder, "run small.toml");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const fs::path output = folder / "output/small";
+  for (const char* name : {"run.toml", "case.toml", "series.csv", "summary.json", "view.py", "density.pvd", "particles.pvd"})
+    EXPECT_TRUE(fs::exists(output / name)) << name;
+  for (const char* index : {"0000", "0001", "0002"}) {
+    EXPECT_TRUE(fs::exists(output / "density" / ("density_" + std::string(index) + ".vti")));
+    EXPECT_TRUE(fs::exists(output / "particles" / ("particles_" + std::string(index) + ".vtp")));
+  }
+  EXPECT_FALSE(any_part_files(output));
+  EXPECT_EQ(read_file(output / "case.toml"), small_case);
+  EXPECT_NE(run.out.find("density.pvd"), std::string::npos) << run.out;
+}
+
+TEST(Run, WritesNothingThatTheCaseDoesNotName) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  ASSERT_EQ(gaussdrift_in(folder, "run small.toml --set output.vtk=[]").exit_code, 0);
+  const fs::path output = folder / "output/small";
+  EXPECT_FALSE(fs::exists(output / "density.pvd"));
+  EXPECT_FALSE(fs::exists(output / "particles.pvd"));
+  EXPECT_FALSE(fs::exists(output / "images"));
+  const auto summary = nlohmann::json::parse(read_file(output / "summary.json"));
+  EXPECT_EQ(summary["effects"], nlohmann::json::array({"transport"}));
+  for (const auto& [stage, seconds] : summary["seconds"].items()) EXPECT_EQ(stage.find("write density"), std::string::npos) << stage;
+}
+
+TEST(Run, KeepsHeightMassAndCentreOverATurn) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  ASSERT_EQ(gaussdrift_in(folder, "run small.toml --set time.step=0.001 --set evaluate.tolerance=1e-11").exit_code, 0);
+  const std::string series = read_file(folder / "output/small/series.csv");
+  const auto start = csv_row(series, 0), end = csv_row(series, 2);
+  EXPECT_EQ(start[1], end[1]);            // mass: the weights do not change
+  EXPECT_NEAR(start[3], end[3], 1e-9);    // height: RK4 at 0.001 is right to 1e-13, the transform to 1e-11
+  EXPECT_NEAR(end[4], 0.5, 1e-9);         // centroid: the cone's centre, a symmetric lattice sum
+  EXPECT_NEAR(end[5], 0.0, 1e-9);
+  EXPECT_LE(end[6], 1e-11);               // transform_error, measured against the direct sum
+}
+
+TEST(Run, OfItsOwnResolvedCaseGivesTheSameNumbers) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  ASSERT_EQ(gaussdrift_in(folder, "run small.toml --set particles.overlap=1.5 --out first").exit_code, 0);
+  const Outcome again = gaussdrift_in(folder, "run first/run.toml --out second");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const char* file : {"density/density_0002.vti", "particles/particles_0002.vtp"})
+    EXPECT_EQ(read_file(folder / "first" / file), read_file(folder / "second" / file)) << file;
+}
+
+TEST(Run, GivesTheSameBitsForAnyThreads) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  for (const char* threads : {"1", "2", "4"})
+    ASSERT_EQ(gaussdrift_in(folder, std::string("run small.toml --threads ") + threads + " --out run" + threads).exit_code, 0);
+  for (const char* threads : {"2", "4"})
+    for (const char* file : {"density/density_0002.vti", "particles/particles_0002.vtp"})
+      EXPECT_EQ(read_file(folder / "run1" / file), read_file(folder / ("run" + std::string(threads)) / file)) << file;
+}
+
+TEST(Run, PrintsNothingButJsonOnStandardOutputWhenAsked) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome run = gaussdrift_in(folder, "run small.toml --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(run.out);
+  EXPECT_EQ(summary["frames"].size(), 3u);
+  EXPECT_EQ(summary["time"]["steps"], 126);  // ceil(pi / 0.05) = 63 steps to each of two landings
+}
+
+TEST(Run, DrawsThePicturesThatAreNamed) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome run = gaussdrift_in(folder, "run small.toml --set 'output.images=[\"surface\",\"contour\",\"heatmap\"]'", "unset DISPLAY;");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  if (run.err.find("no pictures are drawn") != std::string::npos) GTEST_SKIP() << run.err;
+  for (const char* style : {"surface", "contour", "heatmap"})
+    for (const char* index : {"0000", "0001", "0002"}) {
+      const std::string png = read_file(folder / ("output/small/images/" + std::string(style) + "_" + index + ".png"));
+      EXPECT_EQ(png.substr(1, 3), "PNG") << style << index;
+    }
+}
+
+TEST(Run, RefusesAFolderThatHoldsAnEarlierRun) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  ASSERT_EQ(gaussdrift_in(folder, "run small.toml").exit_code, 0);
+  const std::string before = read_file(folder / "output/small/series.csv");
+  write_file(folder / "output/small/notes.txt", "mine");
+  const Outcome refused = gaussdrift_in(folder, "run small.toml --set time.step=0.1");
+  EXPECT_EQ(refused.exit_code, 6);
+  EXPECT_NE(refused.err.find("output/small is not empty; --force replaces the earlier run in it, --out DIR writes elsewhere"), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(read_file(folder / "output/small/series.csv"), before);
+
+  const Outcome forced = gaussdrift_in(folder, "run small.toml --force --set 'output.times=[0]'");
+  EXPECT_EQ(forced.exit_code, 0) << forced.err;
+  EXPECT_FALSE(fs::exists(folder / "output/small/density/density_0001.vti"));  // of the earlier run
+  EXPECT_EQ(read_file(folder / "output/small/notes.txt"), "mine");             // not of a run, so not touched
+}
+
+TEST(Run, RefusesAFolderThatCannotBe) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome file_in_the_way = gaussdrift_in(folder, "run small.toml --out small.toml");
+  EXPECT_EQ(file_in_the_way.exit_code, 6);
+  EXPECT_NE(file_in_the_way.err.find("cannot use small.toml as output folder: it is a file"), std::string::npos) << file_in_the_way.err;
+  const Outcome below_a_file = gaussdrift_in(folder, "run small.toml --out small.toml/below");
+  EXPECT_EQ(below_a_file.exit_code, 6);
+  EXPECT_NE(below_a_file.err.find("choose another folder with --out"), std::string::npos) << below_a_file.err;
+}
+
+TEST(Run, StopsAtAFullDiskAndKeepsWhatWasWritten) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  // No file may grow beyond 16 blocks of 512 bytes: settings fit, a frame of 40 x 40 doubles does not.
+  const Outcome run = gaussdrift_in(folder, "run small.toml", "trap '' XFSZ; ulimit -f 16;");
+  EXPECT_EQ(run.exit_code, 6) << run.err;
+  EXPECT_NE(run.err.find("density_0000.vti"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("File too large"), std::string::npos) << run.err;  // the reason as the system gives it
+  EXPECT_FALSE(any_part_files(folder / "output"));
+  EXPECT_FALSE(fs::exists(folder / "output/small/density/density_0000.vti"));
+  EXPECT_TRUE(fs::exists(folder / "output/small/run.toml"));
+}
+
+TEST(Run, ReportsAFieldThatIsNotFiniteAndKeepsTheFramesBefore) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  // Finite up to t = 4, between the second frame and the third.
+  const Outcome run = gaussdrift_in(folder, "run small.toml --set 'velocity.u=[\"-y + 0*sqrt(4 - t)\", \"x\"]'");
+  EXPECT_EQ(run.exit_code, 4);
+  for (const char* part : {"the velocity is (", "nan", "in step 81", "at t = 4", "for particle ", "guard the expression"})
+    EXPECT_NE(run.err.find(part), std::string::npos) << part << " in: " << run.err;
+  const std::string collection = read_file(folder / "output/small/density.pvd");
+  EXPECT_EQ(count(collection, "<DataSet"), 2) << collection;
+  EXPECT_NE(collection.find("</VTKFile>"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "output/small/density/density_0001.vti"));
+  EXPECT_EQ(csv_row(read_file(folder / "output/small/series.csv"), 1).size(), 9u);
+}
+
+TEST(Run, ReportsADensityThatIsNotFinite) {
+  const ScratchFolder folder;
+  std::string text = small_case;
+  text.replace(text.find("shape  = \"wendland\"\ncenter = [0.5, 0]\nradius = 0.25"), 50, "expression = \"1/x\"");
+  write_file(folder / "pole.toml", text);
+  const Outcome run = gaussdrift_in(folder, "run pole.toml --set particles.per_axis=61");
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_NE(run.err.find("the initial density is inf at (0, -1)"), std::string::npos) << run.err;
+}
+
+TEST(Run, SaysThatNothingCarriesWeight) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome run = gaussdrift_in(folder, "run small.toml --set 'density.center=[5, 5]'");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("0 on every point of the particle lattice"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace gaussdrift

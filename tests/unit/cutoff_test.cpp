@@ -1,0 +1,88 @@
+// Moment conditions of [Sch06, Definition 5.2.1], by the trapezoidal rule, which is exact to rounding for Gaussians times
+// polynomials once the lattice is finer than about half a width.
+#include "particle/cutoff.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace gaussdrift {
+namespace {
+
+double hermite(int n, double t) {  // H_n: d^n/dt^n exp(-t^2) = (-1)^n H_n(t) exp(-t^2)
+  double before = 0, now = 1;
+  for (int k = 0; k < n; ++k) before = std::exchange(now, 2 * t * now - 2 * k * before);
+  return now;
+}
+
+double value(const Cutoff& cutoff, const Vector& x) {
+  double sum = 0;
+  for (const CutoffTerm& term : cutoff) {
+    double product = term.coefficient;
+    for (int k = 0; k < 3; ++k) {
+      const double t = x[k] / term.width;
+      const int n = term.derivative[k];
+      product *= std::pow(-1 / term.width, n) * hermite(n, t) * std::exp(-t * t);
+    }
+    sum += product;
+  }
+  return sum;
+}
+
+// int x^a y^b z^c zeta_eps
+double moment(const Cutoff& cutoff, int dimension, double eps, const std::array<int, 3>& power) {
+  const int half = 14;  // 7 widths each way: what is cut off is below 1e-20
+  const double spacing = 0.5 * eps;
+  double sum = 0;
+  for (int i = -half; i <= half; ++i)
+    for (int j = dimension > 1 ? -half : 0; j <= (dimension > 1 ? half : 0); ++j)
+      for (int k = dimension > 2 ? -half : 0; k <= (dimension > 2 ? half : 0); ++k) {
+        const Vector x{i * spacing, j * spacing, k * spacing};
+        // In fewer dimensions the other factors of `value` are exp(0) = 1.
+        sum += std::pow(x[0], power[0]) * std::pow(x[1], power[1]) * std::pow(x[2], power[2]) * value(cutoff, x);
+      }
+  return sum * std::pow(spacing, dimension);
+}
+
+struct Named {
+  const char* name;
+  int cutoff_order;
+};
+class EveryCutoff : public ::testing::TestWithParam<Named> {};
+
+TEST_P(EveryCutoff, IntegratesToOneAndHasVanishingMoments) {
+  const double eps = 0.7;
+  for (const int dimension : {1, 2, 3}) {
+    const Cutoff cutoff = make_cutoff(GetParam().name, dimension, eps);
+    EXPECT_NEAR(moment(cutoff, dimension, eps, {0, 0, 0}), 1, 1e-8);  // trapezoidal rule at half a width: 2 exp(-4 pi^2) a dimension, times moments
+    for (int a = 0; a < GetParam().cutoff_order; ++a)
+      for (int b = 0; a + b < GetParam().cutoff_order && (dimension > 1 || b == 0); ++b)
+        for (int c = 0; a + b + c < GetParam().cutoff_order && (dimension > 2 || c == 0); ++c)
+          if (a + b + c > 0) EXPECT_NEAR(moment(cutoff, dimension, eps, {a, b, c}), 0, 1e-8) << a << b << c << " in " << dimension << "D";
+  }
+}
+
+TEST_P(EveryCutoff, HasExactlyItsOrder) {
+  // The moment of order k does not vanish: the name promises no more than it keeps.
+  const Cutoff cutoff = make_cutoff(GetParam().name, 2, 1.0);
+  EXPECT_GT(std::abs(moment(cutoff, 2, 1.0, {GetParam().cutoff_order, 0, 0})), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryCutoff, ::testing::Values(Named{"gauss2", 2}, Named{"gauss4", 4}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(CutoffGauss4, IsTheClosedFormInTwoDimensions) {
+  const Cutoff cutoff = make_cutoff("gauss4", 2, 1.0);
+  for (const double r : {0.0, 0.3, 1.0, 1.7, 3.0})
+    EXPECT_NEAR(value(cutoff, {r, 0, 0}), (2 - r * r) * std::exp(-r * r) / std::numbers::pi, 1e-15);
+}
+
+TEST(Cutoff, EveryNameCanBeMadeAndOthersCannot) {
+  for (const auto& name : cutoff_names()) EXPECT_FALSE(make_cutoff(name, 3, 0.1).empty());
+  EXPECT_THROW(make_cutoff("gauss3", 2, 0.1), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace gaussdrift
