@@ -19,6 +19,7 @@ set(may_input base expression case)
 set(may_study base expression fgtd farfield field particle effect time sim write render input case)
 set(may_cli base study sim write render input time case fgtd)
 
+cmake_policy(VERSION 3.25)
 get_filename_component(ROOT "${ROOT}" ABSOLUTE)
 set(failures "")
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/src/*.hpp ${ROOT}/src/*.cpp ${ROOT}/src/*.inc ${ROOT}/include/*.hpp)

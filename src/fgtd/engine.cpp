@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fgtd/check.hpp"
+#include "fgtd/choose.hpp"
 
 namespace fgtd::detail {
 namespace {
@@ -27,18 +28,31 @@ Engine<d>::Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<c
   check_weights(weights, count);
 
   sources_.count = count;
-  check_memory("the plan", plan_bytes(static_cast<std::size_t>(weights.cols())), options.memory_limit);
+  sources_.columns = static_cast<std::size_t>(weights.cols());
+  check_memory("the plan", plan_bytes(sources_.columns), options.memory_limit);
   sources_.position.resize(d * count);
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t l = 0; l < d; ++l)
       sources_.position[l * count + j] = sources(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(j));
-  choice_.sources = count;
+
+  const Decision decision = choose<d>(sources_, sigma, options);
+  choice_ = decision.choice;
+  if (choice_.method == Method::hermite) {
+    check_memory("the plan", plan_bytes(sources_.columns) + 8.0 * static_cast<double>(count) * (2 * d + 4), options.memory_limit);
+    Boxes<d> boxes = make_boxes<d>(sources_.position, count, choice_.box_side, order_);
+    choice_.boxes = boxes.count();
+    hermite_.emplace(decision.hermite, sigma, std::move(boxes));
+  }
   set_weights(weights);
 }
 
 template <int d>
 double Engine<d>::plan_bytes(std::size_t columns) const {
-  return 8.0 * static_cast<double>(sources_.count) * static_cast<double>(d + columns);
+  const double points = 8.0 * static_cast<double>(sources_.count) * static_cast<double>(d + columns);
+  if (!hermite_) return points;
+  const double moments = static_cast<double>(columns) * std::pow(hermite_->plan().terms, d);
+  return points + 8.0 * static_cast<double>(order_.size()) +
+         8.0 * static_cast<double>(hermite_->boxes().count()) * (moments + 3 * d);
 }
 
 template <int d>
@@ -49,8 +63,11 @@ void Engine<d>::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
   sources_.columns = columns;
   sources_.weights.resize(columns * sources_.count);
   for (std::size_t k = 0; k < columns; ++k)
-    for (std::size_t j = 0; j < sources_.count; ++j)
-      sources_.weights[k * sources_.count + j] = weights(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k));
+    for (std::size_t j = 0; j < sources_.count; ++j) {
+      const std::size_t from = order_.empty() ? j : order_[j];
+      sources_.weights[k * sources_.count + j] = weights(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(k));
+    }
+  if (hermite_) hermite_->set_moments(sources_, options_.threads);
 }
 
 template <int d>
@@ -59,11 +76,16 @@ Eigen::MatrixXd Engine<d>::evaluate(const Eigen::Ref<const Points<d>>& targets, 
   check_points("target", targets.data(), d, count, stride<d>(targets));
   const Request<d> request = make_request<d>(combinations, sigma_, options_.derivative_order);
   const std::size_t outputs = combinations.size() * sources_.columns;
-  check_memory("evaluation", plan_bytes(sources_.columns) + 8.0 * static_cast<double>(count) * static_cast<double>(outputs + d),
+  const double own = hermite_ ? hermite_->point_bytes(request, static_cast<double>(count)) : 0.0;
+  check_memory("evaluation", plan_bytes(sources_.columns) + own + 8.0 * static_cast<double>(count) * static_cast<double>(outputs + d),
                options_.memory_limit);
   const Points<d> packed = targets;
   Eigen::MatrixXd values(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(outputs));
-  evaluate_direct<d>(sources_, sigma_, request, packed.data(), count, options_.threads, values.data());
+  if (hermite_) {
+    hermite_->evaluate(request, packed.data(), count, options_.threads, values.data());
+  } else {
+    evaluate_direct<d>(sources_, sigma_, request, packed.data(), count, options_.threads, values.data());
+  }
   return values;
 }
 
@@ -74,9 +96,15 @@ Eigen::MatrixXd Engine<d>::evaluate(const TensorGrid& grid, const std::vector<Co
   const std::size_t outputs = combinations.size() * sources_.columns;
   double nodes = 1;
   for (const auto& axis : grid.axes) nodes *= static_cast<double>(axis.size());
-  check_memory("evaluation", plan_bytes(sources_.columns) + 8.0 * nodes * static_cast<double>(outputs), options_.memory_limit);
+  const double needed = plan_bytes(sources_.columns) + 8.0 * nodes * static_cast<double>(outputs);
+  check_memory("evaluation", needed, options_.memory_limit);
+  if (hermite_) check_memory("evaluation", needed + hermite_->grid_bytes(request, grid), options_.memory_limit);
   Eigen::MatrixXd values(static_cast<Eigen::Index>(grid.size()), static_cast<Eigen::Index>(outputs));
-  evaluate_direct<d>(sources_, sigma_, request, grid, options_.threads, values.data());
+  if (hermite_) {
+    hermite_->evaluate(request, grid, options_.threads, values.data());
+  } else {
+    evaluate_direct<d>(sources_, sigma_, request, grid, options_.threads, values.data());
+  }
   return values;
 }
 

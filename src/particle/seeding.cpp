@@ -33,7 +33,7 @@ Particles seed_line(const Lattice& lattice, std::size_t line, const DensityFunct
       std::string place = fmt::format("({}, {}", x[0][i], x[1][i]);
       place += lattice.dimension == 3 ? fmt::format(", {})", x[2][i]) : ")";
       throw NumericalError(fmt::format(
-          "the initial density is {} at {}; it must be finite on the whole domain: guard the expression, or move the domain", rho[i],
+          "the initial density is {} at {}; it must be finite on the whole domain: guard the expression, or move the domain", std::isnan(rho[i]) ? "nan" : fmt::format("{}", rho[i]),
           place));
     }
     const double alpha = cell * rho[i];

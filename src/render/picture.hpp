@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "sim/frame.hpp"
 
@@ -12,10 +13,10 @@ namespace gaussdrift::render {
 enum class Style { surface, contour, heatmap };
 
 struct PictureOptions {
-  std::string title;      // of the case
+  std::string title;  // of the case
   std::string quantity = "density";
   double time = 0;
-  double range_min = 0;   // of the colours, height axis and contour levels; the same for all pictures of a run
+  double range_min = 0;  // of the colours, height axis and contour levels; the same for all pictures of a run
   double range_max = 1;
   int width = 1280;
   int height = 960;
@@ -25,13 +26,22 @@ struct PictureOptions {
 std::string unavailable_reason();
 
 /// Draws a two-dimensional density into a PNG (written beside its name and renamed).
-///   surface  height field with contour lines in perspective, seen from above at an angle
-///   contour  contour lines: from above, and from the side (x against height), as Figures 5.3 and 5.5 of [Sch06]
+///   surface  height field with contour lines in perspective, seen from above at an angle; at most 300 x 300 points of
+///   it contour  contour lines: from above, and from the side (x against height), as Figures 5.3 and 5.5 of [Sch06].
+///   Where
+///            the lines fill a small part of the domain, half, a quarter or an eighth of it around them is shown, and
+///            said
 ///   heatmap  colours from above
-/// Throws FileError; Error(ExitCode::internal) when drawing is not available.
+/// Values outside the range get the colours of its ends; heights stick out of the box by at most 4 % of the range.
+/// Values that are not finite are left out (heatmap: red) and counted in the heading, which also tells the true
+/// extremes of the density. Without a range (range_min < range_max, both finite) the density's own rounded one is used.
+/// One call draws at a time, whatever the thread. Throws FileError; Error(ExitCode::internal) when drawing is not
+/// available.
 void draw(Style style, const DensityGrid& density, const PictureOptions& options, const std::filesystem::path& png);
 
-/// A range with round ends that contains [minimum, maximum]; keeps 0 as an end where it already is close to one.
+/// A range with round ends that contains [minimum, maximum], except for up to 1 % at either end: the small overshoots
+/// of a smoothed step do not spoil [0, 1]. 0 is an end if the values begin within a quarter of their size of it. [0, 1]
+/// for nothing but zeros or values that are not finite.
 std::pair<double, double> rounded_range(double minimum, double maximum);
 
 }  // namespace gaussdrift::render

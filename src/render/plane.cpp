@@ -13,10 +13,10 @@ namespace gaussdrift::render {
 namespace {
 
 int intervals_across(double pixels, const Scale& scale) {
-  return std::clamp(static_cast<int>(pixels / scale(120)), 1, 8);
+  return std::clamp(static_cast<int>(pixels / scale(90)), 1, 8);
 }
 int intervals_upwards(double pixels, const Scale& scale) {
-  return std::clamp(static_cast<int>(pixels / scale(50)), 1, 8);
+  return std::clamp(static_cast<int>(pixels / scale(40)), 1, 8);
 }
 
 /// The axes of the part `window` of the scene.
@@ -94,11 +94,12 @@ std::vector<Polyline> outline(const HeightField& field, const Rectangle& window,
   return lines;
 }
 
-/// A small map of the whole field with the window marked.
-void draw_locator(Canvas& canvas, const Rectangle& room, const HeightField& field, const Rectangle& window) {
-  const Rectangle map = panel_in(room, field);
-  canvas.area({map.x + map.width * window.x / field.width, map.y + map.height * window.y / field.depth,
-               map.width * window.width / field.width, map.height * window.height / field.depth},
+/// A small map of the whole field with the window marked; `corner` is its lower right one.
+void draw_locator(Canvas& canvas, const Point& corner, double side, const HeightField& field, const Rectangle& window) {
+  const double width = std::max(side * field.width, 4.), height = std::max(side * field.depth, 4.);
+  const Rectangle map{corner.x - width, corner.y, width, height};
+  canvas.area({map.x + width * window.x / field.width, map.y + height * window.y / field.depth,
+               width * window.width / field.width, height * window.height / field.depth},
               grey);
   canvas.frame(map, grey, 1);
 }
@@ -178,8 +179,9 @@ void draw_contour(Canvas& canvas, const HeightField& field, const ColourRange& r
   const int enlarged = static_cast<int>(std::lround(field.width / window.width));
   canvas.text({above.x, above.top() + scale(10)},
               enlarged == 1 ? "from above" : fmt::format("from above, enlarged {} times", enlarged), caption);
-  if (enlarged > 1)
-    draw_locator(canvas, {left + width - scale(80), above.top() + scale(8), scale(80), scale(56)}, field, window);
+  if (enlarged > 1)  // its right edge on that of the panel, but beside the caption
+    draw_locator(canvas, {std::max(above.right(), above.x + scale(340)), above.top() + scale(8)}, scale(60), field,
+                 window);
   if (contours.empty())
     canvas.text({above.x + above.width / 2, above.y + above.height / 2}, "no contour lines",
                 {.size = scale.font(18), .colour = grey});

@@ -21,9 +21,12 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
+// NaN has a sign that means nothing to anybody.
+std::string number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value); }
+
 std::string tuple(const double* values, std::size_t stride, int dimension) {
   std::string text = "(";
-  for (int k = 0; k < dimension; ++k) text += fmt::format("{}{:.6g}", k ? ", " : "", values[static_cast<std::size_t>(k) * stride]);
+  for (int k = 0; k < dimension; ++k) text += fmt::format("{}{}", k ? ", " : "", number(values[static_cast<std::size_t>(k) * stride]));
   return text + ")";
 }
 

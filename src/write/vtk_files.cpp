@@ -7,6 +7,7 @@
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkLongArray.h>
@@ -81,6 +82,7 @@ void write_dataset(const fs::path& file, vtkDataSet* data) {
     std::string messages;
     vtkNew<Writer> writer;
     collect_errors(writer, messages);
+    collect_errors(writer->GetExecutive(), messages);
     writer->SetFileName(part.c_str());
     writer->SetInputData(data);
     writer->SetDataModeToAppended();

@@ -39,7 +39,7 @@ TEST_P(EveryTableau, ReachesItsOrderOnATimeDependentProblem) {
   EXPECT_NEAR(order, GetParam().time_order, 0.2) << GetParam().name;  // the next term of the expansion, at h = 1/40
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()), [](const auto& tableau) { return tableau.param.name; });
 
 struct Turn {
   double step, radius_loss, phase_lag;
@@ -67,8 +67,8 @@ TEST_P(Rk4OnARotation, HasThePredictedAmplitudeAndPhaseAfterOneTurn) {
   const double rounding = 2e-13;  // thousands of steps, each with a few roundings of 1e-16
   EXPECT_NEAR(1 - std::hypot(x, y), radius_loss, 0.03 * radius_loss + rounding);  // next term: theta^2/10 at theta = 0.2
   EXPECT_NEAR(-std::atan2(y, x), phase_lag, 0.03 * phase_lag + rounding);
-  EXPECT_NEAR(radius_loss, GetParam().radius_loss, 0.02 * GetParam().radius_loss);  // the published figures have two or three digits
-  EXPECT_NEAR(phase_lag, GetParam().phase_lag, 0.02 * GetParam().phase_lag);
+  EXPECT_NEAR(radius_loss, GetParam().radius_loss, 0.05 * GetParam().radius_loss);  // these figures are given to two or three digits
+  EXPECT_NEAR(phase_lag, GetParam().phase_lag, 0.05 * GetParam().phase_lag);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Rk4OnARotation,

@@ -69,8 +69,9 @@ TEST(Run, KeepsHeightMassAndCentreOverATurn) {
   const auto start = csv_row(series, 0), end = csv_row(series, 2);
   EXPECT_EQ(start[1], end[1]);            // mass: the weights do not change
   EXPECT_NEAR(start[3], end[3], 1e-9);    // height: RK4 at 0.001 is right to 1e-13, the transform to 1e-11
-  EXPECT_NEAR(end[4], 0.5, 1e-9);         // centroid: the cone's centre, a symmetric lattice sum
-  EXPECT_NEAR(end[5], 0.0, 1e-9);
+  EXPECT_NEAR(start[4], end[4], 1e-9);    // centroid: back where it was
+  EXPECT_NEAR(start[5], end[5], 1e-9);
+  EXPECT_NEAR(end[4], 0.5, 1e-5);         // and at the cone's centre, up to the lattice sum
   EXPECT_LE(end[6], 1e-11);               // transform_error, measured against the direct sum
 }
 
@@ -177,11 +178,12 @@ TEST(Run, ReportsAFieldThatIsNotFiniteAndKeepsTheFramesBefore) {
 TEST(Run, ReportsADensityThatIsNotFinite) {
   const ScratchFolder folder;
   std::string text = small_case;
-  text.replace(text.find("shape  = \"wendland\"\ncenter = [0.5, 0]\nradius = 0.25"), 50, "expression = \"1/x\"");
+  const std::string shape = "shape  = \"wendland\"\ncenter = [0.5, 0]\nradius = 0.25";
+  text.replace(text.find(shape), shape.size(), "expression = \"1/x\"");
   write_file(folder / "pole.toml", text);
   const Outcome run = gaussdrift_in(folder, "run pole.toml --set particles.per_axis=61");
   EXPECT_EQ(run.exit_code, 4);
-  EXPECT_NE(run.err.find("the initial density is inf at (0, -1)"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("the initial density is inf at (0"), std::string::npos) << run.err;
 }
 
 TEST(Run, SaysThatNothingCarriesWeight) {

@@ -60,7 +60,9 @@ TEST_P(EveryCutoff, IntegratesToOneAndHasVanishingMoments) {
     for (int a = 0; a < GetParam().cutoff_order; ++a)
       for (int b = 0; a + b < GetParam().cutoff_order && (dimension > 1 || b == 0); ++b)
         for (int c = 0; a + b + c < GetParam().cutoff_order && (dimension > 2 || c == 0); ++c)
-          if (a + b + c > 0) EXPECT_NEAR(moment(cutoff, dimension, eps, {a, b, c}), 0, 1e-8) << a << b << c << " in " << dimension << "D";
+          if (a + b + c > 0) {
+            EXPECT_NEAR(moment(cutoff, dimension, eps, {a, b, c}), 0, 1e-8) << a << b << c << " in " << dimension << "D";
+          }
   }
 }
 
@@ -71,7 +73,7 @@ TEST_P(EveryCutoff, HasExactlyItsOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryCutoff, ::testing::Values(Named{"gauss2", 2}, Named{"gauss4", 4}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& named) { return named.param.name; });
 
 TEST(CutoffGauss4, IsTheClosedFormInTwoDimensions) {
   const Cutoff cutoff = make_cutoff("gauss4", 2, 1.0);

@@ -1,0 +1,55 @@
+"""Opens a ParaView collection the way ParaView does, with VTK's own readers, and prints all that is in it.
+
+Usage: read_series.py FILE.pvd. Floating-point numbers have 17 digits, so equal lines mean equal numbers.
+"""
+import os
+import sys
+import xml.etree.ElementTree as ElementTree
+
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader
+
+
+def numbers(values):
+    return " ".join("%.17g" % v if isinstance(v, float) else str(v) for v in values)
+
+
+def show_array(where, array):
+    tuples = [array.GetTuple(i) for i in range(array.GetNumberOfTuples())]
+    whole = array.GetDataTypeAsString() not in ("double", "float")
+    flat = [int(v) if whole else v for t in tuples for v in t]
+    print(where, array.GetName(), array.GetDataTypeAsString(), array.GetNumberOfComponents(), numbers(flat))
+
+
+def show(name):
+    reader = vtkXMLImageDataReader() if name.endswith(".vti") else vtkXMLPolyDataReader()
+    reader.SetFileName(name)
+    reader.Update()
+    if reader.GetErrorCode() != 0:
+        sys.exit("%s: error %d" % (name, reader.GetErrorCode()))
+    data = reader.GetOutput()
+    print(data.GetClassName())
+    if name.endswith(".vti"):
+        print("extent", numbers(data.GetExtent()))
+        print("origin", numbers(data.GetOrigin()))
+        print("spacing", numbers(data.GetSpacing()))
+    else:
+        points = data.GetPoints()
+        if points and points.GetNumberOfPoints():
+            print("points", points.GetData().GetDataTypeAsString(),
+                  numbers(c for i in range(points.GetNumberOfPoints()) for c in points.GetPoint(i)))
+        print("vertices", numbers(data.GetCell(c).GetPointId(0) for c in range(data.GetNumberOfVerts())))
+        print("single", all(data.GetCell(c).GetNumberOfPoints() == 1 for c in range(data.GetNumberOfVerts())))
+    attributes = data.GetPointData()
+    print("scalars", attributes.GetScalars().GetName() if attributes.GetScalars() else None)
+    for i in range(attributes.GetNumberOfArrays()):
+        show_array("array", attributes.GetArray(i))
+    for i in range(data.GetFieldData().GetNumberOfArrays()):
+        show_array("field", data.GetFieldData().GetArray(i))
+
+
+root = ElementTree.parse(sys.argv[1]).getroot()
+assert root.tag == "VTKFile" and root.get("type") == "Collection", root.attrib
+for entry in root.find("Collection"):
+    assert entry.tag == "DataSet" and not os.path.isabs(entry.get("file")), entry.attrib
+    print("timestep", "%.17g" % float(entry.get("timestep")), entry.get("file"))
+    show(os.path.join(os.path.dirname(sys.argv[1]), entry.get("file")))

@@ -1,0 +1,277 @@
+// The files as others read them: with VTK's readers from Python, which is what ParaView's scripts use.
+#include "write/vtk_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "base/error.hpp"
+#include "write/disk.hpp"
+#include "write/files.hpp"
+
+namespace gaussdrift::write {
+namespace {
+
+/// Debian's Python has VTK; one found earlier in PATH may not.
+std::string python_with_vtk() {
+  for (const std::string python : {"/usr/bin/python3", "python3"})
+    if (std::system((python + " -c 'import vtkmodules.vtkIOXML' 2>/dev/null").c_str()) == 0) return python;
+  return "";
+}
+
+std::string output_of(const std::string& command) {
+  std::string text;
+  FILE* pipe = popen(command.c_str(), "r");
+  std::array<char, 4096> buffer{};
+  while (const std::size_t length = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    text.append(buffer.data(), length);
+  return pclose(pipe) == 0 ? text : "failed: " + text;
+}
+
+std::string read_series(const std::string& python, const std::filesystem::path& pvd) {
+  return output_of(python + " " SOURCE_DIR "/tests/write/read_series.py '" + pvd.string() + "' 2>&1");
+}
+
+template <class Value>
+std::string numbers(const std::vector<Value>& values) {
+  std::string text;
+  for (const Value value : values) {
+    std::array<char, 40> digits{};
+    if constexpr (std::is_floating_point_v<Value>)
+      std::snprintf(digits.data(), digits.size(), " %.17g", value);
+    else
+      std::snprintf(digits.data(), digits.size(), " %lld", static_cast<long long>(value));
+    text += digits.data();
+  }
+  return text;
+}
+
+/// Values without a short decimal form, of very different sizes.
+double awkward(std::size_t i) {
+  return std::sin(1. + static_cast<double>(i)) * std::pow(10., static_cast<double>(i % 7) - 3);
+}
+
+DensityGrid some_density(int dimension, const Vector& min, const Vector& max, int per_axis) {
+  DensityGrid density{make_lattice(dimension, min, max, per_axis), {}};
+  for (std::size_t i = 0; i < density.lattice.size(); ++i) density.rho.push_back(awkward(i));
+  return density;
+}
+
+Particles some_particles(int dimension, std::size_t count) {
+  Particles particles;
+  particles.dimension = dimension;
+  for (std::size_t j = 0; j < count; ++j) {
+    for (int k = 0; k < dimension; ++k) particles.position[k].push_back(awkward(10 * j + static_cast<std::size_t>(k)));
+    particles.alpha.push_back(awkward(j) / 3);
+    particles.id.push_back(std::int64_t{5'000'000'000} + static_cast<std::int64_t>(j));  // needs 64 bits
+  }
+  return particles;
+}
+
+std::vector<double> some_velocity(const Particles& particles) {
+  std::vector<double> velocity;
+  for (std::size_t i = 0; i < particles.size() * static_cast<std::size_t>(particles.dimension); ++i)
+    velocity.push_back(awkward(3 * i + 1));
+  return velocity;
+}
+
+TEST(DensityFile, IsReadByParaViewsReaderDigitByDigit) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  const Folder folder;
+  // A lattice that is not square, far from the origin, with spacing 1/3.
+  const auto density = some_density(2, {1e6 + 1 / 7., -2, 0}, {1e6 + 1 / 7. + 2, -1, 0}, 7);
+  Collection series(folder / "density.pvd");
+  std::string expected;
+  const std::vector<double> times{0, std::numbers::pi / 2, 2 * std::numbers::pi};
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const std::string name = "density/density_000" + std::to_string(i) + ".vti";
+    auto frame = density;
+    frame.rho[3] = times[i];
+    write_density(folder / name, frame, times[i]);
+    series.add(times[i], folder / name);
+    const auto& lattice = frame.lattice;
+    expected += "timestep" + numbers<double>({times[i]}) + " " + name + "\nvtkImageData\n";
+    expected += "extent" + numbers<long>({0, 6, 0, 3, 0, 0}) + "\n";
+    expected += "origin" + numbers<double>({lattice.origin[0], lattice.origin[1], 0}) + "\n";
+    expected += "spacing" + numbers<double>({lattice.spacing, lattice.spacing, lattice.spacing}) + "\n";
+    expected += "scalars rho\narray rho double 1" + numbers(frame.rho) + "\n";
+    expected += "field TimeValue double 1" + numbers<double>({times[i]}) + "\n";
+    EXPECT_EQ(read_series(python, folder / "density.pvd"), expected);  // valid after every frame
+  }
+}
+
+TEST(DensityFile, OfThreeDimensionsIsReadBack) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  const Folder folder;
+  const auto density = some_density(3, {0, 0, 0}, {1, 0.5, 0.75}, 5);
+  write_density(folder / "rho.vti", density, -1.5);
+  Collection(folder / "rho.pvd").add(-1.5, folder / "rho.vti");
+  const std::string text = read_series(python, folder / "rho.pvd");
+  EXPECT_NE(text.find("extent 0 4 0 2 0 3\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("array rho double 1" + numbers(density.rho) + "\n"), std::string::npos) << text;
+}
+
+TEST(ParticleFile, IsReadByParaViewsReaderDigitByDigit) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  for (const int dimension : {2, 3}) {
+    const Folder folder;
+    const auto particles = some_particles(dimension, 11);
+    const auto velocity = some_velocity(particles);
+    write_particles(folder / "particles_0000.vtp", particles, velocity, 0.1);
+    Collection(folder / "particles.pvd").add(0.1, folder / "particles_0000.vtp");
+
+    std::vector<double> points, u;  // padded with zeros
+    std::vector<long> vertices;
+    for (std::size_t j = 0; j < particles.size(); ++j) {
+      for (int k = 0; k < 3; ++k) {
+        points.push_back(k < dimension ? particles.position[k][j] : 0);
+        u.push_back(k < dimension ? velocity[j * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(k)]
+                                  : 0);
+      }
+      vertices.push_back(static_cast<long>(j));
+    }
+    const std::string text = read_series(python, folder / "particles.pvd");
+    const std::string type_of_id = text.find("array id long long 1") != std::string::npos ? "long long" : "long";
+    EXPECT_EQ(text, "timestep" + numbers<double>({0.1}) + " particles_0000.vtp\nvtkPolyData\npoints double" +
+                        numbers(points) + "\nvertices" + numbers(vertices) + "\nsingle True\nscalars alpha\narray id " +
+                        type_of_id + " 1" + numbers(particles.id) + "\narray alpha double 1" +
+                        numbers(particles.alpha) + "\narray u double 3" + numbers(u) + "\nfield TimeValue double 1" +
+                        numbers<double>({0.1}) + "\n");
+    EXPECT_NE(text_of(folder / "particles_0000.vtp").find("type=\"Int64\" Name=\"id\""), std::string::npos);
+  }
+}
+
+TEST(ParticleFile, WithoutParticlesIsStillAFile) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  const Folder folder;
+  write_particles(folder / "none.vtp", Particles{}, {}, 1);
+  Collection(folder / "none.pvd").add(1, folder / "none.vtp");
+  const std::string text = read_series(python, folder / "none.pvd");
+  EXPECT_NE(text.find("array u double 3 \n"), std::string::npos) << text;
+  EXPECT_NE(text.find("field TimeValue double 1 1\n"), std::string::npos) << text;
+}
+
+TEST(VtkFiles, AreRawAppendedAndUncompressed) {
+  const Folder folder;
+  const auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, 20);
+  write_density(folder / "rho.vti", density, 0);
+  const std::string text = text_of(folder / "rho.vti");
+  for (const char* part : {"encoding=\"raw\"", "header_type=\"UInt64\"", "type=\"Float64\" Name=\"rho\"", "TimeValue"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  EXPECT_EQ(text.find("compressor"), std::string::npos);
+  const std::string bytes(reinterpret_cast<const char*>(density.rho.data()), density.rho.size() * sizeof(double));
+  EXPECT_NE(text.find(bytes), std::string::npos) << "the numbers are not there as they are in memory";
+}
+
+TEST(VtkFiles, RefuseArraysOfTheWrongLength) {
+  const Folder folder;
+  auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, 5);
+  density.rho.pop_back();
+  EXPECT_THROW(write_density(folder / "rho.vti", density, 0), Error);
+  EXPECT_THROW(write_particles(folder / "p.vtp", some_particles(2, 3), {1, 2, 3}, 0), Error);
+  EXPECT_EQ(folder.count(), 0u);
+}
+
+/// Sizes below and above the buffer of a stream, where a failure shows at different calls.
+TEST(VtkFiles, KeepTheOldFileWhenTheLimitOfFileSizesIsMet) {
+  for (const int per_axis : {5, 20, 300}) {
+    const Folder folder;
+    const auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, per_axis);
+    write_density(folder / "rho.vti", density, 0);
+    const std::string old = text_of(folder / "rho.vti");
+    for (const std::size_t missing : {old.size() - 200, old.size() / 2, std::size_t{1}}) {
+      std::string text;
+      {
+        const FileSizeLimit limit(old.size() - missing);
+        text = message_of<FileError>([&] { write_density(folder / "rho.vti", density, 0); });
+      }
+      EXPECT_NE(text.find("cannot write " + (folder / "rho.vti").string() + ": "), std::string::npos)
+          << per_axis << " " << missing << text;
+      EXPECT_NE(text.find("free some space"), std::string::npos) << text;
+      EXPECT_EQ(text_of(folder / "rho.vti"), old);
+      EXPECT_EQ(folder.count(), 1u) << "something was left beside it";
+    }
+  }
+}
+
+TEST(VtkFiles, NameFileReasonAndRemedyOnAFullDisk) {
+  const Folder folder;
+  const SmallDisk disk(folder.path());
+  if (!disk.mounted()) GTEST_SKIP() << "this user may not mount a small file system";
+  const auto small = some_density(2, {0, 0, 0}, {1, 1, 0}, 5), large = some_density(2, {0, 0, 0}, {1, 1, 0}, 200);
+  write_density(folder / "density_0002.vti", small, 0);
+  const std::string old = text_of(folder / "density_0002.vti");
+  for (const char* name : {"density_0002.vti", "density_0003.vti"}) {
+    const auto text = message_of<FileError>([&] { write_density(folder / name, large, 1); });
+    EXPECT_EQ(text, "cannot write " + (folder / name).string() +
+                        ": No space left on device (28); free some space, or choose another folder with --out; "
+                        "everything written before is intact");
+  }
+  const auto particles = some_particles(2, 5000);
+  EXPECT_THROW(write_particles(folder / "particles_0003.vtp", particles, some_velocity(particles), 1), FileError);
+  EXPECT_EQ(text_of(folder / "density_0002.vti"), old);
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(VtkFiles, SayNothingOnTheTerminalWhenTheyFail) {
+  const Folder folder;
+  const auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, 300);
+  testing::internal::CaptureStderr();
+  {
+    const FileSizeLimit limit(10000);
+    EXPECT_THROW(write_density(folder / "rho.vti", density, 0), FileError);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Collection, WritesPathsRelativeToItselfAndEscapesThem) {
+  const Folder folder;
+  Collection series(folder / "run/density.pvd");
+  series.add(1. / 3, folder / "run/density/a<b & \"c\".vti");
+  series.add(2, folder / "elsewhere/b.vti");
+  const std::string text = text_of(folder / "run/density.pvd");
+  EXPECT_NE(text.find("timestep=\"0.33333333333333331\" part=\"0\" file=\"density/a&lt;b &amp; &quot;c&quot;.vti\""),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("file=\"../elsewhere/b.vti\""), std::string::npos) << text;
+}
+
+TEST(Collection, TakesPathsRelativeToTheWorkingFolder) {
+  const Folder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  Collection("density.pvd").add(0, "density/density_0000.vti");
+  Collection("out/density.pvd").add(0, "out/density/density_0000.vti");
+  std::filesystem::current_path(before);
+  for (const char* name : {"density.pvd", "out/density.pvd"})
+    EXPECT_NE(text_of(folder / name).find("file=\"density/density_0000.vti\""), std::string::npos)
+        << text_of(folder / name);
+}
+
+TEST(Collection, IsWholeAfterAFailedAdd) {
+  const Folder folder;
+  Collection series(folder / "density.pvd");
+  series.add(0, folder / "a.vti");
+  const std::string old = text_of(folder / "density.pvd");
+  {
+    const FileSizeLimit limit(50);
+    EXPECT_THROW(series.add(1, folder / "b.vti"), FileError);
+  }
+  EXPECT_EQ(text_of(folder / "density.pvd"), old);
+  series.add(2, folder / "c.vti");
+  const std::string text = text_of(folder / "density.pvd");
+  EXPECT_EQ(text.find("b.vti"), std::string::npos) << "the frame that failed is listed";
+  EXPECT_NE(text.find("c.vti"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gaussdrift::write
