@@ -79,7 +79,8 @@ enum class Method { automatic, direct, hermite };
 /// The name as it is written in files: "auto", "direct", "hermite".
 std::string to_string(Method method);
 
-/// Parameters of `hermite` set by hand, as in the thesis [Sch06, ch. 3]; the accuracy is then bound (3.5) and nothing else.
+/// Parameters of `hermite` set by hand, as in the thesis [Sch06, ch. 3]; the accuracy is then bound (3.5) and nothing
+/// else.
 struct HermiteParameters {
   double box_scale = 0.5;      // r: boxes have the side r sqrt(2/sigma); bound (3.5) needs r < 1
   int expansion_order = 9;     // p: terms an axis
@@ -89,15 +90,15 @@ struct HermiteParameters {
 };
 
 struct Options {
-  double tolerance = 1e-6;             // of each Gaussian term, see Plan; smallest_tolerance <= tolerance < 1
-  int derivative_order = 0;            // highest |alpha| that evaluate() can return
-  Method method = Method::automatic;   //
-  int threads = 0;                     // 0: all
+  double tolerance = 1e-6;            // of each Gaussian term, see Plan; smallest_tolerance <= tolerance < 1
+  int derivative_order = 0;           // highest |alpha| that evaluate() can return
+  Method method = Method::automatic;  //
+  int threads = 0;                    // 0: all
   std::size_t memory_limit = std::size_t{8} << 30;  // bytes that plan and evaluation may hold together
 
   // What will be evaluated, for the prediction of cost only; other targets stay possible.
-  std::size_t expected_targets = 0;               // scattered; 0: as many as sources
-  std::optional<TensorGrid> expected_grid = {};   // takes precedence over expected_targets
+  std::size_t expected_targets = 0;              // scattered; 0: as many as sources
+  std::optional<TensorGrid> expected_grid = {};  // takes precedence over expected_targets
 
   std::optional<HermiteParameters> hermite = {};  // by hand; implies Method::hermite
 };
@@ -110,19 +111,19 @@ constexpr double smallest_tolerance = 1e-14;
 
 struct Choice {
   Method method = Method::direct;
-  double tolerance = 0;       // what was asked for; 0 if parameters were given by hand
-  std::optional<double> bound;  // proven error of one term, relative to |lambda| N_alpha, worst |alpha| <= derivative_order;
-                                // none for r >= 1
-  double cost = 0;            // predicted cost in pairs of `direct` (hermite: p^d N + (2n+1)^d p^d M, [Sch06, 3.5])
-  double seconds = 0;         // the same predicted in seconds on one thread
+  double tolerance = 0;         // what was asked for; 0 if parameters were given by hand
+  std::optional<double> bound;  // proven error of one term, relative to |lambda| N_alpha, worst |alpha| <=
+                                // derivative_order; none for r >= 1
+  double cost = 0;     // predicted cost in pairs of `direct` (hermite: p^d N + (2n+1)^d p^d M, [Sch06, 3.5])
+  double seconds = 0;  // the same predicted in seconds on one thread
   std::size_t sources = 0;
-  std::size_t targets = 0;    // that the prediction is for
+  std::size_t targets = 0;  // that the prediction is for
   // hermite only
-  double box_scale = 0;       // r
-  double box_side = 0;        // r sqrt(2/sigma)
-  int expansion_order = 0;    // p
-  int neighbours = 0;         // n; HermiteParameters::all_boxes if every box counts
-  std::size_t boxes = 0;      // occupied
+  double box_scale = 0;     // r
+  double box_side = 0;      // r sqrt(2/sigma)
+  int expansion_order = 0;  // p
+  int neighbours = 0;       // n; HermiteParameters::all_boxes if every box counts
+  std::size_t boxes = 0;    // occupied
 };
 
 std::ostream& operator<<(std::ostream& out, const Choice& choice);
@@ -134,8 +135,8 @@ std::ostream& operator<<(std::ostream& out, const Choice& choice);
 template <int d>
 double derivative_scale(const Derivative<d>& alpha, double sigma);
 
-/// Bound (3.5) of [Sch06, Satz 3.7.7] for one unit weight (Q_R = Q_A = 1), divided by sigma^{|alpha|/2}; r < 1, p >= 2k - 1
-/// with k the largest alpha_i, else none. With n = all_boxes the first term (neglected boxes) is absent.
+/// Bound (3.5) of [Sch06, Satz 3.7.7] for one unit weight (Q_R = Q_A = 1), divided by sigma^{|alpha|/2}; r < 1, p >= 2k
+/// - 1 with k the largest alpha_i, else none. With n = all_boxes the first term (neglected boxes) is absent.
 template <int d>
 std::optional<double> hermite_bound(double r, int p, int n, const Derivative<d>& alpha);
 
@@ -150,10 +151,10 @@ template <int d>
 class Engine;
 }
 
-/// A prepared sum. With `tolerance` given, every single term lambda_j D^alpha exp(-sigma |y - x_j|^2) is right to within
-/// tolerance |lambda_j| N_alpha at every target, and beyond sigma |y - x_j|^2 = L = 2 ln(1/tolerance) + 40 to within
-/// tolerance |lambda_j| N_alpha exp(L - sigma |y - x_j|^2); rounding adds about 3e-14 N_alpha times the weight around the
-/// target. A combination has sum |c_alpha| N_alpha in place of N_alpha.
+/// A prepared sum. With `tolerance` given, every single term lambda_j D^alpha exp(-sigma |y - x_j|^2) is right to
+/// within tolerance |lambda_j| N_alpha at every target, and beyond sigma |y - x_j|^2 = L = 2 ln(1/tolerance) + 40 to
+/// within tolerance |lambda_j| N_alpha exp(L - sigma |y - x_j|^2); rounding adds about 3e-14 N_alpha times the weight
+/// around the target. A combination has sum |c_alpha| N_alpha in place of N_alpha.
 template <int d>
 class Plan {
   static_assert(1 <= d && d <= 4, "fgtd: dimensions 1 to 4");
@@ -181,7 +182,8 @@ class Plan {
   Eigen::MatrixXd evaluate_combinations(const TensorGrid& grid, const std::vector<Combination<d>>& combinations) const;
 
   /// One combination. Returns M x c.
-  Eigen::MatrixXd evaluate_combination(const Eigen::Ref<const Points<d>>& targets, const Combination<d>& combination) const;
+  Eigen::MatrixXd evaluate_combination(const Eigen::Ref<const Points<d>>& targets,
+                                       const Combination<d>& combination) const;
   Eigen::MatrixXd evaluate_combination(const TensorGrid& grid, const Combination<d>& combination) const;
 
   /// Same points and sigma, new weights (N x c; c may change).

@@ -16,8 +16,8 @@ namespace gaussdrift {
 using Params = std::vector<std::pair<std::string, double>>;
 
 struct Domain {
-  int dimension = 2;               // 2 or 3
-  std::array<double, 3> min{};     // entries beyond the dimension are 0
+  int dimension = 2;            // 2 or 3
+  std::array<double, 3> min{};  // entries beyond the dimension are 0
   std::array<double, 3> max{};
 };
 
@@ -79,9 +79,9 @@ struct OutputSpec {
 };
 
 struct Case {
-  std::string name;                // stem of the file: names the output folder
-  std::filesystem::path file;      // where it came from; empty for a case built in memory
-  std::string source;              // text of that file
+  std::string name;            // stem of the file: names the output folder
+  std::filesystem::path file;  // where it came from; empty for a case built in memory
+  std::string source;          // text of that file
   std::string title;
   std::string cite;
   Params params;

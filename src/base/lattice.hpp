@@ -21,8 +21,8 @@ struct Lattice {
   std::vector<double> nodes(int axis) const;
 };
 
-/// The lattice with `per_axis` >= 2 points on the longest axis of [min, max], spacing L/(per_axis - 1); the other axes get
-/// floor(L_k / spacing) + 1 points, centred.
+/// The lattice with `per_axis` >= 2 points on the longest axis of [min, max], spacing L/(per_axis - 1); the other axes
+/// get floor(L_k / spacing) + 1 points, centred.
 Lattice make_lattice(int dimension, const Vector& min, const Vector& max, int per_axis);
 
 }  // namespace gaussdrift

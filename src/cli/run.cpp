@@ -33,9 +33,15 @@ std::vector<render::Style> styles_of(const Case& scene) {
   std::vector<render::Style> styles;
   for (const OutputSpec::Image image : scene.output.images) {
     switch (image) {
-      case OutputSpec::Image::surface: styles.push_back(render::Style::surface); break;
-      case OutputSpec::Image::contour: styles.push_back(render::Style::contour); break;
-      case OutputSpec::Image::heatmap: styles.push_back(render::Style::heatmap); break;
+      case OutputSpec::Image::surface:
+        styles.push_back(render::Style::surface);
+        break;
+      case OutputSpec::Image::contour:
+        styles.push_back(render::Style::contour);
+        break;
+      case OutputSpec::Image::heatmap:
+        styles.push_back(render::Style::heatmap);
+        break;
     }
   }
   return styles;
@@ -63,18 +69,24 @@ double seconds_of(const RunSummary& summary, const std::string& beginning) {
 void print_ending(const Case& scene, const RunSummary& summary, const fs::path& folder) {
   double worst = 0;
   for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
-  fmt::print("done   {} particles, {} steps, {} frames in {:.2f} s on {} threads (transport {:.2f}, density {:.2f}, files {:.2f}, pictures {:.2f})\n",
-             summary.particles, summary.steps, summary.frames.size(), summary.seconds, summary.threads, seconds_of(summary, "transport"),
-             seconds_of(summary, "density"), seconds_of(summary, "write"), seconds_of(summary, "pictures"));
+  fmt::print(
+      "done   {} particles, {} steps, {} frames in {:.2f} s on {} threads (transport {:.2f}, density {:.2f}, files "
+      "{:.2f}, pictures {:.2f})\n",
+      summary.particles, summary.steps, summary.frames.size(), summary.seconds, summary.threads,
+      seconds_of(summary, "transport"), seconds_of(summary, "density"), seconds_of(summary, "write"),
+      seconds_of(summary, "pictures"));
   if (!summary.frames.empty()) {
     const auto& [t0, first] = summary.frames.front();
     const auto& [t1, last] = summary.frames.back();
-    fmt::print("result max rho = {:.6f} at t = {:.4g}, {:.6f} at t = {:.4g}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n",
-               first.maximum, t0, last.maximum, t1, last.mass, worst, scene.evaluate.tolerance);
+    fmt::print(
+        "result max rho = {:.6f} at t = {:.4g}, {:.6f} at t = {:.4g}; mass {:.9g}; Gauss transform right to {:.0e} of "
+        "max rho ({:.0e} asked)\n",
+        first.maximum, t0, last.maximum, t1, last.mass, worst, scene.evaluate.tolerance);
   }
   const bool pictures = fs::exists(folder / "images");
   const bool density = fs::exists(folder / "density.pvd");
-  fmt::print("open   {}{}{}\n", density ? (folder / "density.pvd").string() + " in ParaView" : (folder / "series.csv").string(),
+  fmt::print("open   {}{}{}\n",
+             density ? (folder / "density.pvd").string() + " in ParaView" : (folder / "series.csv").string(),
              pictures ? ", pictures in " : "", pictures ? (folder / "images").string() : "");
 }
 
@@ -95,7 +107,9 @@ ExitCode run(const RunOptions& options) {
     summary = simulation.run();
   }
   if (summary.transform_achievable > scene.evaluate.tolerance)
-    fmt::print(stderr, "warning: evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is {:.1e} of max rho\n",
+    fmt::print(stderr,
+               "warning: evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
+               "{:.1e} of max rho\n",
                scene.evaluate.tolerance, summary.transform_achievable);
   const std::string json = write::summary_json(scene, summary);
   write::write_text(folder / "summary.json", json);
@@ -115,14 +129,18 @@ ExitCode check(const CaseOptions& options) {
 
 ExitCode reproduce(const std::string& table, int threads, bool json) {
   if (table.empty()) {
-    fmt::print("tables that can be reproduced:\n  cone   heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n");
+    fmt::print(
+        "tables that can be reproduced:\n  cone   heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder "
+        "2006\n");
     return ExitCode::ok;
   }
-  if (table != "cone") throw CommandLineError(fmt::format("nothing called \"{}\" can be reproduced; there is: cone", table));
+  if (table != "cone")
+    throw CommandLineError(fmt::format("nothing called \"{}\" can be reproduced; there is: cone", table));
   study::ConeReproduction result;
   {
     ProgressLine line;
-    result = study::reproduce_cone(threads, [&](std::size_t done, std::size_t total) { line.show(fmt::format("{} of {} heights", done, total)); });
+    result = study::reproduce_cone(
+        threads, [&](std::size_t done, std::size_t total) { line.show(fmt::format("{} of {} heights", done, total)); });
   }
   fmt::print("{}", json ? study::to_json(result) : study::to_text(result));
   return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;

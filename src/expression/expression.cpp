@@ -8,8 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <mutex>
 #include <numbers>
 
@@ -162,8 +163,8 @@ void run(const Step* step, std::size_t steps, const double* const* arguments, st
     bool same = true;
     if (step->operation == Operation::variable) {
       const double* given = arguments[step->variable] + first;
-      same = std::all_of(given, given + count,
-                         [&](double value) { return std::memcmp(&value, given, sizeof value) == 0; });
+      const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+      same = std::all_of(given, given + count, [&](double value) { return bits(value) == bits(*given); });
     }
     for (std::size_t k = base; k < top; ++k) same = same && stack.same[k];
     if (!same)
@@ -310,9 +311,10 @@ struct Expression::Implementation {
 };
 
 Expression::Expression(std::string text, std::vector<std::string> variables,
-                       std::vector<std::pair<std::string, double>> constants) {
+                       const std::vector<std::pair<std::string, double>>& constants) {
   auto made = std::make_shared<Implementation>();
   std::vector<std::string> constant_names;
+  constant_names.reserve(constants.size());
   for (const auto& constant : constants) constant_names.push_back(constant.first);
   made->used_names = expression::check_syntax(text, variables, constant_names);
 
@@ -370,6 +372,7 @@ double Expression::evaluate(const std::vector<double>& arguments) const {
     throw std::invalid_argument(fmt::format("the expression \"{}\" has {} variables, given {} values", text(),
                                             implementation_->variables.size(), arguments.size()));
   std::vector<const double*> rows;
+  rows.reserve(arguments.size());
   for (const double& argument : arguments) rows.push_back(&argument);
   double value = 0;
   evaluate(rows.data(), 1, &value);

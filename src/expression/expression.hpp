@@ -32,7 +32,7 @@ class Expression {
  public:
   /// Throws ExpressionError; an unknown name is answered with the nearest known one.
   Expression(std::string text, std::vector<std::string> variables,
-             std::vector<std::pair<std::string, double>> constants);
+             const std::vector<std::pair<std::string, double>>& constants);
   ~Expression();
   Expression(const Expression&);
   Expression(Expression&&) noexcept;

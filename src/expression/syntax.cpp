@@ -52,7 +52,7 @@ std::size_t number_length(const std::string& text, std::size_t first) {
 }
 
 Token number_at(const std::string& text, std::size_t position) {
-  const Token token{Token::Kind::number, position, text.substr(position, number_length(text, position))};
+  Token token{Token::Kind::number, position, text.substr(position, number_length(text, position))};
   double value = 0;
   const auto read = std::from_chars(token.text.data(), token.text.data() + token.text.size(), value);
   if (read.ec == std::errc::result_out_of_range)
@@ -95,7 +95,7 @@ Token next_token(const std::string& text, std::size_t from) {
   const std::string_view rest = std::string_view(text).substr(from);
   for (const auto symbol : symbols)
     if (rest.substr(0, symbol.size()) == symbol) {
-      const Token token{Token::Kind::symbol, from, std::string(symbol)};
+      Token token{Token::Kind::symbol, from, std::string(symbol)};
       if (symbol == "**") refuse_foreign_symbol(token);
       return token;
     }

@@ -23,7 +23,8 @@ std::optional<double> hermite_bound(double r, int p, int n, const Derivative<d>&
   for (const int a : alpha) k = std::max(k, a);
   if (!(r > 0) || r >= 1 || p < 1 || p < 2 * k - 1 || p < k) return std::nullopt;
   const double boxes = n < 0 ? 0.0 : derivative_scale<d>(alpha, 1.0) * std::exp(-r * r * n * n);
-  const double kept = std::pow(2.0, 0.5 * k) * (1 - std::pow(r, p)) * std::exp(0.5 * (std::lgamma(p + k) - std::lgamma(p)));
+  const double kept =
+      std::pow(2.0, 0.5 * k) * (1 - std::pow(r, p)) * std::exp(0.5 * (std::lgamma(p + k) - std::lgamma(p)));
   const double cut = std::pow(2.0, k) * std::pow(r, p) * std::exp(-0.5 * std::lgamma(p - k + 1));
   double sum = 0, binomial = 1;
   for (int l = 0; l < d; ++l) {
@@ -112,7 +113,8 @@ double dropped_error(int d, double rho, int derivative_order) {
   std::vector<double> polynomial{1.0};  // sum |coefficients| rho^j, scaled by 1/sqrt(2^k k!)
   for (int n = 0; n < derivative_order; ++n) {
     const double before = n == 0 ? 0.0 : polynomial[static_cast<std::size_t>(n - 1)];
-    polynomial.push_back(rho * std::sqrt(2.0 / (n + 1)) * polynomial[static_cast<std::size_t>(n)] + std::sqrt(n / (n + 1.0)) * before);
+    polynomial.push_back(rho * std::sqrt(2.0 / (n + 1)) * polynomial[static_cast<std::size_t>(n)] +
+                         std::sqrt(n / (n + 1.0)) * before);
   }
   double worst = 0;
   for_each_partition(d, derivative_order, [&](const std::array<int, 4>& alpha) {
@@ -154,8 +156,8 @@ template std::optional<double> thesis_bound<4>(double, int, int, int);
 
 }  // namespace detail
 
-#define FGTD_INSTANTIATE(d)                                              \
-  template double derivative_scale<d>(const Derivative<d>&, double);     \
+#define FGTD_INSTANTIATE(d)                                          \
+  template double derivative_scale<d>(const Derivative<d>&, double); \
   template std::optional<double> hermite_bound<d>(double, int, int, const Derivative<d>&);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -52,12 +52,14 @@ Corners<d> bounding_box(const std::vector<double>& position, std::size_t count) 
 
 /// i_l = min(floor((x_l - low_l) / side), boxes of axis l - 1) for every point.
 template <int d>
-std::vector<BoxIndex<d>> box_indices(const std::vector<double>& position, std::size_t count, double side, const Corners<d>& corners) {
+std::vector<BoxIndex<d>> box_indices(const std::vector<double>& position, std::size_t count, double side,
+                                     const Corners<d>& corners) {
   std::vector<BoxIndex<d>> index(count);
   for (std::size_t l = 0; l < d; ++l) {
     const double last = std::max(0.0, std::ceil((corners.high[l] - corners.low[l]) / side) - 1);
     for (std::size_t j = 0; j < count; ++j)
-      index[j][l] = static_cast<std::int64_t>(std::min(std::floor((position[l * count + j] - corners.low[l]) / side), last));
+      index[j][l] =
+          static_cast<std::int64_t>(std::min(std::floor((position[l * count + j] - corners.low[l]) / side), last));
   }
   return index;
 }
@@ -96,7 +98,8 @@ std::vector<std::size_t> sorted_places(const std::vector<BoxIndex<d>>& index) {
     for (std::size_t j = 0; j < index.size(); ++j) {
       std::uint64_t number = 0;
       for (std::size_t l = d; l-- > 0;)
-        number = number * static_cast<std::uint64_t>(high[l] - low[l] + 1) + static_cast<std::uint64_t>(index[j][l] - low[l]);
+        number = number * static_cast<std::uint64_t>(high[l] - low[l] + 1) +
+                 static_cast<std::uint64_t>(index[j][l] - low[l]);
       key[j] = number;
     }
     sort_by_key(key, place);
@@ -153,11 +156,11 @@ Occupation<d> count_boxes(const std::vector<double>& position, std::size_t count
   return occupation;
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                         \
-  template struct Boxes<d>;                                                                                         \
-  template bool boxes_resolve<d>(const std::vector<double>&, std::size_t, double);                                  \
-  template std::vector<std::size_t> sorted_places<d>(const std::vector<BoxIndex<d>>&);                              \
-  template Boxes<d> make_boxes<d>(std::vector<double>&, std::size_t, double, std::vector<std::size_t>&);            \
+#define FGTD_INSTANTIATE(d)                                                                              \
+  template struct Boxes<d>;                                                                              \
+  template bool boxes_resolve<d>(const std::vector<double>&, std::size_t, double);                       \
+  template std::vector<std::size_t> sorted_places<d>(const std::vector<BoxIndex<d>>&);                   \
+  template Boxes<d> make_boxes<d>(std::vector<double>&, std::size_t, double, std::vector<std::size_t>&); \
   template Occupation<d> count_boxes<d>(const std::vector<double>&, std::size_t, double);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

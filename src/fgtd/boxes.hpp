@@ -1,6 +1,6 @@
 // The boxes of `hermite`: a lattice of cubes that starts at the lower corner of the sources, of which only the occupied
-// ones exist. Boxes are sorted with the last axis slowest and known as a tree: slabs of equal last index, in them lines,
-// in them boxes. Nothing has a size that depends on sigma.
+// ones exist. Boxes are sorted with the last axis slowest and known as a tree: slabs of equal last index, in them
+// lines, in them boxes. Nothing has a size that depends on sigma.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ struct Boxes {
   std::int64_t index_at(std::size_t axis, double y) const;
 };
 
-/// True if boxes of this side can be told apart: every |x| is below 2^40 sides, so that the rounding of a centre moves it
-/// by less than side/1000.
+/// True if boxes of this side can be told apart: every |x| is below 2^40 sides, so that the rounding of a centre moves
+/// it by less than side/1000.
 template <int d>
 bool boxes_resolve(const std::vector<double>& position, std::size_t count, double side);
 
-/// Sorts `position` ([d][count]) into boxes; `order[new place] = old place`. A point on the upper face of the bounding box
-/// belongs to the last box.
+/// Sorts `position` ([d][count]) into boxes; `order[new place] = old place`. A point on the upper face of the bounding
+/// box belongs to the last box.
 template <int d>
 Boxes<d> make_boxes(std::vector<double>& position, std::size_t count, double side, std::vector<std::size_t>& order);
 

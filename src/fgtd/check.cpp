@@ -20,13 +20,14 @@ std::string text(std::size_t value) { return std::to_string(value); }
 
 }  // namespace
 
-void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride) {
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count,
+                  std::size_t stride) {
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t l = 0; l < dimension; ++l) {
       const double value = points[j * stride + l];
       if (!std::isfinite(value)) {
-        throw InvalidArgument("fgtd: " + std::string(kind) + " " + text(j) + ", coordinate " + text(l) + " is " + text(value) + "; " + kind +
-                              "s must be finite");
+        throw InvalidArgument("fgtd: " + std::string(kind) + " " + text(j) + ", coordinate " + text(l) + " is " +
+                              text(value) + "; " + kind + "s must be finite");
       }
     }
 }
@@ -39,8 +40,8 @@ void check_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights, std::size_t
   for (Eigen::Index k = 0; k < weights.cols(); ++k)
     for (Eigen::Index j = 0; j < weights.rows(); ++j)
       if (!std::isfinite(weights(j, k))) {
-        throw InvalidArgument("fgtd: weight " + std::to_string(j) + ", column " + std::to_string(k) + " is " + text(weights(j, k)) +
-                              "; weights must be finite");
+        throw InvalidArgument("fgtd: weight " + std::to_string(j) + ", column " + std::to_string(k) + " is " +
+                              text(weights(j, k)) + "; weights must be finite");
       }
 }
 
@@ -60,20 +61,23 @@ void check_options(const Options& options, std::size_t dimension) {
                          " cannot be promised in double precision, must lie in [1e-14, 1)");
   }
   if (options.derivative_order < 0 || options.derivative_order > max_derivative_order) {
-    throw InvalidArgument("fgtd: Options::derivative_order = " + std::to_string(options.derivative_order) + ", must lie in 0 .. " +
-                          std::to_string(max_derivative_order));
+    throw InvalidArgument("fgtd: Options::derivative_order = " + std::to_string(options.derivative_order) +
+                          ", must lie in 0 .. " + std::to_string(max_derivative_order));
   }
   if (options.threads < 0) {
-    throw InvalidArgument("fgtd: Options::threads = " + std::to_string(options.threads) + ", must be positive, or 0 for all");
+    throw InvalidArgument("fgtd: Options::threads = " + std::to_string(options.threads) +
+                          ", must be positive, or 0 for all");
   }
   if (options.expected_grid) check_grid("Options::expected_grid", *options.expected_grid, dimension);
   if (!options.hermite) return;
   const HermiteParameters& by_hand = *options.hermite;
   if (options.method == Method::direct) {
-    throw InvalidArgument("fgtd: Options::hermite is given but Options::method = direct; leave the method to auto or hermite");
+    throw InvalidArgument(
+        "fgtd: Options::hermite is given but Options::method = direct; leave the method to auto or hermite");
   }
   if (!(by_hand.box_scale > 0) || !std::isfinite(by_hand.box_scale)) {
-    throw InvalidArgument("fgtd: HermiteParameters::box_scale = " + text(by_hand.box_scale) + ", must be positive and finite");
+    throw InvalidArgument("fgtd: HermiteParameters::box_scale = " + text(by_hand.box_scale) +
+                          ", must be positive and finite");
   }
   if (by_hand.expansion_order < 1 || by_hand.expansion_order > 1000) {
     throw InvalidArgument("fgtd: HermiteParameters::expansion_order = " + std::to_string(by_hand.expansion_order) +
@@ -87,18 +91,20 @@ void check_options(const Options& options, std::size_t dimension) {
 
 void check_grid(const char* name, const TensorGrid& grid, std::size_t dimension) {
   if (grid.axes.size() != dimension) {
-    throw InvalidArgument("fgtd: " + std::string(name) + " has " + text(grid.axes.size()) + " axes, must have " + text(dimension));
+    throw InvalidArgument("fgtd: " + std::string(name) + " has " + text(grid.axes.size()) + " axes, must have " +
+                          text(dimension));
   }
   for (std::size_t axis = 0; axis < dimension; ++axis) {
     const auto& nodes = grid.axes[axis];
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!std::isfinite(nodes[i])) {
-        throw InvalidArgument("fgtd: " + std::string(name) + ", axis " + text(axis) + ", node " + text(i) + " is " + text(nodes[i]) +
-                              "; nodes must be finite");
+        throw InvalidArgument("fgtd: " + std::string(name) + ", axis " + text(axis) + ", node " + text(i) + " is " +
+                              text(nodes[i]) + "; nodes must be finite");
       }
       if (i > 0 && !(nodes[i - 1] < nodes[i])) {
-        throw InvalidArgument("fgtd: " + std::string(name) + ", axis " + text(axis) + ", node " + text(i) + " = " + text(nodes[i]) +
-                              " does not exceed the node before it, " + text(nodes[i - 1]) + "; nodes must ascend");
+        throw InvalidArgument("fgtd: " + std::string(name) + ", axis " + text(axis) + ", node " + text(i) + " = " +
+                              text(nodes[i]) + " does not exceed the node before it, " + text(nodes[i - 1]) +
+                              "; nodes must ascend");
       }
     }
   }
@@ -106,8 +112,8 @@ void check_grid(const char* name, const TensorGrid& grid, std::size_t dimension)
 
 void check_memory(const char* what, double bytes, std::size_t limit) {
   if (bytes <= static_cast<double>(limit)) return;
-  throw MemoryLimitError("fgtd: " + std::string(what) + " needs about " + text(std::ceil(bytes)) + " bytes, Options::memory_limit is " +
-                         text(limit) + " bytes");
+  throw MemoryLimitError("fgtd: " + std::string(what) + " needs about " + text(std::ceil(bytes)) +
+                         " bytes, Options::memory_limit is " + text(limit) + " bytes");
 }
 
 }  // namespace fgtd::detail

@@ -7,9 +7,12 @@ namespace fgtd {
 
 std::string to_string(Method method) {
   switch (method) {
-    case Method::direct: return "direct";
-    case Method::hermite: return "hermite";
-    default: return "auto";
+    case Method::direct:
+      return "direct";
+    case Method::hermite:
+      return "hermite";
+    default:
+      return "auto";
   }
 }
 
@@ -22,7 +25,8 @@ std::ostream& operator<<(std::ostream& out, const Choice& choice) {
     out << ", no bound";
   }
   if (choice.method == Method::hermite) {
-    out << ", box scale " << choice.box_scale << " (side " << choice.box_side << "), expansion order " << choice.expansion_order << ", ";
+    out << ", box scale " << choice.box_scale << " (side " << choice.box_side << "), expansion order "
+        << choice.expansion_order << ", ";
     if (choice.neighbours == HermiteParameters::all_boxes) {
       out << "all boxes";
     } else {

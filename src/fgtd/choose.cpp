@@ -16,8 +16,8 @@ namespace {
 
 constexpr double box_scales[] = {0.15, 0.25, 0.35, 0.45, 0.55, 0.65, 0.75, 0.85, 0.95};  // r < 1, where (3.5) lives
 constexpr int largest_terms = 60;
-constexpr std::size_t sample_size = 8192;    // sources looked at to estimate how many boxes are occupied
-constexpr double centre_rounding = 1.001;    // boxes_resolve(): sources lie within so many half sides of the centre
+constexpr std::size_t sample_size = 8192;  // sources looked at to estimate how many boxes are occupied
+constexpr double centre_rounding = 1.001;  // boxes_resolve(): sources lie within so many half sides of the centre
 
 /// Sources of the sample and what a box costs to reach.
 template <int d>
@@ -34,14 +34,19 @@ struct Situation {
 
 template <int d>
 Situation<d> look_at(const Sources<d>& sources, double sigma, const Options& options) {
-  Situation<d> situation{options, sigma, static_cast<double>(sources.count), static_cast<double>(std::max<std::size_t>(1, sources.columns)),
-                         {}, std::min(sources.count, sample_size)};
+  Situation<d> situation{options,
+                         sigma,
+                         static_cast<double>(sources.count),
+                         static_cast<double>(std::max<std::size_t>(1, sources.columns)),
+                         {},
+                         std::min(sources.count, sample_size)};
   for (std::size_t l = 0; l < d; ++l) {
     const double* x = sources.position.data() + l * sources.count;
     const auto [low, high] = std::minmax_element(x, x + sources.count);
     situation.low[l] = *low;
     situation.extent[l] = *high - *low;
-    for (std::size_t i = 0; i < situation.sample_count; ++i) situation.sample.push_back(x[i * sources.count / situation.sample_count]);
+    for (std::size_t i = 0; i < situation.sample_count; ++i)
+      situation.sample.push_back(x[i * sources.count / situation.sample_count]);
   }
   return situation;
 }
@@ -72,7 +77,8 @@ double cubes_within(int d, double reach) {
 
 /// Predicted seconds of moments and evaluation.
 template <int d>
-double hermite_seconds(const Situation<d>& at, double side, int p, double reach, const std::array<double, d>& nodes, double targets) {
+double hermite_seconds(const Situation<d>& at, double side, int p, double reach, const std::array<double, d>& nodes,
+                       double targets) {
   const double reach_distance = reach / std::sqrt(at.sigma);
   const double moments = std::pow(p, d);
   const double derivatives = at.options.derivative_order > 0 ? 2 : 1;
@@ -83,14 +89,17 @@ double hermite_seconds(const Situation<d>& at, double side, int p, double reach,
     for (std::size_t l = 0; l < d; ++l) {
       const auto& axis = at.options.expected_grid->axes[l];
       const auto inside = [&](double low, double high) {
-        return static_cast<double>(std::upper_bound(axis.begin(), axis.end(), high) - std::lower_bound(axis.begin(), axis.end(), low));
+        return static_cast<double>(std::upper_bound(axis.begin(), axis.end(), high) -
+                                   std::lower_bound(axis.begin(), axis.end(), low));
       };
       const double hull = inside(at.low[l] - reach_distance, at.low[l] + at.extent[l] + reach_distance);
       const double span = at.extent[l] + 2 * reach_distance;
       const double window = std::min(hull, span > 0 ? hull * (side + 2 * reach_distance) / span : hull);
       const double rows = std::pow(p, static_cast<double>(d - 1 - l));
-      seconds += at.columns * derivatives * nodes[l] * (rows * p * (std::max(8.0, window) * below) * cost::product_step + cost::window_call);
-      seconds += nodes[l] * window * p * cost::hermite_value / std::max(1.0, l + 1 < d ? nodes[l] / std::max(1.0, at.extent[l] / side) : 1.0);
+      seconds += at.columns * derivatives * nodes[l] *
+                 (rows * p * (std::max(8.0, window) * below) * cost::product_step + cost::window_call);
+      seconds += nodes[l] * window * p * cost::hermite_value /
+                 std::max(1.0, l + 1 < d ? nodes[l] / std::max(1.0, at.extent[l] / side) : 1.0);
       below *= hull;
     }
     return seconds;
@@ -109,7 +118,8 @@ bool fades(int d, double r, int p, double farthest, double tolerance, int deriva
   if (farthest * farthest <= limit) return true;
   const double half_diagonal = r * std::sqrt(0.5 * d);
   const double inner = farthest - half_diagonal;
-  return log_far_error(d, r, p, derivative_order) - 0.5 * inner * inner <= std::log(tolerance) + limit - farthest * farthest;
+  return log_far_error(d, r, p, derivative_order) - 0.5 * inner * inner <=
+         std::log(tolerance) + limit - farthest * farthest;
 }
 
 template <int d>
@@ -121,7 +131,8 @@ template <int d>
 Decision by_hand(const Situation<d>& at, double targets) {
   const HermiteParameters& given = *at.options.hermite;
   Decision decision;
-  decision.hermite = {given.box_scale, given.expansion_order, given.neighbours, std::numeric_limits<double>::infinity()};
+  decision.hermite = {given.box_scale, given.expansion_order, given.neighbours,
+                      std::numeric_limits<double>::infinity()};
   Choice& choice = decision.choice;
   choice.bound = thesis_bound<d>(given.box_scale, given.expansion_order, given.neighbours, at.options.derivative_order);
   choice.box_scale = given.box_scale;
@@ -131,9 +142,11 @@ Decision by_hand(const Situation<d>& at, double targets) {
   if (!boxes_resolve<d>(at.sample, at.sample_count, choice.box_side)) return decision;
   const Occupation<d> seen = count_boxes<d>(at.sample, at.sample_count, choice.box_side);
   std::array<double, d> nodes;
-  for (std::size_t l = 0; l < d; ++l) nodes[l] = extrapolate(seen.nodes[l], static_cast<double>(at.sample_count), at.sources);
+  for (std::size_t l = 0; l < d; ++l)
+    nodes[l] = extrapolate(seen.nodes[l], static_cast<double>(at.sample_count), at.sources);
   const double sides = given.neighbours < 0 ? 1e9 : given.neighbours + 0.5;
-  choice.seconds = hermite_seconds<d>(at, choice.box_side, given.expansion_order, sides * choice.box_side * std::sqrt(at.sigma), nodes, targets);
+  choice.seconds = hermite_seconds<d>(at, choice.box_side, given.expansion_order,
+                                      sides * choice.box_side * std::sqrt(at.sigma), nodes, targets);
   choice.cost = thesis_cost<d>(at.sources, targets, given.expansion_order, given.neighbours, nodes[0]);
   choice.method = Method::hermite;
   return decision;
@@ -165,7 +178,8 @@ Decision cheapest_hermite(const Situation<d>& at, double targets) {
 
     const Occupation<d> seen = count_boxes<d>(at.sample, at.sample_count, side);
     std::array<double, d> nodes;
-    for (std::size_t l = 0; l < d; ++l) nodes[l] = extrapolate(seen.nodes[l], static_cast<double>(at.sample_count), at.sources);
+    for (std::size_t l = 0; l < d; ++l)
+      nodes[l] = extrapolate(seen.nodes[l], static_cast<double>(at.sample_count), at.sources);
     const double memory = 8 * (nodes[0] * at.columns * std::pow(p, d) + at.sources * (2 * d + at.columns + 3));
     smallest_memory = std::min(smallest_memory, memory);
     if (memory > static_cast<double>(at.options.memory_limit)) continue;
@@ -175,7 +189,8 @@ Decision cheapest_hermite(const Situation<d>& at, double targets) {
     best.hermite = {r, p, n, reach};
     Choice& choice = best.choice;
     choice.method = Method::hermite;
-    choice.bound = std::max(kept_error(d, centre_rounding * r, p, order), dropped_error(d, find_reach(d, tolerance, order), order));
+    choice.bound = std::max(kept_error(d, centre_rounding * r, p, order),
+                            dropped_error(d, find_reach(d, tolerance, order), order));
     choice.cost = thesis_cost<d>(at.sources, targets, p, n, nodes[0]);
     choice.seconds = seconds;
     choice.box_scale = r;
@@ -202,7 +217,8 @@ Decision choose(const Sources<d>& sources, double sigma, const Options& options)
   direct.choice.method = Method::direct;
   direct.choice.bound = 0;
   direct.choice.cost = count * targets;
-  direct.choice.seconds = direct.choice.cost * cost::direct_pair[d - 1] * static_cast<double>(std::max<std::size_t>(1, sources.columns)) *
+  direct.choice.seconds = direct.choice.cost * cost::direct_pair[d - 1] *
+                          static_cast<double>(std::max<std::size_t>(1, sources.columns)) *
                           (options.derivative_order > 0 ? cost::direct_derivative_factor : 1);
 
   Decision decision = direct;

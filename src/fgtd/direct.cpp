@@ -20,7 +20,8 @@ struct Terms {
   explicit Terms(const Request<d>& request) {
     for (const auto& combination : request.combinations) {
       for (const auto& part : combination) {
-        for (std::size_t l = 0; l < max_dimension; ++l) order.push_back(l < d ? request.derivatives[part.derivative][l] : 0);
+        for (std::size_t l = 0; l < max_dimension; ++l)
+          order.push_back(l < d ? request.derivatives[part.derivative][l] : 0);
         coefficient.push_back(part.factor);
       }
       first.push_back(coefficient.size());
@@ -30,8 +31,8 @@ struct Terms {
 
 /// point(i, coordinates) writes target i.
 template <int d, class Point>
-void evaluate(const Sources<d>& sources, double sigma, const Request<d>& request, std::size_t count, int threads, double* values,
-              const Point& point) {
+void evaluate(const Sources<d>& sources, double sigma, const Request<d>& request, std::size_t count, int threads,
+              double* values, const Point& point) {
   const Terms<d> terms(request);
   const RecurrenceTable recurrence(max_derivative_order + 1);
   const std::size_t outputs = request.combinations.size() * sources.columns;
@@ -74,15 +75,15 @@ void evaluate(const Sources<d>& sources, double sigma, const Request<d>& request
 }  // namespace
 
 template <int d>
-void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const double* targets, std::size_t count,
-                     int threads, double* values) {
+void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const double* targets,
+                     std::size_t count, int threads, double* values) {
   evaluate<d>(sources, sigma, request, count, threads, values,
               [&](std::size_t i, double* coordinates) { std::copy_n(targets + i * d, d, coordinates); });
 }
 
 template <int d>
-void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const TensorGrid& grid, int threads,
-                     double* values) {
+void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const TensorGrid& grid,
+                     int threads, double* values) {
   evaluate<d>(sources, sigma, request, grid.size(), threads, values, [&](std::size_t i, double* coordinates) {
     for (std::size_t l = 0; l < d; ++l) {
       const auto& nodes = grid.axes[l];
@@ -92,8 +93,9 @@ void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& 
   });
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                                     \
-  template void evaluate_direct<d>(const Sources<d>&, double, const Request<d>&, const double*, std::size_t, int, double*); \
+#define FGTD_INSTANTIATE(d)                                                                                       \
+  template void evaluate_direct<d>(const Sources<d>&, double, const Request<d>&, const double*, std::size_t, int, \
+                                   double*);                                                                      \
   template void evaluate_direct<d>(const Sources<d>&, double, const Request<d>&, const TensorGrid&, int, double*);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -21,12 +21,12 @@ struct Sources {
 
 /// values[(q columns + k) targets + i]; targets [targets][d].
 template <int d>
-void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const double* targets, std::size_t count,
-                     int threads, double* values);
+void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const double* targets,
+                     std::size_t count, int threads, double* values);
 
 /// The same on a tensor grid, first axis fastest.
 template <int d>
-void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const TensorGrid& grid, int threads,
-                     double* values);
+void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const TensorGrid& grid,
+                     int threads, double* values);
 
 }  // namespace fgtd::detail

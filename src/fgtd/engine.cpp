@@ -18,8 +18,8 @@ std::size_t stride(const Eigen::Ref<const Points<d>>& points) {
 }  // namespace
 
 template <int d>
-Engine<d>::Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Eigen::MatrixXd>& weights, double sigma,
-                  const Options& options)
+Engine<d>::Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Eigen::MatrixXd>& weights,
+                  double sigma, const Options& options)
     : sigma_(sigma), options_(options) {
   check_sigma(sigma);
   check_options(options, d);
@@ -38,7 +38,8 @@ Engine<d>::Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<c
   const Decision decision = choose<d>(sources_, sigma, options);
   choice_ = decision.choice;
   if (choice_.method == Method::hermite) {
-    check_memory("the plan", plan_bytes(sources_.columns) + 8.0 * static_cast<double>(count) * (2 * d + 4), options.memory_limit);
+    check_memory("the plan", plan_bytes(sources_.columns) + 8.0 * static_cast<double>(count) * (2 * d + 4),
+                 options.memory_limit);
     Boxes<d> boxes = make_boxes<d>(sources_.position, count, choice_.box_side, order_);
     choice_.boxes = boxes.count();
     hermite_.emplace(decision.hermite, sigma, std::move(boxes));
@@ -71,13 +72,15 @@ void Engine<d>::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
 }
 
 template <int d>
-Eigen::MatrixXd Engine<d>::evaluate(const Eigen::Ref<const Points<d>>& targets, const std::vector<Combination<d>>& combinations) const {
+Eigen::MatrixXd Engine<d>::evaluate(const Eigen::Ref<const Points<d>>& targets,
+                                    const std::vector<Combination<d>>& combinations) const {
   const std::size_t count = static_cast<std::size_t>(targets.cols());
   check_points("target", targets.data(), d, count, stride<d>(targets));
   const Request<d> request = make_request<d>(combinations, sigma_, options_.derivative_order);
   const std::size_t outputs = combinations.size() * sources_.columns;
   const double own = hermite_ ? hermite_->point_bytes(request, static_cast<double>(count)) : 0.0;
-  check_memory("evaluation", plan_bytes(sources_.columns) + own + 8.0 * static_cast<double>(count) * static_cast<double>(outputs + d),
+  check_memory("evaluation",
+               plan_bytes(sources_.columns) + own + 8.0 * static_cast<double>(count) * static_cast<double>(outputs + d),
                options_.memory_limit);
   const Points<d> packed = targets;
   Eigen::MatrixXd values(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(outputs));

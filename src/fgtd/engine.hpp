@@ -16,7 +16,8 @@ class Engine {
   Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Eigen::MatrixXd>& weights, double sigma,
          const Options& options);
 
-  Eigen::MatrixXd evaluate(const Eigen::Ref<const Points<d>>& targets, const std::vector<Combination<d>>& combinations) const;
+  Eigen::MatrixXd evaluate(const Eigen::Ref<const Points<d>>& targets,
+                           const std::vector<Combination<d>>& combinations) const;
   Eigen::MatrixXd evaluate(const TensorGrid& grid, const std::vector<Combination<d>>& combinations) const;
   void set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights);
   const Choice& choice() const { return choice_; }
@@ -29,7 +30,7 @@ class Engine {
   Options options_;
   Choice choice_;
   Sources<d> sources_;
-  std::vector<std::size_t> order_;          // sources_[j] is the caller's source order_[j]; empty: as given
+  std::vector<std::size_t> order_;  // sources_[j] is the caller's source order_[j]; empty: as given
   std::optional<HermiteSum<d>> hermite_;
 };
 

@@ -17,9 +17,9 @@ namespace fgtd::detail {
 
 /// r, p, n with the distance beyond which a box is left out.
 struct HermitePlan {
-  double box_scale = 0;       // r
-  int terms = 0;              // p
-  int neighbours = 0;         // n, or HermiteParameters::all_boxes
+  double box_scale = 0;                                    // r
+  int terms = 0;                                           // p
+  int neighbours = 0;                                      // n, or HermiteParameters::all_boxes
   double reach = std::numeric_limits<double>::infinity();  // times sqrt(sigma); infinite if n alone decides
 };
 

@@ -3,8 +3,8 @@
 //   line   T1[b2 b1][x]    = sum_{boxes of a line}  sum_{b0} A[b2 b1 b0] X[b0][x]
 //   slab   T2[b2][y x]    += sum_{lines of a slab}  sum_{b1} Y[y][b1] T1[b2 b1][x]
 //   grid   S[z][y x]      += sum_{slabs}            sum_{b2} Z[z][b2] T2[b2][y x]
-// where every sum over nodes runs over the window of nodes that the boxes reach. Slabs are independent; the grid is then
-// updated in pieces of its last axis, every node adding its slabs in ascending order, so threads change nothing.
+// where every sum over nodes runs over the window of nodes that the boxes reach. Slabs are independent; the grid is
+// then updated in pieces of its last axis, every node adding its slabs in ascending order, so threads change nothing.
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +31,8 @@ struct Window {
 
 /// Windows and tables of the columns of boxes along one axis.
 struct AxisTables {
-  std::vector<std::int64_t> column;   // distinct box indices
-  std::vector<Window> window;         // [columns]
+  std::vector<std::int64_t> column;        // distinct box indices
+  std::vector<Window> window;              // [columns]
   std::vector<std::vector<double>> table;  // [columns]: first axis [a][b][node], others [a][node][b]
 };
 
@@ -80,8 +80,8 @@ void for_each_run(const std::array<Window, d>& inner, std::size_t axes, const st
 template <int d>
 class GridSum {
  public:
-  GridSum(const HermitePlan& plan, double sigma, const Boxes<d>& boxes, const std::vector<double>& moments, std::size_t columns,
-          const Request<d>& request, const TensorGrid& grid)
+  GridSum(const HermitePlan& plan, double sigma, const Boxes<d>& boxes, const std::vector<double>& moments,
+          std::size_t columns, const Request<d>& request, const TensorGrid& grid)
       : plan_(plan),
         root_sigma_(std::sqrt(sigma)),
         boxes_(boxes),
@@ -124,7 +124,8 @@ class GridSum {
   /// Sum of the children of `node` of level `level` (>= 1) over axes 0 .. level-1, for one column of weights.
   void sum_children(std::size_t level, std::size_t node, std::size_t k, Block<d>& block) const;
   /// factor * g of the last axis for combination q and prefix: [node][b]; empty if the combination lacks the prefix.
-  std::vector<double> last_table(std::size_t slab_column, const Window& window, std::size_t q, std::size_t prefix) const;
+  std::vector<double> last_table(std::size_t slab_column, const Window& window, std::size_t q,
+                                 std::size_t prefix) const;
   void run_line(int threads, double* values) const;
   void run_slabs(int threads, double* values);
 
@@ -140,9 +141,9 @@ class GridSum {
   RecurrenceTable recurrence_;
   std::vector<double> roots_;
   std::array<AxisTables, d> axis_;
-  std::array<std::vector<Prefix>, d> prefix_;        // of axes 0 .. l
-  std::vector<std::size_t> prefix_of_;               // [derivatives]: prefix of axes 0 .. d-2
-  std::vector<std::array<Window, d>> hull_;          // [slabs]
+  std::array<std::vector<Prefix>, d> prefix_;  // of axes 0 .. l
+  std::vector<std::size_t> prefix_of_;         // [derivatives]: prefix of axes 0 .. d-2
+  std::vector<std::array<Window, d>> hull_;    // [slabs]
 };
 
 template <int d>
@@ -171,12 +172,15 @@ void GridSum<d>::find_windows(std::size_t axis) {
   for (std::size_t c = 0; c < tables.column.size(); ++c) {
     const double centre = centre_of(axis, c);
     const auto begin = std::partition_point(nodes.begin(), nodes.end(), [&](double y) {
-      return y - centre < -reach || (plan_.neighbours >= 0 && boxes_.index_at(axis, y) < tables.column[c] - plan_.neighbours);
+      return y - centre < -reach ||
+             (plan_.neighbours >= 0 && boxes_.index_at(axis, y) < tables.column[c] - plan_.neighbours);
     });
     const auto end = std::partition_point(begin, nodes.end(), [&](double y) {
-      return y - centre <= reach && (plan_.neighbours < 0 || boxes_.index_at(axis, y) <= tables.column[c] + plan_.neighbours);
+      return y - centre <= reach &&
+             (plan_.neighbours < 0 || boxes_.index_at(axis, y) <= tables.column[c] + plan_.neighbours);
     });
-    tables.window.push_back({static_cast<std::size_t>(begin - nodes.begin()), static_cast<std::size_t>(end - nodes.begin())});
+    tables.window.push_back(
+        {static_cast<std::size_t>(begin - nodes.begin()), static_cast<std::size_t>(end - nodes.begin())});
   }
 }
 
@@ -185,7 +189,12 @@ std::vector<double> GridSum<d>::hermite_rows(std::size_t axis, double centre, co
   const std::size_t stride = padded(window.size());
   std::vector<double> t(stride, 0.0), rows(stride * static_cast<std::size_t>(orders));
   for (std::size_t i = 0; i < window.size(); ++i) t[i] = (grid_.axes[axis][window.begin + i] - centre) * root_sigma_;
-  kernels().table({.count = stride, .orders = orders, .t = t.data(), .rows = rows.data(), .stride = stride, .recurrence = recurrence_.view()});
+  kernels().table({.count = stride,
+                   .orders = orders,
+                   .t = t.data(),
+                   .rows = rows.data(),
+                   .stride = stride,
+                   .recurrence = recurrence_.view()});
   return rows;
 }
 
@@ -197,7 +206,8 @@ void GridSum<d>::make_tables(std::size_t axis, int threads) {
   gaussdrift::base::parallel_for(tables.column.size(), threads, [&](std::size_t c) {
     const Window& window = tables.window[c];
     const std::size_t stride = padded(window.size());
-    const std::vector<double> rows = hermite_rows(axis, centre_of(axis, c), window, plan_.terms + request_.highest[axis]);
+    const std::vector<double> rows =
+        hermite_rows(axis, centre_of(axis, c), window, plan_.terms + request_.highest[axis]);
     std::vector<double>& table = tables.table[c];
     table.resize(orders * p_ * stride);
     for (std::size_t a = 0; a < orders; ++a)
@@ -212,7 +222,8 @@ void GridSum<d>::make_tables(std::size_t axis, int threads) {
 template <int d>
 std::size_t GridSum<d>::column_of(std::size_t axis, std::size_t node) const {
   const auto& column = axis_[axis].column;
-  return static_cast<std::size_t>(std::lower_bound(column.begin(), column.end(), boxes_.level[axis].index[node]) - column.begin());
+  return static_cast<std::size_t>(std::lower_bound(column.begin(), column.end(), boxes_.level[axis].index[node]) -
+                                  column.begin());
 }
 
 template <int d>
@@ -267,7 +278,8 @@ void GridSum<d>::sum_children(std::size_t level, std::size_t node, std::size_t k
     for (std::size_t f = 0; f < prefix_[axis].size(); ++f)
       for (std::size_t row = 0; row < rows; ++row) {
         const double* from = below.data.data() + (prefix_[axis][f].parent * below.rows + row * p_) * below.row_numbers;
-        double* to = block.data.data() + (f * rows + row) * block.row_numbers + (window.begin - origin[axis]) * stride[axis];
+        double* to =
+            block.data.data() + (f * rows + row) * block.row_numbers + (window.begin - origin[axis]) * stride[axis];
         for_each_run<d>(below.window, axis, origin, stride, [&](std::size_t inner, std::size_t outer) {
           kernels().product({.rows = window.size(),
                              .depth = p_,
@@ -284,7 +296,8 @@ void GridSum<d>::sum_children(std::size_t level, std::size_t node, std::size_t k
 }
 
 template <int d>
-std::vector<double> GridSum<d>::last_table(std::size_t column, const Window& window, std::size_t q, std::size_t prefix) const {
+std::vector<double> GridSum<d>::last_table(std::size_t column, const Window& window, std::size_t q,
+                                           std::size_t prefix) const {
   constexpr std::size_t axis = d - 1;
   std::vector<double> table, rows;
   const std::size_t stride = padded(window.size());
@@ -296,7 +309,8 @@ std::vector<double> GridSum<d>::last_table(std::size_t column, const Window& win
     }
     const std::size_t a = static_cast<std::size_t>(request_.derivatives[part.derivative][axis]);
     for (std::size_t i = 0; i < window.size(); ++i)
-      for (std::size_t b = 0; b < p_; ++b) table[i * p_ + b] += part.factor * roots_[a * p_ + b] * rows[(a + b) * stride + i];
+      for (std::size_t b = 0; b < p_; ++b)
+        table[i * p_ + b] += part.factor * roots_[a * p_ + b] * rows[(a + b) * stride + i];
   }
   return table;
 }
@@ -308,9 +322,11 @@ void GridSum<d>::run_line(int threads, double* values) const {
   const std::size_t nodes = grid_.axes[0].size();
   gaussdrift::base::parallel_for((nodes + piece_nodes - 1) / piece_nodes, threads, [&](std::size_t piece) {
     const Window mine{piece * piece_nodes, std::min(nodes, (piece + 1) * piece_nodes)};
-    const auto begin = std::partition_point(axis_[0].window.begin(), axis_[0].window.end(), [&](const Window& w) { return w.end <= mine.begin; });
+    const auto begin = std::partition_point(axis_[0].window.begin(), axis_[0].window.end(),
+                                            [&](const Window& w) { return w.end <= mine.begin; });
     for (std::size_t box = static_cast<std::size_t>(begin - axis_[0].window.begin()); box < boxes_.count(); ++box) {
-      const Window window{std::max(mine.begin, axis_[0].window[box].begin), std::min(mine.end, axis_[0].window[box].end)};
+      const Window window{std::max(mine.begin, axis_[0].window[box].begin),
+                          std::min(mine.end, axis_[0].window[box].end)};
       if (axis_[0].window[box].begin >= mine.end) break;
       if (window.begin >= window.end) continue;
       for (std::size_t q = 0; q < request_.combinations.size(); ++q) {
@@ -358,7 +374,8 @@ void GridSum<d>::run_slabs(int threads, double* values) {
   for (std::size_t k = 0; k < columns_; ++k)
     for (std::size_t begin = 0; begin < slabs;) {
       std::size_t end = begin;
-      for (double numbers = 0; end < slabs && (end == begin || numbers + slab_numbers[end] <= static_cast<double>(batch_numbers)); ++end)
+      for (double numbers = 0;
+           end < slabs && (end == begin || numbers + slab_numbers[end] <= static_cast<double>(batch_numbers)); ++end)
         numbers += slab_numbers[end];
 
       std::vector<Slab> batch(end - begin);
@@ -368,7 +385,8 @@ void GridSum<d>::run_slabs(int threads, double* values) {
         if (slab.window.size() == 0) return;
         sum_children(d - 1, begin + i, k, slab.block);
         for (std::size_t q = 0; q < request_.combinations.size(); ++q)
-          for (std::size_t f = 0; f < prefixes; ++f) slab.table.push_back(last_table(column_of(d - 1, begin + i), slab.window, q, f));
+          for (std::size_t f = 0; f < prefixes; ++f)
+            slab.table.push_back(last_table(column_of(d - 1, begin + i), slab.window, q, f));
       });
 
       gaussdrift::base::parallel_for((last_nodes + piece_nodes - 1) / piece_nodes, threads, [&](std::size_t piece) {
@@ -418,7 +436,8 @@ double HermiteSum<d>::grid_bytes(const Request<d>& request, const TensorGrid& gr
   const GridSum<d> sum(plan_, sigma_, boxes_, moments_, columns_, request, grid);
   double slab = static_cast<double>(request.derivatives.size()) * plan_.terms;
   for (std::size_t l = 0; l + 1 < d; ++l) slab *= static_cast<double>(grid.axes[l].size());
-  return sum.table_bytes() + 8 * (2 * slab + static_cast<double>(batch_numbers));
+  const double slabs = static_cast<double>(boxes_.level[d - 1].index.size());
+  return sum.table_bytes() + 8 * (2 * slab + std::min(slabs * slab, slab + static_cast<double>(batch_numbers)));
 }
 
 template <int d>
@@ -428,8 +447,8 @@ void HermiteSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, 
   GridSum<d>(plan_, sigma_, boxes_, moments_, columns_, request, grid).run(threads, values);
 }
 
-#define FGTD_INSTANTIATE(d)                                                                     \
-  template double HermiteSum<d>::grid_bytes(const Request<d>&, const TensorGrid&) const;        \
+#define FGTD_INSTANTIATE(d)                                                              \
+  template double HermiteSum<d>::grid_bytes(const Request<d>&, const TensorGrid&) const; \
   template void HermiteSum<d>::evaluate(const Request<d>&, const TensorGrid&, int, double*) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

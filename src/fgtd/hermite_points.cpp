@@ -10,7 +10,8 @@
 namespace fgtd::detail {
 namespace {
 
-/// The occupied boxes with |i - centre| <= n on every axis whose cube is within `reach` (in sides) of the cube `centre`.
+/// The occupied boxes with |i - centre| <= n on every axis whose cube is within `reach` (in sides) of the cube
+/// `centre`.
 template <int d>
 class Neighbours {
  public:
@@ -28,7 +29,9 @@ class Neighbours {
     const auto index = level.index.begin();
     std::size_t node = begin;
     if (n_ >= 0) {
-      node = static_cast<std::size_t>(std::lower_bound(index + static_cast<std::ptrdiff_t>(begin), index + static_cast<std::ptrdiff_t>(end), centre[axis] - n_) - index);
+      node = static_cast<std::size_t>(std::lower_bound(index + static_cast<std::ptrdiff_t>(begin),
+                                                       index + static_cast<std::ptrdiff_t>(end), centre[axis] - n_) -
+                                      index);
     }
     for (; node < end; ++node) {
       const std::int64_t apart = level.index[node] - centre[axis];
@@ -73,7 +76,8 @@ double HermiteSum<d>::point_bytes(const Request<d>& request, double targets) con
 }
 
 template <int d>
-void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, int threads, double* values) const {
+void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, int threads,
+                             double* values) const {
   const std::size_t derivatives = request.derivatives.size();
   std::fill_n(values, request.combinations.size() * columns_ * count, 0.0);
   if (derivatives == 0 || columns_ == 0 || count == 0 || boxes_.count() == 0) return;
@@ -96,54 +100,55 @@ void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, s
   const Neighbours<d> neighbours(boxes_, plan_.neighbours, plan_.reach / scaled_side + 1e-3);
 
   constexpr std::size_t groups_a_piece = 8;
-  gaussdrift::base::parallel_for((groups.size() + groups_a_piece - 1) / groups_a_piece, threads, [&](std::size_t piece) {
-    std::vector<std::size_t> near;
-    std::vector<double> scratch(expansion_scratch(d, plan_.terms, highest));
-    std::vector<double> out(derivatives * columns_ * group_size);
-    double target[d * group_size];
-    const std::size_t first = piece * groups_a_piece;
-    for (std::size_t g = first; g < std::min(groups.size(), first + groups_a_piece); ++g) {
-      const Group group = groups[g];
-      const BoxIndex<d>& home = index[order[group.begin]];
-      if (g == first || home != index[order[groups[g - 1].begin]]) neighbours.find(home, near);
-      if (near.empty()) continue;
-      for (std::size_t i = 0; i < group_size; ++i) {
-        const double* from = targets + order[group.begin + std::min(i, group.size - 1)] * d;
-        for (std::size_t l = 0; l < d; ++l) target[l * group_size + i] = from[l];
-      }
-      std::fill(out.begin(), out.end(), 0.0);
-      kernels().expansion({.dimension = d,
-                           .terms = plan_.terms,
-                           .root_sigma = root_sigma,
-                           .half_side = 0.5 * scaled_side,
-                           .squared_reach = plan_.reach * plan_.reach,
-                           .targets = group.size,
-                           .target = target,
-                           .boxes = near.size(),
-                           .box = near.data(),
-                           .centre = boxes_.centre.data(),
-                           .moments = moments_.data(),
-                           .columns = columns_,
-                           .derivatives = derivatives,
-                           .order = alpha.data(),
-                           .highest = request.highest.data(),
-                           .binomial_root = roots.data(),
-                           .recurrence = recurrence.view(),
-                           .scratch = scratch.data(),
-                           .out = out.data()});
-      for (std::size_t q = 0; q < request.combinations.size(); ++q)
-        for (const auto& part : request.combinations[q])
-          for (std::size_t k = 0; k < columns_; ++k) {
-            double* column = values + (q * columns_ + k) * count;
-            const double* from = out.data() + (part.derivative * columns_ + k) * group_size;
-            for (std::size_t i = 0; i < group.size; ++i) column[order[group.begin + i]] += part.factor * from[i];
+  gaussdrift::base::parallel_for(
+      (groups.size() + groups_a_piece - 1) / groups_a_piece, threads, [&](std::size_t piece) {
+        std::vector<std::size_t> near;
+        std::vector<double> scratch(expansion_scratch(d, plan_.terms, highest));
+        std::vector<double> out(derivatives * columns_ * group_size);
+        double target[d * group_size];
+        const std::size_t first = piece * groups_a_piece;
+        for (std::size_t g = first; g < std::min(groups.size(), first + groups_a_piece); ++g) {
+          const Group group = groups[g];
+          const BoxIndex<d>& home = index[order[group.begin]];
+          if (g == first || home != index[order[groups[g - 1].begin]]) neighbours.find(home, near);
+          if (near.empty()) continue;
+          for (std::size_t i = 0; i < group_size; ++i) {
+            const double* from = targets + order[group.begin + std::min(i, group.size - 1)] * d;
+            for (std::size_t l = 0; l < d; ++l) target[l * group_size + i] = from[l];
           }
-    }
-  });
+          std::fill(out.begin(), out.end(), 0.0);
+          kernels().expansion({.dimension = d,
+                               .terms = plan_.terms,
+                               .root_sigma = root_sigma,
+                               .half_side = 0.5 * scaled_side,
+                               .squared_reach = plan_.reach * plan_.reach,
+                               .targets = group.size,
+                               .target = target,
+                               .boxes = near.size(),
+                               .box = near.data(),
+                               .centre = boxes_.centre.data(),
+                               .moments = moments_.data(),
+                               .columns = columns_,
+                               .derivatives = derivatives,
+                               .order = alpha.data(),
+                               .highest = request.highest.data(),
+                               .binomial_root = roots.data(),
+                               .recurrence = recurrence.view(),
+                               .scratch = scratch.data(),
+                               .out = out.data()});
+          for (std::size_t q = 0; q < request.combinations.size(); ++q)
+            for (const auto& part : request.combinations[q])
+              for (std::size_t k = 0; k < columns_; ++k) {
+                double* column = values + (q * columns_ + k) * count;
+                const double* from = out.data() + (part.derivative * columns_ + k) * group_size;
+                for (std::size_t i = 0; i < group.size; ++i) column[order[group.begin + i]] += part.factor * from[i];
+              }
+        }
+      });
 }
 
-#define FGTD_INSTANTIATE(d)                                                                       \
-  template double HermiteSum<d>::point_bytes(const Request<d>&, double) const;                    \
+#define FGTD_INSTANTIATE(d)                                                    \
+  template double HermiteSum<d>::point_bytes(const Request<d>&, double) const; \
   template void HermiteSum<d>::evaluate(const Request<d>&, const double*, std::size_t, int, double*) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -15,23 +15,20 @@ extern const Kernels kernels;
 }
 #endif
 
-namespace {
-
-const Kernels& choose_kernels() {
+KernelSets supported_kernels() {
+  KernelSets sets{{&baseline::kernels, nullptr, nullptr}, 1};
 #ifdef FGTD_X86_VARIANTS
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) sets.set[sets.count++] = &avx2::kernels;
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
-    return avx512::kernels;
+    sets.set[sets.count++] = &avx512::kernels;
   }
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return avx2::kernels;
 #endif
-  return baseline::kernels;
+  return sets;
 }
 
-}  // namespace
-
 const Kernels& kernels() {
-  static const Kernels& chosen = choose_kernels();
-  return chosen;
+  static const KernelSets sets = supported_kernels();
+  return *sets.set[sets.count - 1];
 }
 
 }  // namespace fgtd::detail

@@ -12,7 +12,8 @@ constexpr std::size_t group_size = 16;
 /// The largest dimension of a Plan.
 constexpr int max_dimension = 4;
 
-/// Highest derivative_order. Up to here no factor overflows, and terms beyond the range of exp() fade fast enough for the promise.
+/// Highest derivative_order. Up to here no factor overflows, and terms beyond the range of exp() fade fast enough for
+/// the promise.
 constexpr int max_derivative_order = 16;
 
 /// Factors of the recurrence of the scaled Hermite functions h~_n = h_n / sqrt(2^n n!):
@@ -42,8 +43,8 @@ struct DirectJob {
   double* out;           // [combinations * columns][group_size], overwritten
 };
 
-/// C(rows x width) += B(rows x depth) D(depth x width), all row-major. Rows of D must be readable, not written, up to the
-/// next multiple of `row_padding` numbers.
+/// C(rows x width) += B(rows x depth) D(depth x width), all row-major. Rows of D must be readable, not written, up to
+/// the next multiple of `row_padding` numbers.
 struct ProductJob {
   std::size_t rows, depth, width;
   const double* b;
@@ -56,24 +57,24 @@ struct ProductJob {
 constexpr std::size_t row_padding = 8;
 
 /// Hermite expansions of some boxes summed at one group of targets:
-/// out[a][k][i] += sum_{boxes B within reach of y_i} sum_beta moments_B[k][beta] prod_l g_{alpha_l, beta_l}(sqrt(sigma) (y_i - c_B)_l),
-/// g_{a,b}(t) = sqrt(binomial(a+b, a)) h~_{a+b}(t).
+/// out[a][k][i] += sum_{boxes B within reach of y_i} sum_beta moments_B[k][beta] prod_l g_{alpha_l, beta_l}(sqrt(sigma)
+/// (y_i - c_B)_l), g_{a,b}(t) = sqrt(binomial(a+b, a)) h~_{a+b}(t).
 struct ExpansionJob {
   int dimension;
   int terms;  // p
   double root_sigma;
-  double half_side;       // of a box, times sqrt(sigma)
-  double squared_reach;   // boxes whose nearest point is farther (times sigma) count as zero
-  std::size_t targets;    // of the group that matter
-  const double* target;   // [dimension][group_size]
+  double half_side;      // of a box, times sqrt(sigma)
+  double squared_reach;  // boxes whose nearest point is farther (times sigma) count as zero
+  std::size_t targets;   // of the group that matter
+  const double* target;  // [dimension][group_size]
   std::size_t boxes;
   const std::size_t* box;  // [boxes]
   const double* centre;    // [all boxes][dimension]
   const double* moments;   // [all boxes][columns][p^dimension], first axis fastest
   std::size_t columns;
   std::size_t derivatives;
-  const int* order;      // [derivatives][max_dimension]: alpha
-  const int* highest;    // [dimension]
+  const int* order;             // [derivatives][max_dimension]: alpha
+  const int* highest;           // [dimension]
   const double* binomial_root;  // [order][p]: sqrt(binomial(a+b, a))
   Recurrence recurrence;
   double* scratch;  // expansion_scratch(...) numbers
@@ -82,7 +83,8 @@ struct ExpansionJob {
 
 /// Size of ExpansionJob::scratch for p terms and derivatives up to `highest` in d dimensions.
 constexpr std::size_t expansion_scratch(int dimension, int terms, int highest) {
-  const std::size_t per_axis = static_cast<std::size_t>(terms + highest) + static_cast<std::size_t>(terms) * static_cast<std::size_t>(highest + 1);
+  const std::size_t per_axis = static_cast<std::size_t>(terms + highest) +
+                               static_cast<std::size_t>(terms) * static_cast<std::size_t>(highest + 1);
   return static_cast<std::size_t>(dimension) * per_axis * group_size + row_padding;
 }
 
@@ -104,7 +106,14 @@ struct Kernels {
   void (*table)(const TableJob&);
 };
 
-/// The fastest set that this processor runs.
+/// The sets that this processor runs, slowest first; at least one.
+struct KernelSets {
+  const Kernels* set[3];
+  int count;
+};
+KernelSets supported_kernels();
+
+/// The fastest of them.
 const Kernels& kernels();
 
 }  // namespace fgtd::detail

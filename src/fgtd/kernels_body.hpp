@@ -58,7 +58,8 @@ void direct_values(const DirectJob& job, const double* weights, double* out) {
   for (std::size_t first = 0; first < group_size; first += vectors * lanes) {
     Vector y[d][vectors];
     for (int l = 0; l < d; ++l)
-      for (std::size_t v = 0; v < vectors; ++v) y[l][v] = load(job.target + static_cast<std::size_t>(l) * group_size + first + v * lanes);
+      for (std::size_t v = 0; v < vectors; ++v)
+        y[l][v] = load(job.target + static_cast<std::size_t>(l) * group_size + first + v * lanes);
     Vector total[columns][vectors] = {};
     for (std::size_t begin = 0; begin < job.sources; begin += source_chunk) {
       const std::size_t end = begin + source_chunk < job.sources ? begin + source_chunk : job.sources;
@@ -71,14 +72,16 @@ void direct_values(const DirectJob& job, const double* weights, double* out) {
             squared += distance * distance;
           }
           const Vector gaussian = exp_nonpositive(squared * -job.sigma);
-          for (int k = 0; k < columns; ++k) partial[k][v] += gaussian * weights[static_cast<std::size_t>(k) * job.sources + j];
+          for (int k = 0; k < columns; ++k)
+            partial[k][v] += gaussian * weights[static_cast<std::size_t>(k) * job.sources + j];
         }
       }
       for (int k = 0; k < columns; ++k)
         for (std::size_t v = 0; v < vectors; ++v) total[k][v] += partial[k][v];
     }
     for (int k = 0; k < columns; ++k)
-      for (std::size_t v = 0; v < vectors; ++v) store(out + static_cast<std::size_t>(k) * group_size + first + v * lanes, total[k][v]);
+      for (std::size_t v = 0; v < vectors; ++v)
+        store(out + static_cast<std::size_t>(k) * group_size + first + v * lanes, total[k][v]);
   }
 }
 
@@ -89,10 +92,17 @@ void direct_all_values(const DirectJob& job) {
     const double* weights = job.weights + k * job.sources;
     double* out = job.out + k * group_size;
     switch (job.columns - k) {
-      case 1: direct_values<d, 1>(job, weights, out); break;
-      case 2: direct_values<d, 2>(job, weights, out); break;
-      case 3: direct_values<d, 3>(job, weights, out); break;
-      default: direct_values<d, 4>(job, weights, out);
+      case 1:
+        direct_values<d, 1>(job, weights, out);
+        break;
+      case 2:
+        direct_values<d, 2>(job, weights, out);
+        break;
+      case 3:
+        direct_values<d, 3>(job, weights, out);
+        break;
+      default:
+        direct_values<d, 4>(job, weights, out);
     }
   }
   for (std::size_t i = 0; i < job.columns * group_size; ++i) job.out[i] *= scale;
@@ -112,7 +122,9 @@ void direct_terms(const DirectJob& job, std::size_t q0, std::size_t q1, std::siz
         Vector squared{};
         for (int l = 0; l < d; ++l) {
           const std::size_t axis = static_cast<std::size_t>(l);
-          const Vector t = clamp((load(job.target + axis * group_size + first) - job.position[axis * job.sources + j]) * job.root_sigma, 27.0);
+          const Vector t = clamp(
+              (load(job.target + axis * group_size + first) - job.position[axis * job.sources + j]) * job.root_sigma,
+              27.0);
           squared += t * t;
           Vector previous{}, current = broadcast(1.0);
           for (int n = 0; n < job.highest[l]; ++n) {
@@ -141,7 +153,8 @@ void direct_terms(const DirectJob& job, std::size_t q0, std::size_t q1, std::siz
     }
     std::size_t output = 0;
     for (std::size_t q = q0; q < q1; ++q)
-      for (std::size_t k = k0; k < k1; ++k) store(job.out + (q * job.columns + k) * group_size + first, total[output++]);
+      for (std::size_t k = k0; k < k1; ++k)
+        store(job.out + (q * job.columns + k) * group_size + first, total[output++]);
   }
 }
 
@@ -163,10 +176,14 @@ void direct_in(const DirectJob& job) {
 
 void direct(const DirectJob& job) {
   switch (job.dimension) {
-    case 1: return direct_in<1>(job);
-    case 2: return direct_in<2>(job);
-    case 3: return direct_in<3>(job);
-    default: return direct_in<4>(job);
+    case 1:
+      return direct_in<1>(job);
+    case 2:
+      return direct_in<2>(job);
+    case 3:
+      return direct_in<3>(job);
+    default:
+      return direct_in<4>(job);
   }
 }
 
@@ -175,8 +192,8 @@ void direct(const DirectJob& job) {
 
 /// A block of `rows` rows and `vectors` vectors of C, the last vector of which holds `valid` numbers.
 template <int rows, int vectors>
-FGTD_INLINE void product_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d, std::size_t d_stride,
-                               double* c, std::size_t c_stride, std::size_t valid) {
+FGTD_INLINE void product_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d,
+                               std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
   Vector sum[rows][vectors] = {};
   for (std::size_t k = 0; k < depth; ++k) {
     Vector right[vectors];
@@ -203,11 +220,11 @@ template <int vectors>
 FGTD_INLINE void product_columns(const ProductJob& job, std::size_t x, std::size_t valid) {
   std::size_t i = 0;
   for (; i + 4 <= job.rows; i += 4)
-    product_block<4, vectors>(job.depth, job.b + i * job.b_stride, job.b_stride, job.d + x, job.d_stride, job.c + i * job.c_stride + x,
-                              job.c_stride, valid);
+    product_block<4, vectors>(job.depth, job.b + i * job.b_stride, job.b_stride, job.d + x, job.d_stride,
+                              job.c + i * job.c_stride + x, job.c_stride, valid);
   for (; i < job.rows; ++i)
-    product_block<1, vectors>(job.depth, job.b + i * job.b_stride, job.b_stride, job.d + x, job.d_stride, job.c + i * job.c_stride + x,
-                              job.c_stride, valid);
+    product_block<1, vectors>(job.depth, job.b + i * job.b_stride, job.b_stride, job.d + x, job.d_stride,
+                              job.c + i * job.c_stride + x, job.c_stride, valid);
 }
 
 void product(const ProductJob& job) {
@@ -225,22 +242,62 @@ void product(const ProductJob& job) {
 // ---------------------------------------------------------------------------------------------------------------
 // expansion
 
-/// sum_beta moments[beta] prod_{l <= axis} g_l[beta_l], first axis fastest; g_l[b] is `vectors` vectors.
-template <int axis, int vectors>
-FGTD_INLINE void contract(int terms, const double*& moments, const double* const* g, Vector (&sum)[vectors]) {
-  for (int v = 0; v < vectors; ++v) sum[v] = Vector{};
-  for (int b = 0; b < terms; ++b) {
-    Vector inner[vectors];
-    if constexpr (axis == 0) {
-      for (int v = 0; v < vectors; ++v) inner[v] = broadcast(moments[b]);
-    } else {
-      contract<axis - 1, vectors>(terms, moments, g, inner);
-    }
-    for (int v = 0; v < vectors; ++v) {
-      sum[v] += inner[v] * load(g[axis] + (static_cast<std::size_t>(b) * vectors + static_cast<std::size_t>(v)) * lanes);
+/// sums[i] = sum_b moments[i terms + b] g[b] for `rows` rows; g[b] is `vectors` vectors. Rows side by side keep the
+/// multipliers busy, which a single sum would leave waiting for its last addition.
+template <int rows, int vectors>
+FGTD_INLINE void contract_rows(std::size_t terms, const double* moments, const double* g,
+                               Vector (&sums)[rows][vectors]) {
+  for (int i = 0; i < rows; ++i)
+    for (int v = 0; v < vectors; ++v) sums[i][v] = Vector{};
+  for (std::size_t b = 0; b < terms; ++b) {
+    Vector factor[vectors];
+    for (int v = 0; v < vectors; ++v) factor[v] = load(g + (b * vectors + static_cast<std::size_t>(v)) * lanes);
+    for (int i = 0; i < rows; ++i) {
+      const double moment = moments[static_cast<std::size_t>(i) * terms + b];
+      for (int v = 0; v < vectors; ++v) sums[i][v] += factor[v] * moment;
     }
   }
-  if constexpr (axis == 0) moments += terms;
+}
+
+/// Rows b .. b+rows of the second axis, added to `sum`.
+template <int rows, int vectors>
+FGTD_INLINE void contract_plane_rows(std::size_t terms, std::size_t b, const double* moments, const double* const* g,
+                                     Vector (&sum)[vectors]) {
+  Vector inner[rows][vectors];
+  contract_rows<rows, vectors>(terms, moments + b * terms, g[0], inner);
+  for (int i = 0; i < rows; ++i)
+    for (int v = 0; v < vectors; ++v)
+      sum[v] += inner[i][v] *
+                load(g[1] + ((b + static_cast<std::size_t>(i)) * vectors + static_cast<std::size_t>(v)) * lanes);
+}
+
+/// sum_beta moments[beta] prod_{l <= axis} g_l[beta_l], first axis fastest; advances `moments` past what was read.
+template <int axis, int vectors>
+FGTD_INLINE void contract(std::size_t terms, const double*& moments, const double* const* g, Vector (&sum)[vectors]) {
+  if constexpr (axis == 0) {
+    Vector row[1][vectors];
+    contract_rows<1, vectors>(terms, moments, g[0], row);
+    for (int v = 0; v < vectors; ++v) sum[v] = row[0][v];
+    moments += terms;
+  } else if constexpr (axis == 1) {
+    for (int v = 0; v < vectors; ++v) sum[v] = Vector{};
+    std::size_t b = 0;
+    for (; b + 4 <= terms; b += 4) contract_plane_rows<4, vectors>(terms, b, moments, g, sum);
+    if (b + 2 <= terms) {
+      contract_plane_rows<2, vectors>(terms, b, moments, g, sum);
+      b += 2;
+    }
+    if (b < terms) contract_plane_rows<1, vectors>(terms, b, moments, g, sum);
+    moments += terms * terms;
+  } else {
+    for (int v = 0; v < vectors; ++v) sum[v] = Vector{};
+    for (std::size_t b = 0; b < terms; ++b) {
+      Vector inner[vectors];
+      contract<axis - 1, vectors>(terms, moments, g, inner);
+      for (int v = 0; v < vectors; ++v)
+        sum[v] += inner[v] * load(g[axis] + (b * vectors + static_cast<std::size_t>(v)) * lanes);
+    }
+  }
 }
 
 template <int d, int vectors>
@@ -312,9 +369,10 @@ void expansion_at(const ExpansionJob& job, std::size_t first) {
       for (std::size_t k = 0; k < job.columns; ++k) {
         const double* moments = job.moments + (box * job.columns + k) * moments_size;
         Vector sum[vectors];
-        contract<d - 1, vectors>(job.terms, moments, g, sum);
+        contract<d - 1, vectors>(p, moments, g, sum);
         double* out = job.out + (derivative * job.columns + k) * group_size + first;
-        for (int v = 0; v < vectors; ++v) store(out + static_cast<std::size_t>(v) * lanes, load(out + static_cast<std::size_t>(v) * lanes) + sum[v]);
+        for (int v = 0; v < vectors; ++v)
+          store(out + static_cast<std::size_t>(v) * lanes, load(out + static_cast<std::size_t>(v) * lanes) + sum[v]);
       }
     }
   }
@@ -333,10 +391,14 @@ void expansion_in(const ExpansionJob& job) {
 
 void expansion(const ExpansionJob& job) {
   switch (job.dimension) {
-    case 1: return expansion_in<1>(job);
-    case 2: return expansion_in<2>(job);
-    case 3: return expansion_in<3>(job);
-    default: return expansion_in<4>(job);
+    case 1:
+      return expansion_in<1>(job);
+    case 2:
+      return expansion_in<2>(job);
+    case 3:
+      return expansion_in<3>(job);
+    default:
+      return expansion_in<4>(job);
   }
 }
 

@@ -1,6 +1,7 @@
 // Moments of the boxes [Sch06, Algorithm 3.6], as products of matrices: with powers tabulated an axis,
 //   A[(b_{d-1} .. b_1)][b_0] = sum_j Q[(b_{d-1} .. b_1)][j] (lambda_j X[j][b_0]),
-//   X[j][b] = (sqrt 2 t_0)^b / sqrt(b!),   Q[..][j] = prod_{l > 0} (sqrt 2 t_l)^{b_l} / sqrt(b_l!),   t = sqrt(sigma) (x_j - c).
+//   X[j][b] = (sqrt 2 t_0)^b / sqrt(b!),   Q[..][j] = prod_{l > 0} (sqrt 2 t_l)^{b_l} / sqrt(b_l!),   t = sqrt(sigma)
+//   (x_j - c).
 #include <algorithm>
 #include <cmath>
 
@@ -43,7 +44,8 @@ std::vector<double> binomial_roots(int highest, int terms) {
 }
 
 template <int d>
-HermiteSum<d>::HermiteSum(const HermitePlan& plan, double sigma, Boxes<d> boxes) : plan_(plan), sigma_(sigma), boxes_(std::move(boxes)) {}
+HermiteSum<d>::HermiteSum(const HermitePlan& plan, double sigma, Boxes<d> boxes)
+    : plan_(plan), sigma_(sigma), boxes_(std::move(boxes)) {}
 
 template <int d>
 void HermiteSum<d>::set_moments(const Sources<d>& sources, int threads) {
@@ -73,7 +75,8 @@ void HermiteSum<d>::set_moments(const Sources<d>& sources, int threads) {
           const double* x = sources.position.data() + l * sources.count + begin;
           std::fill_n(powers.begin(), size, 1.0);
           for (std::size_t b = 1; b < p; ++b)
-            for (std::size_t j = 0; j < size; ++j) powers[b * chunk + j] = powers[(b - 1) * chunk + j] * ((x[j] - centre) * scale) * root[b];
+            for (std::size_t j = 0; j < size; ++j)
+              powers[b * chunk + j] = powers[(b - 1) * chunk + j] * ((x[j] - centre) * scale) * root[b];
           if (l == 0) {
             for (std::size_t j = 0; j < size; ++j)
               for (std::size_t b = 0; b < p; ++b) right[j * padded + b] = powers[b * chunk + j];
@@ -103,8 +106,8 @@ void HermiteSum<d>::set_moments(const Sources<d>& sources, int threads) {
   });
 }
 
-#define FGTD_INSTANTIATE(d)                                                           \
-  template HermiteSum<d>::HermiteSum(const HermitePlan&, double, Boxes<d>);           \
+#define FGTD_INSTANTIATE(d)                                                 \
+  template HermiteSum<d>::HermiteSum(const HermitePlan&, double, Boxes<d>); \
   template void HermiteSum<d>::set_moments(const Sources<d>&, int);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

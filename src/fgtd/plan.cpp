@@ -5,8 +5,8 @@
 namespace fgtd {
 
 template <int d>
-Plan<d>::Plan(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Eigen::MatrixXd>& weights, double sigma,
-              const Options& options)
+Plan<d>::Plan(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Eigen::MatrixXd>& weights,
+              double sigma, const Options& options)
     : engine_(std::make_unique<detail::Engine<d>>(sources, weights, sigma, options)) {}
 
 template <int d>
@@ -33,12 +33,14 @@ Eigen::MatrixXd Plan<d>::evaluate_combinations(const Eigen::Ref<const Points<d>>
 }
 
 template <int d>
-Eigen::MatrixXd Plan<d>::evaluate_combinations(const TensorGrid& grid, const std::vector<Combination<d>>& combinations) const {
+Eigen::MatrixXd Plan<d>::evaluate_combinations(const TensorGrid& grid,
+                                               const std::vector<Combination<d>>& combinations) const {
   return engine_->evaluate(grid, combinations);
 }
 
 template <int d>
-Eigen::MatrixXd Plan<d>::evaluate_combination(const Eigen::Ref<const Points<d>>& targets, const Combination<d>& combination) const {
+Eigen::MatrixXd Plan<d>::evaluate_combination(const Eigen::Ref<const Points<d>>& targets,
+                                              const Combination<d>& combination) const {
   return engine_->evaluate(targets, {combination});
 }
 

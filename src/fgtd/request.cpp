@@ -32,11 +32,13 @@ Request<d> make_request(const std::vector<Combination<d>>& combinations, double 
       }
       const int order = std::accumulate(alpha.begin(), alpha.end(), 0);
       if (order > derivative_order || *std::max_element(alpha.begin(), alpha.end()) > derivative_order) {
-        throw InvalidArgument("fgtd: derivative " + text<d>(alpha) + " is of order " + std::to_string(order) +
-                              ", the plan was made for Options::derivative_order = " + std::to_string(derivative_order));
+        throw InvalidArgument(
+            "fgtd: derivative " + text<d>(alpha) + " is of order " + std::to_string(order) +
+            ", the plan was made for Options::derivative_order = " + std::to_string(derivative_order));
       }
       if (!std::isfinite(term.coefficient)) {
-        throw InvalidArgument("fgtd: coefficient of derivative " + text<d>(alpha) + " is " + text(term.coefficient) + ", must be finite");
+        throw InvalidArgument("fgtd: coefficient of derivative " + text<d>(alpha) + " is " + text(term.coefficient) +
+                              ", must be finite");
       }
       const double factor = term.coefficient * (order % 2 == 0 ? 1.0 : -1.0) * derivative_scale<d>(alpha, sigma);
       if (!std::isfinite(factor)) {

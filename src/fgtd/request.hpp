@@ -1,6 +1,7 @@
 // What is to be evaluated, made flat: the distinct derivatives, and every combination as a list of (derivative, factor)
 // whose factor contains the sign and the scale of that derivative,
-//   D^alpha exp(-sigma |y-x|^2) = (-1)^|alpha| N_alpha prod_l h~_{alpha_l}(sqrt(sigma) (y-x)_l),  h~_n = h_n / sqrt(2^n n!).
+//   D^alpha exp(-sigma |y-x|^2) = (-1)^|alpha| N_alpha prod_l h~_{alpha_l}(sqrt(sigma) (y-x)_l),  h~_n = h_n / sqrt(2^n
+//   n!).
 #pragma once
 
 #include <array>
@@ -18,9 +19,9 @@ struct Request {
     std::size_t derivative;  // index into `derivatives`
     double factor;           // coefficient (-1)^|alpha| N_alpha
   };
-  std::vector<Derivative<d>> derivatives;        // distinct
+  std::vector<Derivative<d>> derivatives;  // distinct
   std::vector<std::vector<Part>> combinations;
-  std::array<int, d> highest{};                  // of each axis
+  std::array<int, d> highest{};  // of each axis
 };
 
 /// Throws InvalidArgument if a derivative is negative, beyond `derivative_order`, or its scale is not a double.

@@ -15,9 +15,12 @@ double profile_value(RadialDensity::Profile profile, double s) {
       const double outside = std::max(0.0, 1 - s), square = outside * outside;
       return square * square * (4 * s + 1);
     }
-    case Profile::cone: return std::max(0.0, 1 - s);
-    case Profile::gaussian: return std::exp(-s * s);
-    case Profile::disk: return s < 1 ? 1 : 0;
+    case Profile::cone:
+      return std::max(0.0, 1 - s);
+    case Profile::gaussian:
+      return std::exp(-s * s);
+    case Profile::disk:
+      return s < 1 ? 1 : 0;
   }
   return 0;
 }
@@ -37,7 +40,8 @@ void RadialDensity::add(const PointsView& x, double* values) const {
 
 WrittenDensity::WrittenDensity(const std::string& text, int dimension,
                                const std::vector<std::pair<std::string, double>>& params)
-    : expression_(text, dimension == 3 ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"}, params) {}
+    : expression_(text, dimension == 3 ? std::vector<std::string>{"x", "y", "z"} : std::vector<std::string>{"x", "y"},
+                  params) {}
 
 void WrittenDensity::add(const PointsView& x, double* values) const {
   constexpr std::size_t block_length = 512;

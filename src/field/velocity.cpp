@@ -7,7 +7,8 @@
 namespace gaussdrift {
 
 namespace {
-constexpr std::size_t block_length = 512;  // points an expression sees at once: its arrays stay in the first-level cache
+constexpr std::size_t block_length =
+    512;  // points an expression sees at once: its arrays stay in the first-level cache
 }
 
 void RotationField::add(double /*t*/, const PointsView& x, const VectorsView& u) const {
@@ -22,8 +23,8 @@ void RotationField::add(double /*t*/, const PointsView& x, const VectorsView& u)
 }
 
 std::string RotationField::describe() const {
-  const std::string about =
-      dimension_ == 2 ? fmt::format("({}, {})", center_[0], center_[1]) : fmt::format("the axis ({}, {}, z)", center_[0], center_[1]);
+  const std::string about = dimension_ == 2 ? fmt::format("({}, {})", center_[0], center_[1])
+                                            : fmt::format("the axis ({}, {}, z)", center_[0], center_[1]);
   return fmt::format("rotation about {}, {} rad a time unit, div u = 0", about, rate_);
 }
 

@@ -25,7 +25,8 @@ class VelocityField {
 /// x(t) = c + R(rate t) (x(0) - c).
 class RotationField : public VelocityField {
  public:
-  RotationField(int dimension, const Vector& center, double rate) : dimension_(dimension), center_(center), rate_(rate) {}
+  RotationField(int dimension, const Vector& center, double rate)
+      : dimension_(dimension), center_(center), rate_(rate) {}
   void add(double t, const PointsView& x, const VectorsView& u) const override;
   std::string describe() const override;
 
@@ -39,7 +40,8 @@ class RotationField : public VelocityField {
 class ExpressionField : public VelocityField {
  public:
   /// Throws ExpressionError.
-  ExpressionField(const std::vector<std::string>& components, const std::vector<std::pair<std::string, double>>& params);
+  ExpressionField(const std::vector<std::string>& components,
+                  const std::vector<std::pair<std::string, double>>& params);
   void add(double t, const PointsView& x, const VectorsView& u) const override;
   std::string describe() const override;
 

@@ -85,7 +85,7 @@ std::string Diagnostics::layout(const Entry& entry) const {
   const std::string_view line = source_.line(place);
   const std::string_view before = line.substr(0, std::min(place.column, line.size()));
   const std::string carets = caret_line(before, source_.text(place));
-  std::string text = fmt::format("{}: {}\n", entry.kind, entry.message);
+  std::string text = fmt::format("{}: {}\n", entry.kind, printable(entry.message));
   std::string margin = "  ";
   if (place.override_index >= 0) {
     text += fmt::format("  --> --set {}\n            {}\n", printable(line), carets);
@@ -95,7 +95,7 @@ std::string Diagnostics::layout(const Entry& entry) const {
     text += fmt::format("{0}--> {1}:{2}:{3}\n{0} |\n{2} | {4}\n{0} | {5}\n", margin, source_.name(), place.line,
                         character_count(before) + 1, printable(line), carets);
   }
-  if (!entry.note.empty()) text += fmt::format("{} = {}\n", margin, entry.note);
+  if (!entry.note.empty()) text += fmt::format("{} = {}\n", margin, printable(entry.note));
   return text;
 }
 

@@ -44,6 +44,7 @@ std::string meaning_note(const Key& key) { return fmt::format("{}: {}", key.name
 
 std::string quoted_list(const std::vector<std::string_view>& words) {
   std::vector<std::string> shown;
+  shown.reserve(words.size());
   for (const auto word : words) shown.push_back(fmt::format("\"{}\"", word));
   return fmt::format("{}", fmt::join(shown, ", "));
 }
@@ -75,8 +76,9 @@ class Reader {
 
   Case read() {
     Case scene;
-    read_version();
     check_names();
+    read_version();
+    check_tables();
     scene.title = text("case", "title");
     scene.cite = text("case", "cite");
     read_params(scene.params);
@@ -97,6 +99,7 @@ class Reader {
   void read_version() {
     const Key& key = find_key("", "gaussdrift");
     const Entry* entry = root_.find("gaussdrift");
+    if (!entry && is_meant("gaussdrift")) return;
     if (!entry) {
       diagnostics_.error({-1, 1, 0, 1}, "the file does not say which version of the format it has",
                          "begin the file with: gaussdrift = 1");
@@ -125,6 +128,9 @@ class Reader {
       else if (entry.name != "params")
         check_keys(entry);
     }
+  }
+
+  void check_tables() {
     std::vector<std::string> missing;
     for (const Table& table : tables())
       if (table.required && !root_.find(std::string(table.name)) && !is_meant(table.name))
@@ -142,13 +148,15 @@ class Reader {
     const auto near = base::suggest(name, known);
     if (!near) return home_of(name);
     meant_.push_back(table_name.empty() ? *near : fmt::format("{}.{}", table_name, *near));
-    return fmt::format("; did you mean {}?",
-                       table_name.empty() ? fmt::format("[{}]", *near) : fmt::format("\"{}\"", *near));
+    const bool is_table = table_name.empty() && *near != "gaussdrift";
+    return fmt::format("; did you mean {}?", is_table ? fmt::format("[{}]", *near) : fmt::format("\"{}\"", *near));
   }
 
   void unknown_at_top(const Entry& entry, const std::vector<std::string>& known) {
     const bool is_table = entry.value.kind == Kind::table;
-    const std::string remedy = remedy_for(entry.name, known, "");
+    std::vector<std::string> candidates = known;
+    if (!is_table) candidates.emplace_back("gaussdrift");
+    const std::string remedy = remedy_for(entry.name, candidates, "");
     diagnostics_.error(entry.place,
                        is_table ? fmt::format("unknown table [{}]{}", entry.name, remedy)
                                 : fmt::format("unknown key \"{}\" at the top of the file{}", entry.name, remedy),

@@ -18,6 +18,7 @@ std::string quoted(std::string_view text) { return fmt::format("\"{}\"", text); 
 
 std::string joined(const std::vector<std::string_view>& words) {
   std::vector<std::string> shown;
+  shown.reserve(words.size());
   for (const auto word : words) shown.push_back(quoted(word));
   return fmt::format("{}", fmt::join(shown, ", "));
 }

@@ -37,18 +37,18 @@ struct Key {
   std::string_view name;
   Type type = Type::text;
   bool required = false;
-  std::string_view fallback = "";  // the default as it would be written, lists separated by ", "; empty: none
+  std::string_view fallback = {};  // the default as it would be written, lists separated by ", "; empty: none
   Range range = {};
   std::vector<std::string_view> choices = {};
-  std::string_view unit = "";
-  std::string_view symbol = "";  // in the thesis
-  std::string_view meaning = "";
+  std::string_view unit = {};
+  std::string_view symbol = {};  // in the thesis
+  std::string_view meaning = {};
 };
 
 struct Table {
   std::string_view name;
   bool required = false;
-  std::string_view meaning = "";
+  std::string_view meaning = {};
 };
 
 /// In the order of a well-written case file.

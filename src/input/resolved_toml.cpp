@@ -32,6 +32,7 @@ std::string written(const std::string& text) {
 template <class Item>
 std::string written(const std::vector<Item>& list) {
   std::vector<std::string> items;
+  items.reserve(list.size());
   for (const auto& item : list) items.push_back(written(item));
   return fmt::format("[{}]", fmt::join(items, ", "));
 }
@@ -49,6 +50,7 @@ std::string choice(std::string_view table, std::string_view name, Enum value) {
 template <class Enum>
 std::vector<std::string> choices(std::string_view name, const std::vector<Enum>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const Enum value : values) names.push_back(choice("output", name, value));
   return names;
 }

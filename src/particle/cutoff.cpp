@@ -10,9 +10,9 @@ namespace {
 
 double factorial(int n) { return std::tgamma(n + 1.0); }
 
-// Order 2m from one width: zeta = sum_{j<m} (-Laplacian/4)^j / j!  of  G = pi^{-d/2} exp(-|x|^2). The Fourier transform of G
-// is exp(-s), s = |xi|^2/4, and that of -Laplacian/4 is s, so zeta^ = e^{-s} (1 + s + ... + s^{m-1}/(m-1)!) = 1 + O(s^m):
-// all moments below 2m vanish. Laplacian^j = sum_{|beta|=j} j!/beta! D^{2 beta}.
+// Order 2m from one width: zeta = sum_{j<m} (-Laplacian/4)^j / j!  of  G = pi^{-d/2} exp(-|x|^2). The Fourier transform
+// of G is exp(-s), s = |xi|^2/4, and that of -Laplacian/4 is s, so zeta^ = e^{-s} (1 + s + ... + s^{m-1}/(m-1)!) = 1 +
+// O(s^m): all moments below 2m vanish. Laplacian^j = sum_{|beta|=j} j!/beta! D^{2 beta}.
 Cutoff laplacians_of_gaussian(int order, int dimension, double eps) {
   Cutoff terms;
   const double peak = std::pow(std::sqrt(std::numbers::pi) * eps, -dimension);

@@ -14,7 +14,7 @@ struct Particles {
   int dimension = 2;
   std::array<std::vector<double>, max_dimension> position;  // X_j, one array per axis
   std::vector<double> alpha;                                // alpha_j = h^d rho_0(x_j) at the start
-  std::vector<std::int64_t> id;                             // index on the seeding lattice, first axis fastest; constant
+  std::vector<std::int64_t> id;  // index on the seeding lattice, first axis fastest; constant
 
   std::size_t size() const { return alpha.size(); }
 

@@ -12,7 +12,8 @@ namespace gaussdrift {
 
 namespace {
 
-// One line of lattice points along the first axis, other indices fixed; what it carries is joined in the order of lines.
+// One line of lattice points along the first axis, other indices fixed; what it carries is joined in the order of
+// lines.
 Particles seed_line(const Lattice& lattice, std::size_t line, const DensityFunction& rho_0) {
   const std::size_t length = lattice.points[0];
   const std::size_t j = line % lattice.points[1], k = line / lattice.points[1];
@@ -32,9 +33,10 @@ Particles seed_line(const Lattice& lattice, std::size_t line, const DensityFunct
     if (!std::isfinite(rho[i])) {
       std::string place = fmt::format("({}, {}", x[0][i], x[1][i]);
       place += lattice.dimension == 3 ? fmt::format(", {})", x[2][i]) : ")";
-      throw NumericalError(fmt::format(
-          "the initial density is {} at {}; it must be finite on the whole domain: guard the expression, or move the domain", std::isnan(rho[i]) ? "nan" : fmt::format("{}", rho[i]),
-          place));
+      throw NumericalError(
+          fmt::format("the initial density is {} at {}; it must be finite on the whole domain: guard the expression, "
+                      "or move the domain",
+                      std::isnan(rho[i]) ? "nan" : fmt::format("{}", rho[i]), place));
     }
     const double alpha = cell * rho[i];
     if (alpha == 0) continue;

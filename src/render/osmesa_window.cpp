@@ -49,7 +49,7 @@ class OsmesaWindow : public vtkOpenGLRenderWindow {
   static OsmesaWindow* New();
   vtkTypeMacro(OsmesaWindow, vtkOpenGLRenderWindow)  // no semicolon
 
-  void Initialize() override {
+      void Initialize() override {
     if (!context_) CreateAWindow();
     MakeCurrent();
     if (!Initialized) OpenGLInit();

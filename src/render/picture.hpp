@@ -13,7 +13,7 @@ namespace gaussdrift::render {
 enum class Style { surface, contour, heatmap };
 
 struct PictureOptions {
-  std::string title;  // of the case
+  std::string title{};  // of the case
   std::string quantity = "density";
   double time = 0;
   double range_min = 0;  // of the colours, height axis and contour levels; the same for all pictures of a run

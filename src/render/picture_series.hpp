@@ -13,6 +13,7 @@ namespace gaussdrift::render {
 
 /// images/surface_0000.png, ... The range is that of the first frame, with round ends. Should a later frame leave it by
 /// more than a hundredth, the pictures before are drawn again with the wider range at the end of the run.
-std::unique_ptr<Observer> picture_series(const std::filesystem::path& folder, std::vector<Style> styles, std::string title);
+std::unique_ptr<Observer> picture_series(const std::filesystem::path& folder, std::vector<Style> styles,
+                                         std::string title);
 
 }  // namespace gaussdrift::render

@@ -52,7 +52,8 @@ std::vector<WidthGroup<d>> group_by_width(const Cutoff& cutoff) {
 fgtd::Method method_by_name(const std::string& name) {
   for (const auto method : {fgtd::Method::automatic, fgtd::Method::direct, fgtd::Method::hermite})
     if (fgtd::to_string(method) == name) return method;
-  throw InputError("evaluate.method = \"" + name + "\" is not a method of the Gauss transform; use auto, direct or hermite");
+  throw InputError("evaluate.method = \"" + name +
+                   "\" is not a method of the Gauss transform; use auto, direct or hermite");
 }
 
 // Some particles where the density is probably large: those of largest weight, and a few spread over all of them.
@@ -62,10 +63,11 @@ std::vector<std::size_t> promising_particles(const Particles& particles) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const std::size_t heaviest = std::min(wanted, count);
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(heaviest), order.end(), [&](std::size_t a, std::size_t b) {
-    const double wa = std::abs(particles.alpha[a]), wb = std::abs(particles.alpha[b]);
-    return wa != wb ? wa > wb : a < b;
-  });
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(heaviest), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      const double wa = std::abs(particles.alpha[a]), wb = std::abs(particles.alpha[b]);
+                      return wa != wb ? wa > wb : a < b;
+                    });
   order.resize(heaviest);
   for (std::size_t i = 0; i < wanted; ++i) order.push_back(i * count / wanted);
   return order;
@@ -74,7 +76,8 @@ std::vector<std::size_t> promising_particles(const Particles& particles) {
 // Grid points to compare with `direct`: the one of the largest |rho|, and a low-discrepancy choice of others.
 std::vector<std::size_t> sample_of_grid(const std::vector<double>& rho, std::size_t wanted) {
   std::vector<std::size_t> sample;
-  const auto largest = std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const auto largest =
+      std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   sample.push_back(static_cast<std::size_t>(largest - rho.begin()));
   constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
   for (std::size_t i = 1; i < wanted; ++i) {
@@ -90,7 +93,8 @@ class Evaluation {
   Evaluation(const Particles& particles, const Cutoff& cutoff, const DensityOptions& options)
       : options_(options),
         sources_(points_of<d>(particles)),
-        weights_(Eigen::Map<const Eigen::VectorXd>(particles.alpha.data(), static_cast<Eigen::Index>(particles.size()))),
+        weights_(
+            Eigen::Map<const Eigen::VectorXd>(particles.alpha.data(), static_cast<Eigen::Index>(particles.size()))),
         groups_(group_by_width<d>(cutoff)) {}
 
   // Largest |rho| among some promising points, by `direct`: a lower bound of max |rho|.
@@ -111,7 +115,8 @@ class Evaluation {
       error_of_unit_tolerance += group.scale * largest_weight_within(particles, reach);
     }
     constexpr double coarsest = 0.1;  // nothing is gained above
-    const double wanted = error_of_unit_tolerance > 0 ? options_.tolerance * maximum / error_of_unit_tolerance : coarsest;
+    const double wanted =
+        error_of_unit_tolerance > 0 ? options_.tolerance * maximum / error_of_unit_tolerance : coarsest;
     tolerance_ = std::clamp(wanted, fgtd::smallest_tolerance, coarsest);
     report.requested_tolerance = tolerance_;
     report.achievable = wanted >= fgtd::smallest_tolerance || maximum == 0
@@ -157,13 +162,15 @@ class Evaluation {
     for (std::size_t i = 0; i < sample.size(); ++i) {
       std::size_t index = sample[i];
       for (int k = 0; k < d; ++k) {
-        targets(k, static_cast<Eigen::Index>(i)) = lattice.coordinate(k, index % lattice.points[static_cast<std::size_t>(k)]);
+        targets(k, static_cast<Eigen::Index>(i)) =
+            lattice.coordinate(k, index % lattice.points[static_cast<std::size_t>(k)]);
         index /= lattice.points[static_cast<std::size_t>(k)];
       }
     }
     const Eigen::VectorXd exact = direct(targets);
     double error = 0;
-    for (std::size_t i = 0; i < sample.size(); ++i) error = std::max(error, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[sample[i]]));
+    for (std::size_t i = 0; i < sample.size(); ++i)
+      error = std::max(error, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[sample[i]]));
     const double maximum = std::abs(rho[sample.front()]);
     report.measured_error = maximum > 0 ? error / maximum : error;
     report.sample = sample.size();
@@ -178,8 +185,8 @@ class Evaluation {
 };
 
 template <int d>
-void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, DensityGrid& grid, const DensityOptions& options,
-                           DensityReport& report) {
+void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, DensityGrid& grid,
+                           const DensityOptions& options, DensityReport& report) {
   const base::Stopwatch evaluating;
   fgtd::TensorGrid nodes;
   for (int k = 0; k < d; ++k) nodes.axes.push_back(grid.lattice.nodes(k));
@@ -222,7 +229,8 @@ double largest_weight_within(const Particles& particles, double reach) {
   for (std::size_t j = 0; j < count; ++j) {
     std::size_t index = 0;
     for (int k = dimension - 1; k >= 0; --k)
-      index = index * boxes[k] + std::min(boxes[k] - 1, static_cast<std::size_t>((particles.position[k][j] - low[k]) / side));
+      index = index * boxes[k] +
+              std::min(boxes[k] - 1, static_cast<std::size_t>((particles.position[k][j] - low[k]) / side));
     weight[index] += std::abs(particles.alpha[j]);
   }
   // Sums over 5 boxes, one axis after the other.
@@ -244,8 +252,8 @@ double largest_weight_within(const Particles& particles, double reach) {
   return *std::max_element(weight.begin(), weight.end());
 }
 
-DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
-                             DensityReport* report) {
+DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+                             const DensityOptions& options, DensityReport* report) {
   DensityReport ignored;
   DensityReport& filled = report ? *report : ignored;
   filled = {};

@@ -1,5 +1,5 @@
-// The density rho_eps^h = sum_j alpha_j zeta_eps(x - X_j) on the evaluation lattice, by fgtd, to a tolerance relative to
-// its own maximum. method.md, section 5.
+// The density rho_eps^h = sum_j alpha_j zeta_eps(x - X_j) on the evaluation lattice, by fgtd, to a tolerance relative
+// to its own maximum. method.md, section 5.
 #pragma once
 
 #include <string>
@@ -20,12 +20,13 @@ struct DensityOptions {
 /// What one evaluation did.
 struct DensityReport {
   double requested_tolerance = 0;  // per term, asked of fgtd
-  double achievable = 0;           // bound on the error relative to max |rho|: above the tolerance only if that cannot be promised
-  double measured_error = 0;       // on the sample, relative to max |rho| on the grid
-  std::size_t sample = 0;          // grid points compared
+  double achievable =
+      0;  // bound on the error relative to max |rho|: above the tolerance only if that cannot be promised
+  double measured_error = 0;  // on the sample, relative to max |rho| on the grid
+  std::size_t sample = 0;     // grid points compared
   double evaluate_seconds = 0;
   double measure_seconds = 0;
-  std::string choice;              // what fgtd chose, one line a Gaussian width
+  std::string choice;  // what fgtd chose, one line a Gaussian width
 };
 
 /// The density of the particles on the lattice. An absent particle set gives rho = 0.

@@ -22,8 +22,9 @@ struct FrameNumbers {
   double mass = 0;     // sum_j alpha_j, the exact integral of rho_eps^h over all space
   double minimum = 0;  // of rho on the grid
   double maximum = 0;
-  Vector centroid{};   // sum_j alpha_j X_j / mass
-  double transform_error = 0;      // of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|
+  Vector centroid{};  // sum_j alpha_j X_j / mass
+  double transform_error =
+      0;  // of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|
   double transform_tolerance = 0;  // per-term tolerance that was asked of fgtd
   double evaluate_seconds = 0;     // preparing and evaluating the transform
 };
@@ -32,7 +33,8 @@ struct Frame {
   int index = 0;
   double time = 0;
   const Particles* particles = nullptr;
-  const std::vector<double>* velocity = nullptr;  // u(X_j, t) [j][dimension]; only if particle files are written, else null
+  const std::vector<double>* velocity =
+      nullptr;  // u(X_j, t) [j][dimension]; only if particle files are written, else null
   const DensityGrid* density = nullptr;
   FrameNumbers numbers;
 };

@@ -30,10 +30,14 @@ std::unique_ptr<VelocityField> make_velocity(const Case& description) {
 
 RadialDensity::Profile profile_of(ShapeDensity::Shape shape) {
   switch (shape) {
-    case ShapeDensity::Shape::wendland: return RadialDensity::Profile::wendland;
-    case ShapeDensity::Shape::cone: return RadialDensity::Profile::cone;
-    case ShapeDensity::Shape::gaussian: return RadialDensity::Profile::gaussian;
-    case ShapeDensity::Shape::disk: return RadialDensity::Profile::disk;
+    case ShapeDensity::Shape::wendland:
+      return RadialDensity::Profile::wendland;
+    case ShapeDensity::Shape::cone:
+      return RadialDensity::Profile::cone;
+    case ShapeDensity::Shape::gaussian:
+      return RadialDensity::Profile::gaussian;
+    case ShapeDensity::Shape::disk:
+      return RadialDensity::Profile::disk;
   }
   throw Error(ExitCode::internal, "a density shape without a profile");
 }
@@ -42,9 +46,11 @@ std::unique_ptr<InitialDensity> make_density(const Case& description) {
   std::vector<std::unique_ptr<InitialDensity>> parts;
   for (const DensitySpec& spec : description.density) {
     if (const auto* written = std::get_if<ExpressionDensity>(&spec))
-      parts.push_back(std::make_unique<WrittenDensity>(written->text, description.domain.dimension, description.params));
+      parts.push_back(
+          std::make_unique<WrittenDensity>(written->text, description.domain.dimension, description.params));
     else if (const auto* shape = std::get_if<ShapeDensity>(&spec))
-      parts.push_back(std::make_unique<RadialDensity>(profile_of(shape->shape), shape->center, shape->radius, shape->height));
+      parts.push_back(
+          std::make_unique<RadialDensity>(profile_of(shape->shape), shape->center, shape->radius, shape->height));
   }
   if (parts.size() == 1) return std::move(parts.front());
   return std::make_unique<SumDensity>(std::move(parts));
@@ -85,11 +91,12 @@ Scene make_scene(const Case& description) {
 }
 
 Particles seed_scene(const Scene& scene, int threads) {
-  Particles particles =
-      seed(scene.seeding, [&](const PointsView& x, double* values) { scene.density->add(x, values); }, threads);
+  Particles particles = seed(
+      scene.seeding, [&](const PointsView& x, double* values) { scene.density->add(x, values); }, threads);
   if (particles.size() == 0)
     throw InputError(
-        "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or enlarge "
+        "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or "
+        "enlarge "
         "the density, or raise particles.per_axis");
   return particles;
 }
@@ -113,7 +120,8 @@ void Simulation::carry(double from, double to, RunSummary& summary) {
   const Stepper stepper(*scene_.velocity, tableau, threads_);
   // Batches are short enough for a lively progress line and long enough that threads start rarely.
   constexpr std::size_t stages_a_batch = 4'000'000;
-  const std::size_t stages_a_step = std::max<std::size_t>(1, particles_.size() * static_cast<std::size_t>(tableau.stages));
+  const std::size_t stages_a_step =
+      std::max<std::size_t>(1, particles_.size() * static_cast<std::size_t>(tableau.stages));
   const std::size_t batch = std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000);
   for (std::size_t done = 0; done < interval.steps();) {
     const std::size_t count = std::min(batch, interval.steps() - done);
@@ -141,7 +149,8 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   summary.transform_choice = report.choice;
   summary.transform_achievable = std::max(summary.transform_achievable, report.achievable);
 
-  const bool velocity_wanted = std::find(case_.output.vtk.begin(), case_.output.vtk.end(), OutputSpec::Vtk::particles) != case_.output.vtk.end();
+  const bool velocity_wanted =
+      std::find(case_.output.vtk.begin(), case_.output.vtk.end(), OutputSpec::Vtk::particles) != case_.output.vtk.end();
   std::vector<double> velocity;  // [j][dimension]
   if (velocity_wanted) {
     const auto dimension = static_cast<std::size_t>(particles_.dimension);

@@ -1,4 +1,5 @@
-// A run: seeds the particles of a case, carries them from output time to output time, and shows each frame to observers.
+// A run: seeds the particles of a case, carries them from output time to output time, and shows each frame to
+// observers.
 #pragma once
 
 #include <functional>
@@ -22,8 +23,8 @@ namespace gaussdrift {
 struct Scene {
   std::unique_ptr<VelocityField> velocity;
   std::unique_ptr<InitialDensity> density;
-  Lattice seeding;     // where particles start
-  Lattice evaluation;  // where rho is summed
+  Lattice seeding;         // where particles start
+  Lattice evaluation;      // where rho is summed
   double core_radius = 0;  // eps = c h
   Cutoff cutoff;
 };
@@ -39,7 +40,7 @@ std::size_t total_steps(const Case& description);
 struct Progress {
   std::size_t steps_done = 0, steps_total = 0;
   double time = 0, end = 0;
-  double seconds = 0;  // since the run began
+  double seconds = 0;       // since the run began
   double step_seconds = 0;  // of these, in steps
 };
 
@@ -48,9 +49,9 @@ struct RunSummary {
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0;
   double spacing = 0, core_radius = 0;
   int threads = 1;
-  std::string transform_choice;     // of the last frame
-  double transform_tolerance = 0;   // requested by the case, relative to max |rho|
-  double transform_achievable = 0;  // worst frame; above the tolerance only where that cannot be promised
+  std::string transform_choice;      // of the last frame
+  double transform_tolerance = 0;    // requested by the case, relative to max |rho|
+  double transform_achievable = 0;   // worst frame; above the tolerance only where that cannot be promised
   std::vector<std::string> effects;  // that ran: what the scene called for, nothing else
   std::vector<std::pair<double, FrameNumbers>> frames;
   base::StageTimes stages;

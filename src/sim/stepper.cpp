@@ -26,7 +26,8 @@ std::string number(double value) { return std::isnan(value) ? "nan" : fmt::forma
 
 std::string tuple(const double* values, std::size_t stride, int dimension) {
   std::string text = "(";
-  for (int k = 0; k < dimension; ++k) text += fmt::format("{}{}", k ? ", " : "", number(values[static_cast<std::size_t>(k) * stride]));
+  for (int k = 0; k < dimension; ++k)
+    text += fmt::format("{}{}", k ? ", " : "", number(values[static_cast<std::size_t>(k) * stride]));
   return text + ")";
 }
 
@@ -61,7 +62,8 @@ void Stepper::advance(Particles& particles, const time::Interval& interval, std:
     Block block{dimension, length, std::vector<double>(length * static_cast<std::size_t>(dimension))};
     const auto load = [&] {
       for (int k = 0; k < dimension; ++k)
-        std::copy_n(particles.position[k].data() + begin, length, block.state.data() + static_cast<std::size_t>(k) * length);
+        std::copy_n(particles.position[k].data() + begin, length,
+                    block.state.data() + static_cast<std::size_t>(k) * length);
     };
     time::Stages work(tableau_, block.state.size());
     const auto rate = [&](double t, const double* x, double* u) {
@@ -80,12 +82,14 @@ void Stepper::advance(Particles& particles, const time::Interval& interval, std:
         rate(t, x, u);
         for (std::size_t j = 0; j < length; ++j) {
           bool finite = true;
-          for (int k = 0; k < dimension; ++k) finite = finite && std::isfinite(u[static_cast<std::size_t>(k) * length + j]);
+          for (int k = 0; k < dimension; ++k)
+            finite = finite && std::isfinite(u[static_cast<std::size_t>(k) * length + j]);
           if (finite) continue;
           throw NumericalError(fmt::format(
               "the velocity is {} in step {} at t = {:.10g}, for particle {} at {}; the field must be finite wherever "
               "particles go: guard the expression, shorten time.end, or move the density",
-              tuple(u + j, length, dimension), steps_before + i + 1, t, particles.id[begin + j], tuple(x + j, length, dimension)));
+              tuple(u + j, length, dimension), steps_before + i + 1, t, particles.id[begin + j],
+              tuple(x + j, length, dimension)));
         }
       };
       for (; i < first + count; ++i) {
@@ -93,9 +97,10 @@ void Stepper::advance(Particles& particles, const time::Interval& interval, std:
         for (std::size_t j = 0; j < length; ++j)
           for (int k = 0; k < dimension; ++k)
             if (!std::isfinite(block.state[static_cast<std::size_t>(k) * length + j]))
-              throw NumericalError(fmt::format("particle {} left for infinity in step {} at t = {:.10g}; time.step = {:.6g} is too "
-                                               "long for this field, or the flow itself blows up",
-                                               particles.id[begin + j], steps_before + i + 1, interval.start(i + 1), interval.length(i)));
+              throw NumericalError(fmt::format(
+                  "particle {} left for infinity in step {} at t = {:.10g}; time.step = {:.6g} is too "
+                  "long for this field, or the flow itself blows up",
+                  particles.id[begin + j], steps_before + i + 1, interval.start(i + 1), interval.length(i)));
       }
     }
     results[b] = std::move(block.state);
@@ -104,7 +109,8 @@ void Stepper::advance(Particles& particles, const time::Interval& interval, std:
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
     for (int k = 0; k < dimension; ++k)
-      std::copy_n(results[b].data() + static_cast<std::size_t>(k) * length, length, particles.position[k].data() + begin);
+      std::copy_n(results[b].data() + static_cast<std::size_t>(k) * length, length,
+                  particles.position[k].data() + begin);
   }
 }
 

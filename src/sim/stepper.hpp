@@ -10,17 +10,17 @@
 
 namespace gaussdrift {
 
-/// Particles do not see each other, so each block of them takes many steps at a time while its arrays stay in the cache.
-/// The result of a particle does not depend on the blocks or the number of threads.
+/// Particles do not see each other, so each block of them takes many steps at a time while its arrays stay in the
+/// cache. The result of a particle does not depend on the blocks or the number of threads.
 class Stepper {
  public:
   /// The field must outlive the stepper. threads: 0 for all.
   Stepper(const VelocityField& velocity, const time::Tableau& tableau, int threads)
       : velocity_(velocity), tableau_(tableau), threads_(threads) {}
 
-  /// Takes steps first .. first + count - 1 of the interval. `steps_before` steps were taken before the interval; messages
-  /// count from there. Throws NumericalError naming step, time, particle and place where the field or a position is not
-  /// finite; the particles are then as they were before the call.
+  /// Takes steps first .. first + count - 1 of the interval. `steps_before` steps were taken before the interval;
+  /// messages count from there. Throws NumericalError naming step, time, particle and place where the field or a
+  /// position is not finite; the particles are then as they were before the call.
   void advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                std::size_t steps_before) const;
 

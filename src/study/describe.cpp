@@ -60,8 +60,10 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
       for (int k = 0; k < sample.dimension; ++k) square += u[k][j] * u[k][j];
       if (!std::isfinite(square)) {
         std::string place;
-        for (int k = 0; k < sample.dimension; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", sample.position[k][j]);
-        throw NumericalError(fmt::format("the velocity is not finite at t = {:.6g}, ({}); guard the expression or move the density", t, place));
+        for (int k = 0; k < sample.dimension; ++k)
+          place += fmt::format("{}{:.6g}", k ? ", " : "", sample.position[k][j]);
+        throw NumericalError(fmt::format(
+            "the velocity is not finite at t = {:.6g}, ({}); guard the expression or move the density", t, place));
       }
       result.largest_speed = std::max(result.largest_speed, std::sqrt(square));
     }
@@ -75,7 +77,8 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
       }
       sample.position[k] = kept;
     }
-    for (const double value : divergence) result.largest_divergence = std::max(result.largest_divergence, std::abs(value));
+    for (const double value : divergence)
+      result.largest_divergence = std::max(result.largest_divergence, std::abs(value));
   }
   result.divergence_noise = 10 * std::numeric_limits<double>::epsilon() * result.largest_speed / delta;
 }
@@ -144,11 +147,14 @@ Description describe(const Case& description, int threads) {
   result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
 
   const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
-  result.picture_seconds = pictures > 0 ? 0.6 + 0.2 * pictures : 0;  // start of the renderer, and a picture, on two cores
+  result.picture_seconds =
+      pictures > 0 ? 0.6 + 0.2 * pictures : 0;  // start of the renderer, and a picture, on two cores
   const auto frames = static_cast<double>(result.frames), n = static_cast<double>(result.particles),
              m = static_cast<double>(result.grid_points), d = static_cast<double>(description.domain.dimension);
-  result.seconds = static_cast<double>(result.steps) * result.step_seconds + frames * result.evaluate_seconds + result.picture_seconds;
-  // Positions, weights, ids, a stepped copy, the sorted copy of the transform; density, its transform's result and sample.
+  result.seconds = static_cast<double>(result.steps) * result.step_seconds + frames * result.evaluate_seconds +
+                   result.picture_seconds;
+  // Positions, weights, ids, a stepped copy, the sorted copy of the transform; density, its transform's result and
+  // sample.
   result.memory_bytes = n * 8 * (4 * d + 6) + m * 8 * 3 + (pictures > 0 ? 3e8 + frames * m * 4 : 0);
   if (wants(description, OutputSpec::Vtk::density)) result.disk_bytes += frames * (8 * m + 1500);
   if (wants(description, OutputSpec::Vtk::particles)) result.disk_bytes += frames * (8 * n * 9 + 2500);
@@ -163,47 +169,60 @@ std::string to_text(const Case& scene, const Description& r) {
     const auto axis = static_cast<std::size_t>(k);
     box += fmt::format("{}[{:g},{:g}]", k ? "x" : "", domain.min[axis], domain.max[axis]);
   }
-  const std::string divergence = r.largest_divergence <= r.divergence_noise ? "div u = 0 (sampled)"
-                                                                            : fmt::format("max|div u| = {:.3g} (sampled)", r.largest_divergence);
-  std::string text = fmt::format("{}  {}D  {}   {}   max|u| = {:.3g}\n", scene.name, domain.dimension, box, divergence, r.largest_speed);
-  if (!scene.title.empty()) text += fmt::format("title      {}{}\n", scene.title, scene.cite.empty() ? "" : ", after " + scene.cite);
+  const std::string divergence = r.largest_divergence <= r.divergence_noise
+                                     ? "div u = 0 (sampled)"
+                                     : fmt::format("max|div u| = {:.3g} (sampled)", r.largest_divergence);
+  std::string text = fmt::format("{}  {}D  {}   {}   max|u| = {:.3g}\n", scene.name, domain.dimension, box, divergence,
+                                 r.largest_speed);
+  if (!scene.title.empty())
+    text += fmt::format("title      {}{}\n", scene.title, scene.cite.empty() ? "" : ", after " + scene.cite);
   text += fmt::format("velocity   {}\n", r.velocity);
-  text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n", grouped(r.lattice_points),
-                      r.spacing, scene.particles.overlap, r.core_radius, scene.particles.cutoff, grouped(r.particles));
+  text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n",
+                      grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
+                      scene.particles.cutoff, grouped(r.particles));
   text += fmt::format("effects    {}\n", effects_text());
   text += fmt::format("transform  {}\n", r.density.choice);
-  text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n", scene.evaluate.tolerance,
-                      r.density.measured_error, r.density.sample);
+  text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n",
+                      scene.evaluate.tolerance, r.density.measured_error, r.density.sample);
   if (r.density.achievable > scene.evaluate.tolerance)
-    text += fmt::format("           this tolerance cannot be promised here: the bound is {:.1e}\n", r.density.achievable);
-  text += fmt::format("density    max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum, grouped(r.grid_points));
+    text +=
+        fmt::format("           this tolerance cannot be promised here: the bound is {:.1e}\n", r.density.achievable);
+  text += fmt::format("density    max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum,
+                      grouped(r.grid_points));
   text += fmt::format(
-      "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (steps {:.2g}, density {:.2g}, "
+      "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (steps {:.2g}, density "
+      "{:.2g}, "
       "pictures {:.2g}); memory {}; disk {}\n",
       grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads,
-      static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds, r.picture_seconds,
-      bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
+      static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
+      r.picture_seconds, bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
   return text;
 }
 
 std::string to_json(const Case& scene, const Description& r) {
-  const nlohmann::ordered_json document{
-      {"case", scene.name},
-      {"dimension", scene.domain.dimension},
-      {"velocity", r.velocity},
-      {"largest_speed", r.largest_speed},
-      {"largest_divergence", r.largest_divergence},
-      {"effects", {"transport"}},
-      {"lattice_points", r.lattice_points},
-      {"particles", r.particles},
-      {"spacing", r.spacing},
-      {"core_radius", r.core_radius},
-      {"grid_points", r.grid_points},
-      {"steps", r.steps},
-      {"frames", r.frames},
-      {"density_maximum", r.density_maximum},
-      {"transform", {{"chosen", r.density.choice}, {"measured_error", r.density.measured_error}, {"achievable", r.density.achievable}}},
-      {"predicted", {{"seconds", r.seconds}, {"memory_bytes", r.memory_bytes}, {"disk_bytes", r.disk_bytes}, {"threads", r.threads}}}};
+  const nlohmann::ordered_json document{{"case", scene.name},
+                                        {"dimension", scene.domain.dimension},
+                                        {"velocity", r.velocity},
+                                        {"largest_speed", r.largest_speed},
+                                        {"largest_divergence", r.largest_divergence},
+                                        {"effects", {"transport"}},
+                                        {"lattice_points", r.lattice_points},
+                                        {"particles", r.particles},
+                                        {"spacing", r.spacing},
+                                        {"core_radius", r.core_radius},
+                                        {"grid_points", r.grid_points},
+                                        {"steps", r.steps},
+                                        {"frames", r.frames},
+                                        {"density_maximum", r.density_maximum},
+                                        {"transform",
+                                         {{"chosen", r.density.choice},
+                                          {"measured_error", r.density.measured_error},
+                                          {"achievable", r.density.achievable}}},
+                                        {"predicted",
+                                         {{"seconds", r.seconds},
+                                          {"memory_bytes", r.memory_bytes},
+                                          {"disk_bytes", r.disk_bytes},
+                                          {"threads", r.threads}}}};
   return document.dump(2) + "\n";
 }
 

@@ -10,22 +10,22 @@
 namespace gaussdrift::study {
 
 struct Description {
-  std::string velocity;         // formula
-  double largest_speed = 0;     // of |u| at the particles, over sampled times
+  std::string velocity;           // formula
+  double largest_speed = 0;       // of |u| at the particles, over sampled times
   double largest_divergence = 0;  // of |div u| there, by central differences
   double divergence_noise = 0;    // what those differences cannot tell from 0
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0, frames = 0;
   double spacing = 0, core_radius = 0;
-  DensityReport density;        // of a trial evaluation at t = 0
-  double density_maximum = 0;   // rho_eps^h on the grid at t = 0
+  DensityReport density;       // of a trial evaluation at t = 0
+  double density_maximum = 0;  // rho_eps^h on the grid at t = 0
   // Predictions
   double step_seconds = 0, evaluate_seconds = 0, picture_seconds = 0, seconds = 0;
   double memory_bytes = 0, disk_bytes = 0;
   int threads = 1;
 };
 
-/// Throws what a run would throw before its first step: NumericalError for a density or velocity that is not finite at the
-/// sampled places, InputError where nothing carries weight.
+/// Throws what a run would throw before its first step: NumericalError for a density or velocity that is not finite at
+/// the sampled places, InputError where nothing carries weight.
 Description describe(const Case& scene, int threads);
 
 /// The lines that `gaussdrift check` prints.

@@ -79,7 +79,8 @@ Cone seed_cone(int per_axis, int threads) {
   const RadialDensity wendland(RadialDensity::Profile::wendland, {0.5, 0, 0}, 0.25, 1);
   Cone cone;
   cone.seeding = make_lattice(2, low, high, per_axis);
-  cone.particles = seed(cone.seeding, [&](const PointsView& x, double* values) { wendland.add(x, values); }, threads);
+  cone.particles = seed(
+      cone.seeding, [&](const PointsView& x, double* values) { wendland.add(x, values); }, threads);
   return cone;
 }
 
@@ -124,7 +125,8 @@ ConeReproduction reproduce_cone(int threads, const std::function<void(std::size_
     const time::Interval interval(static_cast<double>(taken) * step, static_cast<double>(wanted) * step, step);
     stepper.advance(cone.particles, interval, 0, interval.steps(), taken);
     taken = wanted;
-    for (const Row52& row : table_52) add({52, 300, row.overlap, names[i], row.height[i], height(cone, row.overlap, threads)});
+    for (const Row52& row : table_52)
+      add({52, 300, row.overlap, names[i], row.height[i], height(cone, row.overlap, threads)});
   }
   result.seconds = watch.seconds();
   return result;
@@ -137,7 +139,9 @@ std::string to_text(const ConeReproduction& result) {
       return entry.table == table && entry.overlap == overlap && entry.per_axis == per_axis && entry.time == time;
     });
   };
-  const auto cell = [](const ConeHeight& entry) { return fmt::format("  {:.6f} {:.7f}", entry.published, entry.computed); };
+  const auto cell = [](const ConeHeight& entry) {
+    return fmt::format("  {:.6f} {:.7f}", entry.published, entry.computed);
+  };
 
   std::string text = "Schroeder 2006, Table 5.1: height of the cone at t = 0 (published, computed)\n   c";
   for (const int n : lattices) text += fmt::format("  {:>18}", fmt::format("n_g = {}", n));
@@ -155,8 +159,8 @@ std::string to_text(const ConeReproduction& result) {
     for (const std::string time : {"0", "2 pi", "20 pi"}) text += cell(find(52, row.overlap, 300, time));
     text += "\n";
   }
-  text += fmt::format("\n{} heights, largest difference {:.1e} (agreement: at most {:.0e}), {:.1f} s\n", result.heights.size(),
-                      result.worst_difference, cone_agreement, result.seconds);
+  text += fmt::format("\n{} heights, largest difference {:.1e} (agreement: at most {:.0e}), {:.1f} s\n",
+                      result.heights.size(), result.worst_difference, cone_agreement, result.seconds);
   return text;
 }
 

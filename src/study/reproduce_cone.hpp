@@ -8,12 +8,12 @@
 namespace gaussdrift::study {
 
 struct ConeHeight {
-  int table = 51;          // 51: Table 5.1, 52: Table 5.2
-  int per_axis = 0;        // n_g
-  int overlap = 0;         // c
-  std::string time;        // as printed: "0", "2 pi", "20 pi"
+  int table = 51;    // 51: Table 5.1, 52: Table 5.2
+  int per_axis = 0;  // n_g
+  int overlap = 0;   // c
+  std::string time;  // as printed: "0", "2 pi", "20 pi"
   double published = 0;
-  double computed = 0;     // maximum of rho on the 700 x 700 grid
+  double computed = 0;  // maximum of rho on the 700 x 700 grid
 };
 
 struct ConeReproduction {

@@ -33,7 +33,8 @@ void step(const Tableau& rk, double t, double dt, const Rate& rate, double* y, S
       for (std::size_t j = 0; j < length; ++j) stage[j] = from[j] + factor * k[j];
       copied = true;
     }
-    rate(t + rk.c(i) * dt, copied ? static_cast<const double*>(stage) : y, work.rates[static_cast<std::size_t>(i)].data());
+    rate(t + rk.c(i) * dt, copied ? static_cast<const double*>(stage) : y,
+         work.rates[static_cast<std::size_t>(i)].data());
   }
   for (int i = 0; i < rk.stages; ++i) {
     if (rk.b(i) == 0) continue;

@@ -22,7 +22,6 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <fstream>
 #include <numeric>
 #include <string_view>
 #include <system_error>
@@ -55,16 +54,6 @@ void set_time(vtkDataSet* data, double time) {
   data->GetFieldData()->AddArray(value);
 }
 
-/// VTK does not check that the last buffer reached the disk; the closing tag at the end of the file shows it.
-bool is_complete(const fs::path& file) {
-  constexpr std::string_view end = "</VTKFile>\n";
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  std::string tail(end.size(), '\0');
-  return in && in.tellg() >= static_cast<std::streamoff>(end.size()) &&
-         in.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end) &&
-         in.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == end;
-}
-
 /// Keeps VTK's messages off the terminal: they become part of the exception.
 void collect_errors(vtkObject* source, std::string& messages) {
   vtkNew<vtkCallbackCommand> collect;
@@ -91,11 +80,10 @@ void write_dataset(const fs::path& file, vtkDataSet* data) {
     writer->SetHeaderTypeToUInt64();
     writer->SetBlockSize(1 << 20);
     errno = 0;
-    const bool accepted = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
-    const int reason = errno;  // of the system call that failed; VTK only closes and removes its file after it
-    if (accepted && is_complete(part)) return;
-    if (reason != 0) throw std::system_error(reason, std::generic_category());
-    if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError || accepted)
+    if (writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError) return;
+    // The system call that failed left its reason; VTK only closes and removes its file after it.
+    if (errno != 0) throw std::system_error(errno, std::generic_category());
+    if (writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError)
       throw std::system_error(ENOSPC, std::generic_category());
     throw FileError(fmt::format("cannot write {}: {} {}", file.string(),
                                 vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()), messages));

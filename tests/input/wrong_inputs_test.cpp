@@ -9,7 +9,8 @@ namespace gaussdrift::input {
 namespace {
 
 TEST(CaseFile, RejectsAnUnknownKeyNamingTheLine) {
-  EXPECT_EQ(errors(with(cone, "overlap = 2", "overlapp = 2")), R"text(error: unknown key "overlapp" in [particles]; did you mean "overlap"?
+  EXPECT_EQ(errors(with(cone, "overlap = 2", "overlapp = 2")),
+            R"text(error: unknown key "overlapp" in [particles]; did you mean "overlap"?
   --> cone.toml:26:1
    |
 26 | overlapp = 2
@@ -20,7 +21,8 @@ TEST(CaseFile, RejectsAnUnknownKeyNamingTheLine) {
 }
 
 TEST(CaseFile, PointsIntoExpressions) {
-  EXPECT_EQ(errors(with(cone, "\"-y\", \"x\"", "\"-y\", \"x + siin(x)\"")), R"text(error: unknown function "siin"; did you mean "sin"?
+  EXPECT_EQ(errors(with(cone, "\"-y\", \"x\"", "\"-y\", \"x + siin(x)\"")),
+            R"text(error: unknown function "siin"; did you mean "sin"?
   --> cone.toml:16:17
    |
 16 | u = ["-y", "x + siin(x)"]
@@ -30,7 +32,8 @@ TEST(CaseFile, PointsIntoExpressions) {
 }
 
 TEST(CaseFile, LaysOutSyntaxErrorsLikeAllOthers) {
-  EXPECT_EQ(errors("gaussdrift = 1\n[domain\nmin = [0, 0]\n"), R"text(error: cannot read this table header: expected ']', saw '\n'
+  EXPECT_EQ(errors("gaussdrift = 1\n[domain\nmin = [0, 0]\n"),
+            R"text(error: cannot read this table header: expected ']', saw '\n'
  --> cone.toml:2:8
   |
 2 | [domain
@@ -90,13 +93,16 @@ TEST(CaseFile, SaysWhatAnEmptyFileLacks) {
   EXPECT_EQ(errors(""),
             "error: the file does not say which version of the format it has\n --> cone.toml:1:1\n  |\n1 | \n  | ^\n"
             "  = begin the file with: gaussdrift = 1\n\n"
-            "error: missing tables: [domain], [velocity], [density], [particles], [time]\n --> cone.toml:1:1\n  |\n1 | \n  | ^\n"
+            "error: missing tables: [domain], [velocity], [density], [particles], [time]\n --> cone.toml:1:1\n  |\n1 | "
+            "\n  | ^\n"
             "  = a case has at least [domain], [velocity], [density], [particles] and [time]\n\n2 errors in cone.toml");
 }
 
 TEST(CaseFile, KeepsCaretsInPlaceBehindTabsAndLettersOfSeveralBytes) {
-  EXPECT_NE(errors(with(cone, "overlap = 2", "\toverlapp = 2")).find("26 | \toverlapp = 2\n   | \t^^^^^^^^\n"), std::string::npos);
-  const std::string found = errors(with(cone, "title = \"Rotating cone\"\ncite = \"Schroeder 2006\"", "title = \"Größe\", x = 1"));
+  EXPECT_NE(errors(with(cone, "overlap = 2", "\toverlapp = 2")).find("26 | \toverlapp = 2\n   | \t^^^^^^^^\n"),
+            std::string::npos);
+  const std::string found =
+      errors(with(cone, "title = \"Rotating cone\"\ncite = \"Schroeder 2006\"", "title = \"Größe\", x = 1"));
   EXPECT_NE(found.find("4 | title = \"Größe\", x = 1\n  |                ^\n"), std::string::npos) << found;
 }
 
@@ -119,103 +125,173 @@ std::string expected(const std::string& text, const Wrong& wrong) {
   const std::string number = std::to_string(wrong.line), margin(number.size(), ' ');
   std::string result = "error: " + std::string(wrong.message) + "\n";
   result += margin + "--> cone.toml:" + number + ":" + std::to_string(column + 1) + "\n" + margin + " |\n";
-  result += number + " | " + line + "\n" + margin + " | " + std::string(column, ' ') + std::string(marked.size(), '^') + "\n";
+  result +=
+      number + " | " + line + "\n" + margin + " | " + std::string(column, ' ') + std::string(marked.size(), '^') + "\n";
   if (*wrong.note) result += margin + " = " + wrong.note + "\n";
   return result + "\n1 error in cone.toml";
 }
 
 const char* const step_note = "step: time step; the last one before an output is shortened to land on it";
 const char* const names_note = "reserved names: x, y, z, t, pi, e and the functions";
-const char* const tables_note = "known tables: case, params, domain, velocity, density, particles, time, evaluate, output";
+const char* const tables_note =
+    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output";
 
 const std::vector<Wrong> wrongs = {
     // version and structure
     {"gaussdrift = 1", "gaussdrift = 2", 1, "2", "this program reads version 1 of the format, the file has version 2"},
-    {"gaussdrift = 1", "gaussdrift = \"1\"", 1, "\"1\"", "gaussdrift must be the version of the format, found the string \"1\"", "begin the file with: gaussdrift = 1"},
-    {"gaussdrift = 1", "gausdrift = 1", 1, "gausdrift", "unknown key \"gausdrift\" at the top of the file; did you mean \"gaussdrift\"?", tables_note},
-    {"gaussdrift = 1", "gaussdrift = 1\nstep = 0.1", 2, "step", "unknown key \"step\" at the top of the file; it belongs in [time]", tables_note},
-    {"[evaluate]", "[evaluation]", 34, "evaluation", "unknown table [evaluation]; did you mean [evaluate]?", tables_note},
+    {"gaussdrift = 1", "gaussdrift = \"1\"", 1, "\"1\"",
+     "gaussdrift must be the version of the format, found the string \"1\"", "begin the file with: gaussdrift = 1"},
+    {"gaussdrift = 1", "gausdrift = 1", 1, "gausdrift",
+     "unknown key \"gausdrift\" at the top of the file; did you mean \"gaussdrift\"?", tables_note},
+    {"gaussdrift = 1", "gaussdrift = 1\nstep = 0.1", 2, "step",
+     "unknown key \"step\" at the top of the file; it belongs in [time]", tables_note},
+    {"[evaluate]", "[evaluation]", 34, "evaluation", "unknown table [evaluation]; did you mean [evaluate]?",
+     tables_note},
     {"[particles]", "[particle]", 24, "particle", "unknown table [particle]; did you mean [particles]?", tables_note},
     {"[velocity]", "[[velocity]]", 15, "velocity", "velocity must be one table [velocity], found a list"},
     {"[time]\nend", "[effects.diffusion]\nD = 1\n[time]\nend", 29, "effects", "unknown table [effects]", tables_note},
-    {"overlap = 2", "overlap = 2\nstep = 0.1", 27, "step", "unknown key \"step\" in [particles]; it belongs in [time]", "known keys: per_axis, overlap, cutoff"},
+    {"overlap = 2", "overlap = 2\nstep = 0.1", 27, "step", "unknown key \"step\" in [particles]; it belongs in [time]",
+     "known keys: per_axis, overlap, cutoff"},
     {"step = 0.001\n", "", 29, "[time]", "time.step is missing", step_note},
-    {"per_axis = 300", "per_axes = 300", 25, "per_axes", "unknown key \"per_axes\" in [particles]; did you mean \"per_axis\"?", "known keys: per_axis, overlap, cutoff"},
+    {"per_axis = 300", "per_axes = 300", 25, "per_axes",
+     "unknown key \"per_axes\" in [particles]; did you mean \"per_axis\"?", "known keys: per_axis, overlap, cutoff"},
     {"title = \"Rotating cone\"", "title = 3", 4, "3", "case.title must be a string, found the number 3"},
-    {"title = \"Rotating cone\"", "title = 1979-05-27", 4, "1979-05-27", "case.title must be a string, found a date or time"},
+    {"title = \"Rotating cone\"", "title = 1979-05-27", 4, "1979-05-27",
+     "case.title must be a string, found a date or time"},
     // params
     {"R = 0.25", "R = 0.25\nx = 1", 9, "x", "\"x\" cannot be a parameter's name: it is a coordinate", names_note},
     {"R = 0.25", "R = 0.25\nt = 1", 9, "t", "\"t\" cannot be a parameter's name: it is the time", names_note},
     {"R = 0.25", "R = 0.25\npi = 3", 9, "pi", "\"pi\" cannot be a parameter's name: it is a constant", names_note},
     {"R = 0.25", "R = 0.25\nsin = 3", 9, "sin", "\"sin\" cannot be a parameter's name: it is a function", names_note},
-    {"R = 0.25", "R = 0.25\n\"a-b\" = 3", 9, "\"a-b\"", "\"a-b\" cannot be a parameter's name: at most 100 letters, digits and _, beginning with a letter or _", names_note},
-    {"R = 0.25", "R = \"turn/8\"", 8, "turn", "\"turn\" is not defined yet; a parameter may use those before it", "params.R may be an expression of the params, pi and e"},
-    {"R = 0.25", "R = \"2*R\"", 8, "R", "\"R\" is not defined yet; a parameter may use those before it", "params.R may be an expression of the params, pi and e"},
-    {"R = 0.25", "R = \"x/4\"", 8, "x", "\"x\" has no value here: params.R is one number for the whole run", "params.R may be an expression of the params, pi and e"},
+    {"R = 0.25", "R = 0.25\n\"a-b\" = 3", 9, "\"a-b\"",
+     "\"a-b\" cannot be a parameter's name: at most 100 letters, digits and _, beginning with a letter or _",
+     names_note},
+    {"R = 0.25", "R = \"turn/8\"", 8, "turn", "\"turn\" is not defined yet; a parameter may use those before it",
+     "params.R may be an expression of the params, pi and e"},
+    {"R = 0.25", "R = \"2*R\"", 8, "R", "\"R\" is not defined yet; a parameter may use those before it",
+     "params.R may be an expression of the params, pi and e"},
+    {"R = 0.25", "R = \"x/4\"", 8, "x", "\"x\" has no value here: params.R is one number for the whole run",
+     "params.R may be an expression of the params, pi and e"},
     {"R = 0.25", "R = true", 8, "true", "params.R must be a number or an expression, found true"},
     {"R = 0.25", "R = nan", 8, "nan", "params.R must be finite, found nan"},
-    {"R = 0.25", "R = \"(0.25\"", 8, "(", "\"(\" is never closed", "params.R may be an expression of the params, pi and e"},
-    {"R = 0.25", "R = \"\"", 8, "\"", "the expression is empty", "params.R may be an expression of the params, pi and e"},
+    {"R = 0.25", "R = \"(0.25\"", 8, "(", "\"(\" is never closed",
+     "params.R may be an expression of the params, pi and e"},
+    {"R = 0.25", "R = \"\"", 8, "\"", "the expression is empty",
+     "params.R may be an expression of the params, pi and e"},
     // domain
     {"min = [-1, -1]", "min = [-1]", 12, "[-1]", "domain.min needs 2 numbers (2D) or 3 numbers (3D), found 1"},
-    {"min = [-1, -1]", "min = [-1, 1]", 13, "1", "the domain is empty along y: min = 1, max = 1", "min must be less than max on every axis"},
-    {"max = [1, 1]", "max = [1, 1, 1]", 13, "[1, 1, 1]", "domain.min has 2 numbers, domain.max has 3", "2 numbers each in 2D, 3 in 3D"},
-    {"max = [1, 1]", "max = [-2, 1]", 13, "-2", "the domain is empty along x: min = -1, max = -2", "min must be less than max on every axis"},
+    {"min = [-1, -1]", "min = [-1, 1]", 13, "1", "the domain is empty along y: min = 1, max = 1",
+     "min must be less than max on every axis"},
+    {"max = [1, 1]", "max = [1, 1, 1]", 13, "[1, 1, 1]", "domain.min has 2 numbers, domain.max has 3",
+     "2 numbers each in 2D, 3 in 3D"},
+    {"max = [1, 1]", "max = [-2, 1]", 13, "-2", "the domain is empty along x: min = -1, max = -2",
+     "min must be less than max on every axis"},
     {"max = [1, 1]", "max = [1, inf]", 13, "inf", "entry 2 of domain.max must be finite, found inf"},
     {"max = [1, 1]", "max = 1", 13, "1", "domain.max must be a list of numbers, found the number 1"},
-    {"max = [1, 1]", "max = [1, [1]]", 13, "[1]", "entry 2 of domain.max must be a number or an expression, found a list"},
+    {"max = [1, 1]", "max = [1, [1]]", 13, "[1]",
+     "entry 2 of domain.max must be a number or an expression, found a list"},
     // velocity
-    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\", \"0\"]", 16, "[\"-y\", \"x\", \"0\"]", "velocity.u needs 2 expressions, one a dimension of the domain, found 3"},
-    {"u = [\"-y\", \"x\"]", "u = \"-y\"", 16, "\"-y\"", "velocity.u must be a list of expressions in strings, one a dimension, found the string \"-y\""},
-    {"u = [\"-y\", \"x\"]", "u = [\"-y\", true]", 16, "true", "entry 2 of velocity.u must be an expression in a string, found true"},
+    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\", \"0\"]", 16, "[\"-y\", \"x\", \"0\"]",
+     "velocity.u needs 2 expressions, one a dimension of the domain, found 3"},
+    {"u = [\"-y\", \"x\"]", "u = \"-y\"", 16, "\"-y\"",
+     "velocity.u must be a list of expressions in strings, one a dimension, found the string \"-y\""},
+    {"u = [\"-y\", \"x\"]", "u = [\"-y\", true]", 16, "true",
+     "entry 2 of velocity.u must be an expression in a string, found true"},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x*z\"]", 16, "z", "z exists only in 3D; the domain has 2 dimensions"},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x +\"]", 16, "+", "a value is missing after \"+\""},
-    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nfield = \"rotation\"", 17, "field", "[velocity] has both \"u\" and \"field\"", "give either \"u\" or \"field\""},
-    {"u = [\"-y\", \"x\"]", "", 15, "[velocity]", "[velocity] has neither \"u\" nor \"field\"", "give either \"u\" or \"field\""},
-    {"u = [\"-y\", \"x\"]", "field = \"rotatoin\"", 16, "\"rotatoin\"", "unknown value \"rotatoin\" for velocity.field; did you mean \"rotation\"?", "known values: \"rotation\""},
-    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nrate = 2", 17, "rate", "\"rate\" goes with \"field\", not with \"u\""},
-    {"u = [\"-y\", \"x\"]", "field = \"rotation\"\ncenter = [0, 0, 0]", 17, "[0, 0, 0]", "velocity.center needs 2 numbers, one a dimension of the domain, found 3"},
-    {"u = [\"-y\", \"x\"]", "streamfunction = \"x\"", 16, "streamfunction", "unknown key \"streamfunction\" in [velocity]", "known keys: u, field, center, rate"},
+    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nfield = \"rotation\"", 17, "field",
+     "[velocity] has both \"u\" and \"field\"", "give either \"u\" or \"field\""},
+    {"u = [\"-y\", \"x\"]", "", 15, "[velocity]", "[velocity] has neither \"u\" nor \"field\"",
+     "give either \"u\" or \"field\""},
+    {"u = [\"-y\", \"x\"]", "field = \"rotatoin\"", 16, "\"rotatoin\"",
+     "unknown value \"rotatoin\" for velocity.field; did you mean \"rotation\"?", "known values: \"rotation\""},
+    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nrate = 2", 17, "rate",
+     "\"rate\" goes with \"field\", not with \"u\""},
+    {"u = [\"-y\", \"x\"]", "field = \"rotation\"\ncenter = [0, 0, 0]", 17, "[0, 0, 0]",
+     "velocity.center needs 2 numbers, one a dimension of the domain, found 3"},
+    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nstreamfunction = \"x\"", 17, "streamfunction",
+     "unknown key \"streamfunction\" in [velocity]", "known keys: u, field, center, rate"},
     // density
-    {"shape = \"wendland\"", "shape = \"wendlnad\"", 19, "\"wendlnad\"", "unknown value \"wendlnad\" for density.shape; did you mean \"wendland\"?", "known values: \"wendland\", \"cone\", \"gaussian\", \"disk\""},
-    {"shape = \"wendland\"", "shape = \"wendland\"\nexpression = \"x\"", 20, "expression", "[density] has both \"expression\" and \"shape\"", "give either \"expression\" or \"shape\""},
-    {"radius = \"R\"\n", "", 18, "[density]", "density.radius is missing", "radius: radius of the shape; needed with shape"},
-    {"radius = \"R\"", "radius = \"R-R\"", 21, "\"R-R\"", "density.radius must be greater than 0, found 0 (from \"R-R\")", "radius: radius of the shape; needed with shape"},
-    {"center = [0.5, 0]", "center = [0.5]", 20, "[0.5]", "density.center needs 2 numbers, one a dimension of the domain, found 1"},
-    {"shape = \"wendland\"\ncenter = [0.5, 0]\nradius = \"R\"", "expression = \"R*x\"", 20, "height", "\"height\" goes with \"shape\", not with \"expression\""},
-    {"shape = \"wendland\"\ncenter = [0.5, 0]\nradius = \"R\"\nheight = 1.5", "expression = \"R*x*t\"", 19, "t", "the density at the start cannot depend on t"},
+    {"shape = \"wendland\"", "shape = \"wendlnad\"", 19, "\"wendlnad\"",
+     "unknown value \"wendlnad\" for density.shape; did you mean \"wendland\"?",
+     "known values: \"wendland\", \"cone\", \"gaussian\", \"disk\""},
+    {"shape = \"wendland\"", "shape = \"wendland\"\nexpression = \"x\"", 20, "expression",
+     "[density] has both \"expression\" and \"shape\"", "give either \"expression\" or \"shape\""},
+    {"radius = \"R\"\n", "", 18, "[density]", "density.radius is missing",
+     "radius: radius of the shape; needed with shape"},
+    {"radius = \"R\"", "radius = \"R-R\"", 21, "\"R-R\"",
+     "density.radius must be greater than 0, found 0 (from \"R-R\")", "radius: radius of the shape; needed with shape"},
+    {"center = [0.5, 0]", "center = [0.5]", 20, "[0.5]",
+     "density.center needs 2 numbers, one a dimension of the domain, found 1"},
+    {"shape = \"wendland\"\ncenter = [0.5, 0]\nradius = \"R\"", "expression = \"R*x\"", 20, "height",
+     "\"height\" goes with \"shape\", not with \"expression\""},
+    {"shape = \"wendland\"\ncenter = [0.5, 0]\nradius = \"R\"\nheight = 1.5", "expression = \"R*x*t\"", 19, "t",
+     "the density at the start cannot depend on t"},
     // particles
-    {"per_axis = 300", "per_axis = 1", 25, "1", "particles.per_axis must be at least 2, found 1", "per_axis: lattice points on the longest axis; the spacing h is the same on all axes; one particle an axis has no spacing"},
-    {"per_axis = 300", "per_axis = 30.5", 25, "30.5", "particles.per_axis must be a whole number, found 30.5", "per_axis: lattice points on the longest axis; the spacing h is the same on all axes; one particle an axis has no spacing"},
-    {"per_axis = 300", "per_axis = 1_000_000", 25, "1_000_000", "the particle lattice would have 1e+12 points (1000000 x 1000000); at most 2147483648 are possible", "lower per_axis"},
-    {"per_axis = 300", "per_axis = \"1e12\"", 25, "\"1e12\"", "the particle lattice would have 1000000000000 points on one axis; at most 2147483648 in all are possible", "lower per_axis"},
-    {"overlap = 2", "overlap = 0", 26, "0", "particles.overlap must be greater than 0, found 0", "overlap: core radius of a blob divided by h: eps = c h"},
-    {"cutoff = \"gauss2\"", "cutoff = \"gaus4\"", 27, "\"gaus4\"", "unknown value \"gaus4\" for particles.cutoff; did you mean \"gauss4\"?", "known values: \"gauss2\", \"gauss4\""},
-    {"cutoff = \"gauss2\"", "cutoff = 2", 27, "2", "particles.cutoff must be a string, found the number 2", "known values: \"gauss2\", \"gauss4\""},
+    {"per_axis = 300", "per_axis = 1", 25, "1", "particles.per_axis must be at least 2, found 1",
+     "per_axis: lattice points on the longest axis; the spacing h is the same on all axes; one particle an axis has no "
+     "spacing"},
+    {"per_axis = 300", "per_axis = 30.5", 25, "30.5", "particles.per_axis must be a whole number, found 30.5",
+     "per_axis: lattice points on the longest axis; the spacing h is the same on all axes; one particle an axis has no "
+     "spacing"},
+    {"per_axis = 300", "per_axis = 1_000_000", 25, "1_000_000",
+     "the particle lattice would have 1e+12 points (1000000 x 1000000); at most 2147483648 are possible",
+     "lower per_axis"},
+    {"per_axis = 300", "per_axis = \"1e12\"", 25, "\"1e12\"",
+     "the particle lattice would have 1000000000000 points on one axis; at most 2147483648 in all are possible",
+     "lower per_axis"},
+    {"overlap = 2", "overlap = 0", 26, "0", "particles.overlap must be greater than 0, found 0",
+     "overlap: core radius of a blob divided by h: eps = c h"},
+    {"cutoff = \"gauss2\"", "cutoff = \"gaus4\"", 27, "\"gaus4\"",
+     "unknown value \"gaus4\" for particles.cutoff; did you mean \"gauss4\"?", "known values: \"gauss2\", \"gauss4\""},
+    {"cutoff = \"gauss2\"", "cutoff = 2", 27, "2", "particles.cutoff must be a string, found the number 2",
+     "known values: \"gauss2\", \"gauss4\""},
     // time
-    {"end = \"turn\"", "end = -1", 30, "-1", "time.end must be at least 0, found -1", "end: the run ends here; it begins at 0"},
+    {"end = \"turn\"", "end = -1", 30, "-1", "time.end must be at least 0, found -1",
+     "end: the run ends here; it begins at 0"},
     {"end = \"turn\"", "end = inf", 30, "inf", "time.end must be finite, found inf"},
     {"step = 0.001", "step = 0", 31, "0", "time.step must be greater than 0, found 0", step_note},
     {"step = 0.001", "step = -0.001", 31, "-0.001", "time.step must be greater than 0, found -0.001", step_note},
-    {"step = 0.001", "step = 1e-12", 31, "1e-12", "time.end / time.step is 6.28e+12 steps; at most 2147483648 are possible", "raise time.step"},
-    {"method = \"rk4\"", "method = \"rk5\"", 32, "\"rk5\"", "unknown value \"rk5\" for time.method; did you mean \"rk4\"?", "known values: \"rk4\""},
+    {"step = 0.001", "step = 1e-12", 31, "1e-12",
+     "time.end / time.step is 6.28e+12 steps; at most 2147483648 are possible", "raise time.step"},
+    {"method = \"rk4\"", "method = \"rk5\"", 32, "\"rk5\"",
+     "unknown value \"rk5\" for time.method; did you mean \"rk4\"?", "known values: \"rk4\""},
     // evaluate
-    {"tolerance = 1e-8", "tolerance = 1", 36, "1", "evaluate.tolerance must be at least 1e-14 and less than 1, found 1", "tolerance: error allowed in the Gauss transform, relative to the largest density at that output"},
-    {"tolerance = 1e-8", "tolerance = 1e-15", 36, "1e-15", "evaluate.tolerance must be at least 1e-14 and less than 1, found 1e-15", "tolerance: error allowed in the Gauss transform, relative to the largest density at that output"},
-    {"per_axis = 200", "per_axis = 100_000", 35, "100_000", "the evaluation lattice would have 1e+10 points (100000 x 100000); at most 2147483648 are possible", "lower per_axis"},
-    {"method = \"auto\"", "method = \"hermit\"", 37, "\"hermit\"", "unknown value \"hermit\" for evaluate.method; did you mean \"hermite\"?", "known values: \"auto\", \"direct\", \"hermite\""},
+    {"tolerance = 1e-8", "tolerance = 1", 36, "1", "evaluate.tolerance must be at least 1e-14 and less than 1, found 1",
+     "tolerance: error allowed in the Gauss transform, relative to the largest density at that output"},
+    {"tolerance = 1e-8", "tolerance = 1e-15", 36, "1e-15",
+     "evaluate.tolerance must be at least 1e-14 and less than 1, found 1e-15",
+     "tolerance: error allowed in the Gauss transform, relative to the largest density at that output"},
+    {"per_axis = 200", "per_axis = 100_000", 35, "100_000",
+     "the evaluation lattice would have 1e+10 points (100000 x 100000); at most 2147483648 are possible",
+     "lower per_axis"},
+    {"method = \"auto\"", "method = \"hermit\"", 37, "\"hermit\"",
+     "unknown value \"hermit\" for evaluate.method; did you mean \"hermite\"?",
+     "known values: \"auto\", \"direct\", \"hermite\""},
     // output
-    {"\"turn/4\", \"turn\"]", "\"turn/4\", 7]", 40, "7", "entry 3 of output.times is 7, after time.end = 6.283185307179586"},
+    {"\"turn/4\", \"turn\"]", "\"turn/4\", 7]", 40, "7",
+     "entry 3 of output.times is 7, after time.end = 6.283185307179586"},
     {"times = [0,", "times = [-1,", 40, "-1", "entry 1 of output.times is -1; the run begins at 0"},
-    {"times = [0, \"turn/4\", \"turn\"]", "times = [2, 1]", 40, "1", "entry 2 of output.times is 1, not after the entry before it, 2", "output.times must ascend"},
-    {"times = [0, \"turn/4\", \"turn\"]", "times = [1, 1]", 40, "1", "entry 2 of output.times is 1, not after the entry before it, 1", "output.times must ascend"},
-    {"times = [0, \"turn/4\", \"turn\"]", "times = []", 40, "[]", "output.times is empty; give at least one time", "output.frames = 5 spreads 5 times evenly"},
-    {"times = [0, \"turn/4\", \"turn\"]", "times = [0]\nframes = 3", 41, "frames", "[output] has both \"times\" and \"frames\"", "give either \"times\" or \"frames\""},
-    {"times = [0, \"turn/4\", \"turn\"]", "frames = 0", 40, "0", "output.frames must be at least 1 and at most 1000000, found 0", "frames: so many times instead, evenly spaced from 0 to time.end; 1 means the end alone"},
-    {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"denstiy\"]", 41, "\"denstiy\"", "unknown value \"denstiy\" for entry 2 of output.vtk; did you mean \"density\"?", "known values: \"density\", \"particles\""},
-    {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"density\"]", 41, "\"density\"", "\"density\" appears twice in output.vtk"},
-    {"images = [\"surface\"]", "images = \"surface\"", 42, "\"surface\"", "output.images must be a list of some of \"surface\", \"contour\", \"heatmap\", found the string \"surface\""},
-    {"images = [\"surface\"]", "images = [\"error\"]", 42, "\"error\"", "unknown value \"error\" for entry 1 of output.images", "known values: \"surface\", \"contour\", \"heatmap\""},
+    {"times = [0, \"turn/4\", \"turn\"]", "times = [2, 1]", 40, "1",
+     "entry 2 of output.times is 1, not after the entry before it, 2", "output.times must ascend"},
+    {"times = [0, \"turn/4\", \"turn\"]", "times = [1, 1]", 40, "1",
+     "entry 2 of output.times is 1, not after the entry before it, 1", "output.times must ascend"},
+    {"times = [0, \"turn/4\", \"turn\"]", "times = []", 40, "[]", "output.times is empty; give at least one time",
+     "output.frames = 5 spreads 5 times evenly"},
+    {"times = [0, \"turn/4\", \"turn\"]", "times = [0]\nframes = 3", 41, "frames",
+     "[output] has both \"times\" and \"frames\"", "give either \"times\" or \"frames\""},
+    {"times = [0, \"turn/4\", \"turn\"]", "frames = 0", 40, "0",
+     "output.frames must be at least 1 and at most 1000000, found 0",
+     "frames: so many times instead, evenly spaced from 0 to time.end; 1 means the end alone"},
+    {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"denstiy\"]", 41, "\"denstiy\"",
+     "unknown value \"denstiy\" for entry 2 of output.vtk; did you mean \"density\"?",
+     "known values: \"density\", \"particles\""},
+    {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"density\"]", 41, "\"density\"",
+     "\"density\" appears twice in output.vtk"},
+    {"images = [\"surface\"]", "images = \"surface\"", 42, "\"surface\"",
+     "output.images must be a list of some of \"surface\", \"contour\", \"heatmap\", found the string \"surface\""},
+    {"images = [\"surface\"]", "images = [\"error\"]", 42, "\"error\"",
+     "unknown value \"error\" for entry 1 of output.images", "known values: \"surface\", \"contour\", \"heatmap\""},
 };
 
 TEST(CaseFile, RefusesEachWrongInputWithPlaceRuleAndRemedy) {
@@ -227,7 +303,8 @@ TEST(CaseFile, RefusesEachWrongInputWithPlaceRuleAndRemedy) {
 }
 
 TEST(CaseFile, RefusesPicturesOf3DScenes) {
-  EXPECT_EQ(errors(least + "[output]\nimages = [\"contour\"]\n"), R"text(error: there are no pictures of 3D scenes yet; output.images must be [] or left out
+  EXPECT_EQ(errors(least + "[output]\nimages = [\"contour\"]\n"),
+            R"text(error: there are no pictures of 3D scenes yet; output.images must be [] or left out
   --> cone.toml:15:10
    |
 15 | images = ["contour"]
@@ -239,8 +316,10 @@ TEST(CaseFile, RefusesPicturesOf3DScenes) {
 }
 
 TEST(CaseFile, RefusesALatticeThatRoundingWouldSwallow) {
-  const std::string text = with(with(cone, "min = [-1, -1]", "min = [1e16, -1]"), "max = [1, 1]", "max = [\"1e16+4\", 1]");
-  EXPECT_NE(errors(text).find("is lost to rounding at coordinates like 10000000000000004"), std::string::npos) << errors(text);
+  const std::string text =
+      with(with(cone, "min = [-1, -1]", "min = [1e16, -1]"), "max = [1, 1]", "max = [\"1e16+4\", 1]");
+  EXPECT_NE(errors(text).find("is lost to rounding at coordinates like 1.0000000000000004e+16"), std::string::npos)
+      << errors(text);
 }
 
 TEST(CaseFile, DoesNotComplainAgainAboutWhatFollowsFromAnError) {
@@ -273,20 +352,36 @@ TEST(Overrides, AreRefusedLikeTheFile) {
   const struct {
     const char *text, *message;
   } refusals[] = {
-      {"time.step", "error: an override needs a value\n  --> --set time.step\n            ^^^^^^^^^\n   = write --set table.key=value, for example --set time.step=0.01\n"},
+      {"time.step",
+       "error: an override needs a value\n  --> --set time.step\n            ^^^^^^^^^\n   = write --set "
+       "table.key=value, for example --set time.step=0.01\n"},
       {"time.step=", "error: no value for \"time.step\"\n  --> --set time.step=\n                      ^\n"},
       {"tim.step=1", "error: unknown table [tim]; did you mean [time]?\n  --> --set tim.step=1\n            ^^^\n"},
-      {"time.stpe=1", "error: unknown key \"stpe\" in [time]; did you mean \"step\"?\n  --> --set time.stpe=1\n            ^^^^^^^^^\n   = known keys: end, step, method\n"},
-      {"step=1", "error: unknown key \"step\" at the top of the file; it belongs in [time]\n  --> --set step=1\n            ^^^^\n"},
-      {"particles.cutoff=gauss5", "error: unknown value \"gauss5\" for particles.cutoff; did you mean \"gauss2\"?\n  --> --set particles.cutoff=gauss5\n                             ^^^^^^\n"},
-      {"output.times=[0,\"pii\"]", "error: unknown name \"pii\"; did you mean \"pi\"?\n  --> --set output.times=[0,\"pii\"]\n                             ^^^\n"},
-      {"time.end=2*pii", "error: unknown name \"pii\"; did you mean \"pi\"?\n  --> --set time.end=2*pii\n                       ^^^\n"},
+      {"time.stpe=1",
+       "error: unknown key \"stpe\" in [time]; did you mean \"step\"?\n  --> --set time.stpe=1\n            "
+       "^^^^^^^^^\n   = known keys: end, step, method\n"},
+      {"step=1",
+       "error: unknown key \"step\" at the top of the file; it belongs in [time]\n  --> --set step=1\n            "
+       "^^^^\n"},
+      {"particles.cutoff=gauss5",
+       "error: unknown value \"gauss5\" for particles.cutoff; did you mean \"gauss2\"?\n  --> --set "
+       "particles.cutoff=gauss5\n                             ^^^^^^\n"},
+      {"output.times=[0,\"pii\"]",
+       "error: unknown name \"pii\"; did you mean \"pi\"?\n  --> --set output.times=[0,\"pii\"]\n                      "
+       "       ^^^\n"},
+      {"time.end=2*pii",
+       "error: unknown name \"pii\"; did you mean \"pi\"?\n  --> --set time.end=2*pii\n                       ^^^\n"},
       {"output.times=[0,", "error: cannot read this array: "},
-      {"domain.min.x=1", "error: \"domain.min\" is a list and has no keys of its own\n  --> --set domain.min.x=1\n            ^^^^^^^^^^^^\n"},
-      {"velocity.field=rotation", "error: [velocity] has both \"u\" and \"field\"\n  --> --set velocity.field=rotation\n            ^^^^^^^^^^^^^^\n"},
+      {"domain.min.x=1",
+       "error: \"domain.min\" is a list and has no keys of its own\n  --> --set domain.min.x=1\n            "
+       "^^^^^^^^^^^^\n"},
+      {"velocity.field=rotation",
+       "error: [velocity] has both \"u\" and \"field\"\n  --> --set velocity.field=rotation\n            "
+       "^^^^^^^^^^^^^^\n"},
       {"=3", "error: unknown key \"\" at the top of the file"},
   };
-  for (const auto& refusal : refusals) EXPECT_EQ(errors(cone, {refusal.text}).substr(0, std::string(refusal.message).size()), refusal.message);
+  for (const auto& refusal : refusals)
+    EXPECT_EQ(errors(cone, {refusal.text}).substr(0, std::string(refusal.message).size()), refusal.message);
 }
 
 TEST(Warnings, NameUnusedParamsAndSmallOverlap) {
@@ -300,7 +395,8 @@ TEST(Warnings, NameUnusedParamsAndSmallOverlap) {
 9 | unused = 3
   | ^^^^^^
   = no expression of the case mentions it)text");
-  EXPECT_EQ(warnings[1], R"text(warning: overlap = 0.8 leaves gaps between the blobs: a constant density ripples by 0.007
+  EXPECT_EQ(warnings[1],
+            R"text(warning: overlap = 0.8 leaves gaps between the blobs: a constant density ripples by 0.007
   --> cone.toml:27:11
    |
 27 | overlap = 0.8
@@ -311,7 +407,9 @@ TEST(Warnings, NameUnusedParamsAndSmallOverlap) {
 TEST(Warnings, NameADomainOneParticleThin) {
   const auto warnings = parse_case(with(cone, "max = [1, 1]", "max = [1, -0.999]"), "cone.toml").warnings;
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("the domain is narrower along y than the spacing 0.00669: one particle across"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("the domain is narrower along y than the spacing 0.00669: one particle across"),
+            std::string::npos)
+      << warnings[0];
 }
 
 }  // namespace
