@@ -1,20 +1,38 @@
-// Chooses the method and the parameters r, p, n: of all combinations whose error is proven to keep the tolerance, the
-// cheapest by prediction.
+// Chooses among the methods: each proposes itself with the cheapest of its parameters that are proven to keep the
+// tolerance, a prediction of its cost, and a way to make it; the cheapest proposal is taken.
 #pragma once
 
-#include "fgtd/direct.hpp"
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "fgtd/fgtd.hpp"
-#include "fgtd/hermite.hpp"
+#include "fgtd/situation.hpp"
+#include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
 
-struct Decision {
-  Choice choice;        // method, bound, cost, seconds, r, p, n; `boxes` is an estimate
-  HermitePlan hermite;  // if the method is hermite
+template <int d>
+struct Proposal {
+  Choice choice;          // method, bound, cost, seconds, parameters; `boxes` is filled in later
+  double plan_bytes = 0;  // predicted
+  std::function<std::unique_ptr<Summation<d>>(std::vector<double> position)> make;  // position [d][N]
 };
 
-/// `sources.position` is read. Throws MemoryLimitError if Method::hermite is asked for and no parameters fit the limit.
+// One function a method; none if it cannot keep the promise here, or would need more than the memory limit.
+
 template <int d>
-Decision choose(const Sources<d>& sources, double sigma, const Options& options);
+Proposal<d> propose_direct(const Situation<d>& at);
+/// Throws MemoryLimitError if Method::hermite is asked for and no parameters fit the limit.
+template <int d>
+std::optional<Proposal<d>> propose_hermite(const Situation<d>& at);
+
+/// The proposal of the method that is asked for; of all for Method::automatic. A method that cannot serve here (no
+/// sources, boxes that coordinates cannot tell apart) gives way to `direct`. position [d][count].
+template <int d>
+Proposal<d> choose(const std::vector<double>& position, std::size_t count, std::size_t columns, double sigma,
+                   const Options& options);
 
 }  // namespace fgtd::detail

@@ -93,10 +93,24 @@ void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& 
   });
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                       \
-  template void evaluate_direct<d>(const Sources<d>&, double, const Request<d>&, const double*, std::size_t, int, \
-                                   double*);                                                                      \
-  template void evaluate_direct<d>(const Sources<d>&, double, const Request<d>&, const TensorGrid&, int, double*);
+template <int d>
+DirectSum<d>::DirectSum(std::vector<double> position, std::size_t count, double sigma, int threads)
+    : sigma_(sigma), threads_(threads) {
+  sources_.count = count;
+  sources_.position = std::move(position);
+}
+
+template <int d>
+void DirectSum<d>::set_weights(const double* weights, std::size_t columns) {
+  sources_.columns = columns;
+  sources_.weights.assign(weights, weights + columns * sources_.count);
+}
+
+#define FGTD_INSTANTIATE(d)                                                                                        \
+  template void evaluate_direct<d>(const Sources<d>&, double, const Request<d>&, const double*, std::size_t, int,  \
+                                   double*);                                                                       \
+  template void evaluate_direct<d>(const Sources<d>&, double, const Request<d>&, const TensorGrid&, int, double*); \
+  template class DirectSum<d>;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)
 FGTD_INSTANTIATE(3)

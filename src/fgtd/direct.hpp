@@ -7,6 +7,7 @@
 
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
+#include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
 
@@ -28,5 +29,30 @@ void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& 
 template <int d>
 void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& request, const TensorGrid& grid,
                      int threads, double* values);
+
+template <int d>
+class DirectSum : public Summation<d> {
+ public:
+  /// position [d][count]
+  DirectSum(std::vector<double> position, std::size_t count, double sigma, int threads);
+
+  void set_weights(const double* weights, std::size_t columns) override;
+  void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override {
+    evaluate_direct<d>(sources_, sigma_, request, targets, count, threads_, values);
+  }
+  void evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const override {
+    evaluate_direct<d>(sources_, sigma_, request, grid, threads_, values);
+  }
+  double plan_bytes(std::size_t columns) const override {
+    return 8.0 * static_cast<double>(sources_.count) * static_cast<double>(d + columns);
+  }
+  double point_bytes(const Request<d>&, std::size_t) const override { return 0; }
+  double grid_bytes(const Request<d>&, const TensorGrid&) const override { return 0; }
+
+ private:
+  Sources<d> sources_;
+  double sigma_;
+  int threads_;
+};
 
 }  // namespace fgtd::detail

@@ -1,12 +1,10 @@
-// What a Plan holds: the sources in the order its method wants, the choice, and for `hermite` the moments.
+// A Plan's inside: checks the arguments, lets a method be chosen, and passes the work on.
 #pragma once
 
-#include <optional>
-#include <vector>
+#include <memory>
 
-#include "fgtd/direct.hpp"
 #include "fgtd/fgtd.hpp"
-#include "fgtd/hermite.hpp"
+#include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
 
@@ -23,15 +21,12 @@ class Engine {
   const Choice& choice() const { return choice_; }
 
  private:
-  /// Bytes of the plan with so many columns of weights.
-  double plan_bytes(std::size_t columns) const;
-
   double sigma_;
   Options options_;
   Choice choice_;
-  Sources<d> sources_;
-  std::vector<std::size_t> order_;  // sources_[j] is the caller's source order_[j]; empty: as given
-  std::optional<HermiteSum<d>> hermite_;
+  std::size_t sources_ = 0;
+  std::size_t columns_ = 0;
+  std::unique_ptr<Summation<d>> summation_;
 };
 
 }  // namespace fgtd::detail

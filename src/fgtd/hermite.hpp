@@ -12,6 +12,7 @@
 #include "fgtd/direct.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
+#include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
 
@@ -24,27 +25,27 @@ struct HermitePlan {
 };
 
 template <int d>
-class HermiteSum {
+class HermiteSum : public Summation<d> {
  public:
-  HermiteSum(const HermitePlan& plan, double sigma, Boxes<d> boxes);
+  /// position [d][count] of sources whose boxes have the side `side`.
+  HermiteSum(const HermitePlan& plan, double sigma, double side, std::vector<double> position, std::size_t count,
+             int threads);
 
-  /// sources sorted by box.
-  void set_moments(const Sources<d>& sources, int threads);
+  void set_weights(const double* weights, std::size_t columns) override;  // computes the moments
+  void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;
+  void evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const override;
 
-  /// values as in evaluate_direct().
-  void evaluate(const Request<d>& request, const double* targets, std::size_t count, int threads, double* values) const;
-  void evaluate(const Request<d>& request, const TensorGrid& grid, int threads, double* values) const;
-
-  const Boxes<d>& boxes() const { return boxes_; }
-  const HermitePlan& plan() const { return plan_; }
-
-  /// Bytes that evaluate() takes beside its result.
-  double point_bytes(const Request<d>& request, double targets) const;
-  double grid_bytes(const Request<d>& request, const TensorGrid& grid) const;
+  double plan_bytes(std::size_t columns) const override;
+  double point_bytes(const Request<d>& request, std::size_t count) const override;
+  double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
+  std::size_t boxes() const override { return boxes_.count(); }
 
  private:
   HermitePlan plan_;
   double sigma_;
+  int threads_;
+  Sources<d> sources_;              // sorted by box
+  std::vector<std::size_t> order_;  // sorted source j is the caller's order_[j]
   Boxes<d> boxes_;
   std::size_t columns_ = 0;
   std::vector<double> moments_;  // [boxes][columns][p^d], first axis fastest

@@ -441,15 +441,15 @@ double HermiteSum<d>::grid_bytes(const Request<d>& request, const TensorGrid& gr
 }
 
 template <int d>
-void HermiteSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, int threads, double* values) const {
+void HermiteSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const {
   std::fill_n(values, request.combinations.size() * columns_ * grid.size(), 0.0);
   if (request.derivatives.empty() || columns_ == 0 || grid.size() == 0 || boxes_.count() == 0) return;
-  GridSum<d>(plan_, sigma_, boxes_, moments_, columns_, request, grid).run(threads, values);
+  GridSum<d>(plan_, sigma_, boxes_, moments_, columns_, request, grid).run(threads_, values);
 }
 
 #define FGTD_INSTANTIATE(d)                                                              \
   template double HermiteSum<d>::grid_bytes(const Request<d>&, const TensorGrid&) const; \
-  template void HermiteSum<d>::evaluate(const Request<d>&, const TensorGrid&, int, double*) const;
+  template void HermiteSum<d>::evaluate(const Request<d>&, const TensorGrid&, double*) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)
 FGTD_INSTANTIATE(3)

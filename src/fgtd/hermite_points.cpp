@@ -70,13 +70,14 @@ std::vector<Group> make_groups(const std::vector<BoxIndex<d>>& index, const std:
 }  // namespace
 
 template <int d>
-double HermiteSum<d>::point_bytes(const Request<d>& request, double targets) const {
+double HermiteSum<d>::point_bytes(const Request<d>& request, std::size_t count) const {
+  const double targets = static_cast<double>(count);
   (void)request;
   return targets * (8.0 * d + 8 + 16 + 16 + sizeof(Group));  // indices, places, keys while sorting, groups
 }
 
 template <int d>
-void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, int threads,
+void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count,
                              double* values) const {
   const std::size_t derivatives = request.derivatives.size();
   std::fill_n(values, request.combinations.size() * columns_ * count, 0.0);
@@ -101,7 +102,7 @@ void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, s
 
   constexpr std::size_t groups_a_piece = 8;
   gaussdrift::base::parallel_for(
-      (groups.size() + groups_a_piece - 1) / groups_a_piece, threads, [&](std::size_t piece) {
+      (groups.size() + groups_a_piece - 1) / groups_a_piece, threads_, [&](std::size_t piece) {
         std::vector<std::size_t> near;
         std::vector<double> scratch(expansion_scratch(d, plan_.terms, highest));
         std::vector<double> out(derivatives * columns_ * group_size);
@@ -147,9 +148,9 @@ void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, s
       });
 }
 
-#define FGTD_INSTANTIATE(d)                                                    \
-  template double HermiteSum<d>::point_bytes(const Request<d>&, double) const; \
-  template void HermiteSum<d>::evaluate(const Request<d>&, const double*, std::size_t, int, double*) const;
+#define FGTD_INSTANTIATE(d)                                                         \
+  template double HermiteSum<d>::point_bytes(const Request<d>&, std::size_t) const; \
+  template void HermiteSum<d>::evaluate(const Request<d>&, const double*, std::size_t, double*) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)
 FGTD_INSTANTIATE(3)

@@ -44,11 +44,26 @@ std::vector<double> binomial_roots(int highest, int terms) {
 }
 
 template <int d>
-HermiteSum<d>::HermiteSum(const HermitePlan& plan, double sigma, Boxes<d> boxes)
-    : plan_(plan), sigma_(sigma), boxes_(std::move(boxes)) {}
+HermiteSum<d>::HermiteSum(const HermitePlan& plan, double sigma, double side, std::vector<double> position,
+                          std::size_t count, int threads)
+    : plan_(plan), sigma_(sigma), threads_(threads) {
+  sources_.count = count;
+  sources_.position = std::move(position);
+  boxes_ = make_boxes<d>(sources_.position, count, side, order_);
+}
 
 template <int d>
-void HermiteSum<d>::set_moments(const Sources<d>& sources, int threads) {
+double HermiteSum<d>::plan_bytes(std::size_t columns) const {
+  const double sources = static_cast<double>(sources_.count), moments = static_cast<double>(power(plan_.terms, d));
+  return 8 * (sources * static_cast<double>(d + columns + 1) +
+              static_cast<double>(boxes_.count()) * (static_cast<double>(columns) * moments + 3 * d));
+}
+
+template <int d>
+void HermiteSum<d>::set_weights(const double* weights, std::size_t columns) {
+  Sources<d>& sources = sources_;
+  sources.columns = columns;
+  sources.weights = reordered_weights(weights, columns, order_);
   const std::size_t p = static_cast<std::size_t>(plan_.terms);
   const std::size_t padded = (p + row_padding - 1) / row_padding * row_padding;
   const std::size_t rows = power(plan_.terms, d - 1);
@@ -62,7 +77,7 @@ void HermiteSum<d>::set_moments(const Sources<d>& sources, int threads) {
 
   const std::vector<std::size_t>& first = boxes_.level[0].first;
   const std::vector<std::size_t> cuts = cut(first);
-  gaussdrift::base::parallel_for(cuts.size() - 1, threads, [&](std::size_t piece) {
+  gaussdrift::base::parallel_for(cuts.size() - 1, threads_, [&](std::size_t piece) {
     std::vector<double> powers(p * chunk);  // of one axis: [b][j]
     std::vector<double> left(rows * chunk), right(chunk * padded), weighted(chunk * padded);
     for (std::size_t box = cuts[piece]; box < cuts[piece + 1]; ++box)
@@ -89,9 +104,9 @@ void HermiteSum<d>::set_moments(const Sources<d>& sources, int threads) {
           filled *= p;
         }
         for (std::size_t k = 0; k < columns_; ++k) {
-          const double* weights = sources.weights.data() + k * sources.count + begin;
+          const double* row = sources.weights.data() + k * sources.count + begin;
           for (std::size_t j = 0; j < size; ++j)
-            for (std::size_t b = 0; b < p; ++b) weighted[j * padded + b] = weights[j] * right[j * padded + b];
+            for (std::size_t b = 0; b < p; ++b) weighted[j * padded + b] = row[j] * right[j * padded + b];
           kernels().product({.rows = rows,
                              .depth = size,
                              .width = p,
@@ -106,9 +121,10 @@ void HermiteSum<d>::set_moments(const Sources<d>& sources, int threads) {
   });
 }
 
-#define FGTD_INSTANTIATE(d)                                                 \
-  template HermiteSum<d>::HermiteSum(const HermitePlan&, double, Boxes<d>); \
-  template void HermiteSum<d>::set_moments(const Sources<d>&, int);
+#define FGTD_INSTANTIATE(d)                                                                                      \
+  template HermiteSum<d>::HermiteSum(const HermitePlan&, double, double, std::vector<double>, std::size_t, int); \
+  template double HermiteSum<d>::plan_bytes(std::size_t) const;                                                  \
+  template void HermiteSum<d>::set_weights(const double*, std::size_t);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)
 FGTD_INSTANTIATE(3)

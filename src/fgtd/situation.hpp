@@ -1,0 +1,41 @@
+// What a choice of method looks at: how many sources and targets there are, how they lie, and what is asked for.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "fgtd/fgtd.hpp"
+
+namespace fgtd::detail {
+
+template <int d>
+struct Situation {
+  const Options& options;
+  double sigma;
+  double sources;                       // N
+  double targets;                       // that are expected
+  double columns;                       // of weights, at least 1
+  const std::vector<double>& position;  // of all sources, [d][N]
+  std::vector<double> sample;           // of some of them, [d][sample_count]
+  std::size_t sample_count;
+  std::array<double, d> low{}, extent{};  // the bounding box of the sources
+};
+
+template <int d>
+Situation<d> look_at(const std::vector<double>& position, std::size_t count, std::size_t columns, double sigma,
+                     const Options& options);
+
+/// Places occupied by `points` points that fall on equally likely places, of which `sampled` points occupied `seen`.
+double extrapolate(double seen, double sampled, double points);
+
+/// Sources within `distance` of a target that lies like the sources, at least 1.
+template <int d>
+double sources_within(const Situation<d>& at, double distance);
+
+/// Occupied boxes within reach of a target that lies like the sources: no more than there are, than the lattice has
+/// there (less at its edges), and than there are sources there.
+template <int d>
+double boxes_within(const Situation<d>& at, double side, double reach, double occupied);
+
+}  // namespace fgtd::detail
