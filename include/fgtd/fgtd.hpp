@@ -76,6 +76,9 @@ struct TensorGrid {
 /// How the sum is computed. `automatic` takes the smallest predicted cost whose bound meets the tolerance.
 enum class Method { automatic, direct, hermite };
 
+/// Every method, `automatic` first.
+const std::vector<Method>& methods();
+
 /// The name as it is written in files: "auto", "direct", "hermite".
 std::string to_string(Method method);
 

@@ -5,6 +5,11 @@
 
 namespace fgtd {
 
+const std::vector<Method>& methods() {
+  static const std::vector<Method> all{Method::automatic, Method::direct, Method::hermite};
+  return all;
+}
+
 std::string to_string(Method method) {
   switch (method) {
     case Method::direct:

@@ -50,7 +50,7 @@ std::vector<WidthGroup<d>> group_by_width(const Cutoff& cutoff) {
 }
 
 fgtd::Method method_by_name(const std::string& name) {
-  for (const auto method : {fgtd::Method::automatic, fgtd::Method::direct, fgtd::Method::hermite})
+  for (const fgtd::Method method : fgtd::methods())
     if (fgtd::to_string(method) == name) return method;
   throw InputError("evaluate.method = \"" + name +
                    "\" is not a method of the Gauss transform; use auto, direct or hermite");
