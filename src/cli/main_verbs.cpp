@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "base/suggest.hpp"
 #include "cli/verbs.hpp"
 #include "input/read_case.hpp"
 
@@ -24,6 +28,31 @@ void add_case_options(CLI::App& verb, CaseOptions& options) {
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   verb.add_flag("--json", options.json, "results as JSON on standard output");
+}
+
+void add_sum_options(CLI::App& verb, SumOptions& options) {
+  verb.add_option("--sources", options.sources, "table of sources (CSV): coordinates and a column weight")
+      ->required()
+      ->type_name("FILE");
+  CLI::Option* targets = verb.add_option("--targets", options.targets, "table of targets; the sources by default");
+  targets->type_name("FILE");
+  verb.add_option("--grid", options.grid, "a grid instead, as in --grid=-1:1:200,0:1:100; its first axis runs fastest")
+      ->type_name("LOW:HIGH:COUNT,...")
+      ->excludes(targets);
+  verb.add_option("--sigma", options.sigma, "the Gaussian is exp(-sigma r^2)")->required()->type_name("X");
+  verb.add_option("--derivative", options.derivatives,
+                  "a derivative, as in --derivative 0,1,2; repeatable; the plain sum by default")
+      ->type_name("A1,A2,...")
+      ->allow_extra_args(false);
+  verb.add_option("--tolerance", options.tolerance, "of every term, see docs/fgtd.md; 1e-6 by default")->type_name("X");
+  verb.add_option("--method", options.method, "auto (the default) or one of those in docs/fgtd.md")->type_name("NAME");
+  verb.add_option("--kernel", options.kernel, "gauss, the default")->type_name("NAME");
+  verb.add_option("--out", options.out, "file for the values; standard output by default, also as -")
+      ->type_name("FILE");
+  verb.add_option("--threads", options.threads, "threads to use; all by default")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  verb.add_flag("--json", options.json, "what was chosen and what it cost, as JSON on standard output; needs --out");
 }
 
 ExitCode dispatch(int argc, char** argv) {
@@ -48,6 +77,10 @@ ExitCode dispatch(int argc, char** argv) {
       app.add_subcommand("check", "validate a case, describe it and predict what it costs, without running it");
   add_case_options(*check_verb, check_options);
 
+  SumOptions sum_options;
+  CLI::App* sum_verb = app.add_subcommand("sum", "sums of Gaussians and their derivatives over a table of points");
+  add_sum_options(*sum_verb, sum_options);
+
   std::string table;
   int threads = 0;
   bool json = false;
@@ -59,6 +92,15 @@ ExitCode dispatch(int argc, char** argv) {
       ->type_name("N");
   reproduce_verb->add_flag("--json", json, "results as JSON on standard output");
 
+  if (argc > 1 && argv[1][0] != '-') {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+    if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) {
+      const std::optional<std::string> near = base::suggest(argv[1], verbs);
+      throw CommandLineError(fmt::format("there is no verb \"{}\"{}; gaussdrift --help shows the verbs and their options",
+                                         argv[1], near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+    }
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -69,6 +111,7 @@ ExitCode dispatch(int argc, char** argv) {
   }
   if (run_verb->parsed()) return run(run_options);
   if (check_verb->parsed()) return check(check_options);
+  if (sum_verb->parsed()) return sum(sum_options);
   return reproduce(table, threads, json);
 }
 
@@ -76,7 +119,10 @@ ExitCode dispatch(int argc, char** argv) {
 
 int main_verbs(int argc, char** argv) {
   try {
-    return exit_code(dispatch(argc, argv));
+    const ExitCode code = dispatch(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      throw FileError("standard output cannot be written, so what should stand there is lost");
+    return exit_code(code);
   } catch (const input::CaseError& error) {  // laid out already
     fmt::print(stderr, "{}\n", error.what());
     return exit_code(error.code());
@@ -86,7 +132,7 @@ int main_verbs(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     fmt::print(
         stderr,
-        "error: out of memory; lower particles.per_axis or evaluate.per_axis (gaussdrift check predicts the memory)\n");
+        "error: out of memory; lower particles.per_axis or evaluate.per_axis\n");
     return exit_code(ExitCode::input);
   } catch (const std::exception& error) {
     fmt::print(stderr, "internal error: {}\n", error.what());

@@ -76,12 +76,16 @@ void print_ending(const Case& scene, const RunSummary& summary, const fs::path& 
       seconds_of(summary, "transport"), seconds_of(summary, "density"), seconds_of(summary, "write"),
       seconds_of(summary, "pictures"));
   if (!summary.frames.empty()) {
+    const auto extremes = [](const FrameNumbers& numbers) {
+      return numbers.minimum < 0 ? fmt::format("rho in [{:.6g}, {:.6g}]", numbers.minimum, numbers.maximum)
+                                 : fmt::format("max rho = {:.6g}", numbers.maximum);
+    };
     const auto& [t0, first] = summary.frames.front();
     const auto& [t1, last] = summary.frames.back();
-    fmt::print(
-        "result max rho = {:.6f} at t = {:.4g}, {:.6f} at t = {:.4g}; mass {:.9g}; Gauss transform right to {:.0e} of "
-        "max rho ({:.0e} asked)\n",
-        first.maximum, t0, last.maximum, t1, last.mass, worst, scene.evaluate.tolerance);
+    std::string heights = fmt::format("{} at t = {:.4g}", extremes(first), t0);
+    if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {:.4g}", extremes(last), t1);
+    fmt::print("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights, last.mass,
+               worst, scene.evaluate.tolerance);
   }
   const bool pictures = fs::exists(folder / "images");
   const bool density = fs::exists(folder / "density.pvd");
@@ -96,6 +100,7 @@ ExitCode run(const RunOptions& options) {
   const Case scene = read(options.scene);
   const fs::path folder = options.folder.empty() ? fs::path("output") / scene.name : options.folder;
   Simulation simulation(scene, options.scene.threads);
+  simulation.prepare();  // what cannot begin must not cost an earlier run
   write::prepare_run_folder(folder, options.force);
   write::write_run_inputs(folder, scene, input::resolved_toml(scene));
   add_observers(simulation, scene, folder);

@@ -23,10 +23,24 @@ struct RunOptions {
   bool force = false;
 };
 
+struct SumOptions {
+  std::string kernel = "gauss";
+  std::filesystem::path sources, targets;  // targets empty: --grid, or the sources
+  std::string grid;                        // "-1:1:200,-1:1:200"
+  double sigma = 0;
+  std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum
+  double tolerance = 1e-6;
+  std::string method = "auto";
+  std::filesystem::path out;  // empty or "-": standard output
+  int threads = 0;            // 0: all
+  bool json = false;          // what was chosen as JSON on stdout
+};
+
 ExitCode run(const RunOptions& options);
 ExitCode check(const CaseOptions& options);
 /// `table` is empty to list what can be reproduced.
 ExitCode reproduce(const std::string& table, int threads, bool json);
+ExitCode sum(const SumOptions& options);
 
 /// Parses the command line, does what it says, prints errors on stderr; returns the exit code.
 int main_verbs(int argc, char** argv);

@@ -127,7 +127,7 @@ double dropped_error(int d, double rho, int derivative_order) {
 }
 
 double find_reach(int d, double tolerance, int derivative_order) {
-  double low = 0, high = std::sqrt(2 * std::log(1 / tolerance));
+  double low = 0, high = std::sqrt(2 * std::log(1 / tolerance)) * (1 + 1e-14);  // rounding keeps the bound below
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
     (dropped_error(d, middle, derivative_order) <= tolerance ? high : low) = middle;

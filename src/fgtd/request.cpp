@@ -30,7 +30,7 @@ Request<d> make_request(const std::vector<Combination<d>>& combinations, double 
       if (std::any_of(alpha.begin(), alpha.end(), [](int a) { return a < 0; })) {
         throw InvalidArgument("fgtd: derivative " + text<d>(alpha) + " has a negative entry");
       }
-      const int order = std::accumulate(alpha.begin(), alpha.end(), 0);
+      const long long order = std::accumulate(alpha.begin(), alpha.end(), 0LL);
       if (order > derivative_order || *std::max_element(alpha.begin(), alpha.end()) > derivative_order) {
         throw InvalidArgument(
             "fgtd: derivative " + text<d>(alpha) + " is of order " + std::to_string(order) +

@@ -33,7 +33,8 @@ ReadResult read_case(const std::filesystem::path& file, const std::vector<std::s
 ReadResult parse_case(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides = {});
 
-/// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case.
+/// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case, but for parameters
+/// that only stood in numbers, which are written as values.
 std::string resolved_toml(const Case& scene);
 
 }  // namespace gaussdrift::input

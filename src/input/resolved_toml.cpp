@@ -3,7 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <set>
 
+#include "expression/expression.hpp"
 #include "input/read_case.hpp"
 #include "input/registry.hpp"
 
@@ -65,6 +67,22 @@ class Writer {
   std::string text_;
 };
 
+// Numbers are written as values, so only the parameters that expressions of fields mention are still needed.
+Params params_in_use(const Case& scene) {
+  std::vector<std::string> texts;
+  if (const auto* velocity = std::get_if<ExpressionVelocity>(&scene.velocity[0])) texts = velocity->components;
+  if (const auto* density = std::get_if<ExpressionDensity>(&scene.density[0])) texts.push_back(density->text);
+  std::set<std::string> mentioned;
+  for (const std::string& text : texts) {
+    const Expression expression(text, {"x", "y", "z", "t"}, scene.params);
+    mentioned.insert(expression.used_names().begin(), expression.used_names().end());
+  }
+  Params params;
+  for (const auto& param : scene.params)
+    if (mentioned.count(param.first) > 0) params.push_back(param);
+  return params;
+}
+
 }  // namespace
 
 std::string resolved_toml(const Case& scene) {
@@ -77,8 +95,9 @@ std::string resolved_toml(const Case& scene) {
   out.table("case");
   out.entry("title", written(scene.title));
   out.entry("cite", written(scene.cite));
-  if (!scene.params.empty()) out.table("params");
-  for (const auto& [name, value] : scene.params) out.entry(name, written(value));
+  const Params params = params_in_use(scene);
+  if (!params.empty()) out.table("params");
+  for (const auto& [name, value] : params) out.entry(name, written(value));
   out.table("domain");
   out.entry("min", written_point(scene.domain.min, dimension));
   out.entry("max", written_point(scene.domain.max, dimension));

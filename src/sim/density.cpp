@@ -106,25 +106,29 @@ class Evaluation {
     return direct(targets).cwiseAbs().maxCoeff();
   }
 
-  // The promise of fgtd is tolerance * N * (weight around the target); the simulator's is relative to max |rho|.
-  void choose_tolerance(const Particles& particles, DensityReport& report) {
-    const double maximum = lower_bound_of_maximum(particles);
-    double error_of_unit_tolerance = 0;  // per-term tolerance 1 would give this error, at most
+  // The error that a per-term tolerance of 1 gives at most.
+  double error_of_unit_tolerance(const Particles& particles) const {
+    double error = 0;
     for (const WidthGroup<d>& group : groups_) {
       const double reach = std::sqrt((2 * std::log(1 / options_.tolerance) + 40) / group.sigma);
-      error_of_unit_tolerance += group.scale * largest_weight_within(particles, reach);
+      error += group.scale * largest_weight_within(particles, reach);
     }
+    return error;
+  }
+
+  // The promise of fgtd is tolerance * N * (weight around the target); the simulator's is relative to max |rho|.
+  void choose_tolerance(double unit_error, double maximum, DensityReport& report) {
     constexpr double coarsest = 0.1;  // nothing is gained above
-    const double wanted =
-        error_of_unit_tolerance > 0 ? options_.tolerance * maximum / error_of_unit_tolerance : coarsest;
+    const double wanted = unit_error > 0 ? options_.tolerance * maximum / unit_error : coarsest;
     tolerance_ = std::clamp(wanted, fgtd::smallest_tolerance, coarsest);
     report.requested_tolerance = tolerance_;
     report.achievable = wanted >= fgtd::smallest_tolerance || maximum == 0
                             ? options_.tolerance
-                            : fgtd::smallest_tolerance * error_of_unit_tolerance / maximum;
+                            : fgtd::smallest_tolerance * unit_error / maximum;
   }
 
   Eigen::VectorXd transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
+    report.choice.clear();
     Eigen::VectorXd rho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
     for (const WidthGroup<d>& group : groups_) {
       fgtd::Options options;
@@ -137,7 +141,8 @@ class Evaluation {
       rho += plan.evaluate_combination(grid, group.combination);
       std::ostringstream text;
       text << plan.choice();
-      report.choice += (report.choice.empty() ? "" : "\n") + text.str();
+      if (!report.choice.empty()) report.choice += '\n';
+      report.choice += text.str();
     }
     return rho;
   }
@@ -191,8 +196,18 @@ void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, Den
   fgtd::TensorGrid nodes;
   for (int k = 0; k < d; ++k) nodes.axes.push_back(grid.lattice.nodes(k));
   Evaluation<d> evaluation(particles, cutoff, options);
-  evaluation.choose_tolerance(particles, report);
-  const Eigen::VectorXd rho = evaluation.transform(nodes, report);
+  const double unit_error = evaluation.error_of_unit_tolerance(particles);
+  const double expected = evaluation.lower_bound_of_maximum(particles);
+  evaluation.choose_tolerance(unit_error, expected, report);
+  Eigen::VectorXd rho = evaluation.transform(nodes, report);
+  // Where most of the density has left the grid, the largest value on it decides, and the first tolerance was too
+  // coarse.
+  const double found = rho.cwiseAbs().maxCoeff();
+  if (found < 0.5 * expected) {
+    const double before = report.requested_tolerance;
+    evaluation.choose_tolerance(unit_error, found, report);
+    if (found > 0 && report.requested_tolerance < before) rho = evaluation.transform(nodes, report);
+  }
   grid.rho.assign(rho.data(), rho.data() + rho.size());
   report.evaluate_seconds = evaluating.seconds();
   if (options.measure) {
@@ -213,6 +228,8 @@ double largest_weight_within(const Particles& particles, double reach) {
   for (int k = 0; k < dimension; ++k) {
     const auto [a, b] = std::minmax_element(particles.position[k].begin(), particles.position[k].end());
     low[k] = *a, high[k] = *b;
+    if (!std::isfinite(high[k] - low[k]))
+      throw NumericalError("the particles lie so far apart that their distance is no number; shorten time.end");
   }
   // The box array may have a few entries a particle; a very short reach gets longer boxes, which only raises the bound.
   const double allowed = 4.0 * static_cast<double>(count) + 1e6;
@@ -263,10 +280,17 @@ DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, c
     filled.choice = "no particles carry weight";
     return grid;
   }
-  if (lattice.dimension == 2)
-    evaluate_in_dimension<2>(particles, cutoff, grid, options, filled);
-  else
-    evaluate_in_dimension<3>(particles, cutoff, grid, options, filled);
+  try {
+    if (lattice.dimension == 2)
+      evaluate_in_dimension<2>(particles, cutoff, grid, options, filled);
+    else
+      evaluate_in_dimension<3>(particles, cutoff, grid, options, filled);
+  } catch (const fgtd::MemoryLimitError& error) {
+    throw InputError(std::string(error.what()) + "; lower evaluate.per_axis or particles.per_axis");
+  } catch (const fgtd::Error& error) {
+    throw InputError(std::string("the density cannot be summed: ") + error.what() +
+                     "; check the size of the domain, particles.per_axis and particles.overlap");
+  }
   return grid;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -65,11 +66,16 @@ std::vector<double> landings(const Case& description) {
 
 FrameNumbers measure_frame(const Particles& particles, const DensityGrid& density) {
   FrameNumbers numbers;
+  double total = 0;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     numbers.mass += particles.alpha[j];
+    total += std::abs(particles.alpha[j]);
     for (int k = 0; k < particles.dimension; ++k) numbers.centroid[k] += particles.alpha[j] * particles.position[k][j];
   }
-  for (int k = 0; k < particles.dimension; ++k) numbers.centroid[k] /= numbers.mass;
+  // Where positive and negative weights cancel there is no centre of mass.
+  const bool cancelled = std::abs(numbers.mass) <= 1e-12 * total;
+  for (int k = 0; k < particles.dimension; ++k)
+    numbers.centroid[k] = cancelled ? std::numeric_limits<double>::quiet_NaN() : numbers.centroid[k] / numbers.mass;
   const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
   numbers.minimum = *low;
   numbers.maximum = *high;
@@ -114,6 +120,27 @@ std::size_t total_steps(const Case& description) {
 Simulation::Simulation(const Case& description, int threads)
     : case_(description), threads_(base::resolve_threads(threads)), scene_(make_scene(case_)) {}
 
+void Simulation::prepare() {
+  const base::Stopwatch seeding;
+  particles_ = seed_scene(scene_, threads_);
+  seed_seconds_ = seeding.seconds();
+  velocity_at_particles(0);
+}
+
+// [j][dimension]. Throws NumericalError where the field is not finite.
+std::vector<double> Simulation::velocity_at_particles(double time) const {
+  const auto dimension = static_cast<std::size_t>(particles_.dimension);
+  const std::size_t count = particles_.size();
+  std::vector<double> columns(count * dimension, 0.0), velocity(count * dimension);
+  VectorsView u{particles_.dimension, count, {}};
+  for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * count;
+  scene_.velocity->add(time, particles_.view(), u);
+  check_velocity(particles_, u, time, steps_done_);
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
+  return velocity;
+}
+
 void Simulation::carry(double from, double to, RunSummary& summary) {
   const time::Tableau& tableau = time::find_tableau(case_.time.method);
   const time::Interval interval(from, to, case_.time.step);
@@ -149,19 +176,9 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   summary.transform_choice = report.choice;
   summary.transform_achievable = std::max(summary.transform_achievable, report.achievable);
 
+  const std::vector<double> velocity = velocity_at_particles(time);
   const bool velocity_wanted =
       std::find(case_.output.vtk.begin(), case_.output.vtk.end(), OutputSpec::Vtk::particles) != case_.output.vtk.end();
-  std::vector<double> velocity;  // [j][dimension]
-  if (velocity_wanted) {
-    const auto dimension = static_cast<std::size_t>(particles_.dimension);
-    std::vector<double> columns(particles_.size() * dimension, 0.0);
-    VectorsView u{particles_.dimension, particles_.size(), {}};
-    for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * particles_.size();
-    scene_.velocity->add(time, particles_.view(), u);
-    velocity.resize(columns.size());
-    for (std::size_t j = 0; j < particles_.size(); ++j)
-      for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
-  }
 
   Frame frame;
   frame.index = index;
@@ -185,7 +202,8 @@ RunSummary Simulation::run() {
   summary.threads = threads_;
   summary.effects = {"transport"};
   summary.transform_tolerance = case_.evaluate.tolerance;
-  summary.stages.run("seed", [&] { particles_ = seed_scene(scene_, threads_); });
+  if (particles_.size() == 0) prepare();
+  summary.stages.add("seed", seed_seconds_);
   summary.lattice_points = scene_.seeding.size();
   summary.particles = particles_.size();
   summary.grid_points = scene_.evaluation.size();

@@ -67,12 +67,17 @@ class Simulation {
   /// Called between batches of steps, several times a second at most.
   void on_progress(std::function<void(const Progress&)> report) { progress_ = std::move(report); }
 
+  /// Seeds the particles and looks at the velocity there, so that what cannot begin is refused before anything is
+  /// written. run() does it if it was not done.
+  void prepare();
+
   /// Runs to time.end. Errors of fields and observers pass through; frames already shown stay as they are.
   RunSummary run();
 
   const Particles& particles() const { return particles_; }
 
  private:
+  std::vector<double> velocity_at_particles(double time) const;
   void carry(double from, double to, RunSummary& summary);
   void show_frame(int index, double time, RunSummary& summary);
 
@@ -80,6 +85,7 @@ class Simulation {
   int threads_;
   Scene scene_;
   Particles particles_;
+  double seed_seconds_ = 0;
   std::vector<std::unique_ptr<Observer>> observers_;
   std::function<void(const Progress&)> progress_;
   base::Stopwatch watch_;

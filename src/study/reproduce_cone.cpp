@@ -178,7 +178,7 @@ std::string to_json(const ConeReproduction& result) {
                                         {"worst_difference", result.worst_difference},
                                         {"agreement", cone_agreement},
                                         {"seconds", result.seconds}};
-  return document.dump(2) + "\n";
+  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gaussdrift::study

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "base/error.hpp"
 #include "write/atomic_file.hpp"
@@ -17,10 +19,38 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Everything that a run writes at the top of its folder.
-constexpr std::array<std::string_view, 10> run_entries{"density",      "density.pvd", "particles", "particles.pvd",
-                                                       "images",       "case.toml",   "run.toml",  "series.csv",
-                                                       "summary.json", "view.py"};
+// What a run writes at the top of its folder, and the numbered files below it.
+constexpr std::array<std::string_view, 7> run_files{"density.pvd", "particles.pvd", "case.toml", "run.toml",
+                                                    "series.csv",  "summary.json",  "view.py"};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> numbered_files{
+    {{"density", ".vti"}, {"particles", ".vtp"}, {"images", ".png"}}};
+
+// "surface_0012.png": letters, an underscore, digits, and the ending; ".part" where a run was killed.
+bool is_numbered(std::string name, std::string_view ending) {
+  if (name.ends_with(".part")) name.resize(name.size() - 5);
+  if (!name.ends_with(ending)) return false;
+  name.resize(name.size() - ending.size());
+  const std::size_t underscore = name.rfind('_');
+  return underscore != std::string::npos && name.size() - underscore > 4 &&
+         std::all_of(name.begin() + static_cast<std::ptrdiff_t>(underscore) + 1, name.end(),
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// Removes what a run wrote and nothing else: what a user keeps beside it stays.
+void remove_earlier_run(const fs::path& folder) {
+  try {
+    for (const auto& [name, ending] : numbered_files) {
+      if (!fs::is_directory(folder / name)) continue;
+      for (const auto& entry : fs::directory_iterator(folder / name))
+        if (is_numbered(entry.path().filename().string(), ending)) fs::remove(entry.path());
+      if (fs::is_empty(folder / name)) fs::remove(folder / name);
+    }
+    for (const std::string_view name : run_files) fs::remove(folder / name);
+  } catch (const fs::filesystem_error& failure) {
+    throw FileError(fmt::format("the earlier run in {} cannot be removed: {}; choose another folder with --out",
+                                folder.string(), failure.code().message()));
+  }
+}
 
 std::string view_script(const Case& scene) {
   const auto wants = [&](OutputSpec::Vtk kind) {
@@ -75,10 +105,12 @@ void prepare_run_folder(const fs::path& folder, bool force) {
     if (!empty && !force)
       throw FileError(fmt::format("{} is not empty; --force replaces the earlier run in it, --out DIR writes elsewhere",
                                   folder.string()));
-    for (const std::string_view entry : run_entries) {
-      fs::remove_all(folder / entry, problem);
-      if (problem) refuse(fmt::format("{} of an earlier run cannot be removed ({})", entry, problem.message()));
-    }
+    if (!empty && !fs::exists(folder / "run.toml"))
+      throw FileError(
+          fmt::format("{} holds no earlier run (it has no run.toml), so --force does not touch it; choose "
+                      "another folder with --out",
+                      folder.string()));
+    if (!empty) remove_earlier_run(folder);
   } else {
     fs::create_directories(folder, problem);
     if (problem) refuse(problem.message());

@@ -7,8 +7,8 @@
 
 namespace gaussdrift::write {
 
-/// Makes `folder` ready for a run. A folder that is not empty is refused unless `force`; then the files of an earlier
-/// run (and nothing else) are removed. Throws FileError with the remedy.
+/// Makes `folder` ready for a run. A folder that is not empty is refused unless `force` and it holds an earlier
+/// run, whose files (and nothing else) are then removed. Throws FileError with the remedy.
 void prepare_run_folder(const std::filesystem::path& folder, bool force);
 
 /// case.toml (as it was), run.toml (resolved), view.py (opens the series in ParaView). Throws FileError.

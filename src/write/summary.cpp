@@ -44,7 +44,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
       {"seconds", seconds},
       {"frames", frames},
   };
-  return document.dump(2) + "\n";
+  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gaussdrift::write

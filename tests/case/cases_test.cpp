@@ -1,4 +1,5 @@
-// Every file in cases/ runs at reduced size and approaches its exact solution: both rotate, so rho(x, t) = rho_0 at x turned back.
+// Every file in cases/ runs at reduced size and approaches its exact solution: both rotate, so rho(x, t) = rho_0 at x
+// turned back.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,17 +62,23 @@ std::vector<Errors> errors_of(const std::string& name, const std::vector<std::st
   return errors;
 }
 
-TEST(Cases, AreAllKnownToThisTest) { EXPECT_EQ(all_cases(), (std::vector<std::string>{"rotating_cone", "rotating_gap"})); }
+TEST(Cases, AreAllKnownToThisTest) {
+  EXPECT_EQ(all_cases(), (std::vector<std::string>{"rotating_cone", "rotating_gap"}));
+}
 
 TEST(RotatingCone, ApproachesTheExactConeAtEveryOutput) {
-  for (const Errors& error : errors_of("rotating_cone", {"particles.per_axis=100", "time.step=0.05", "evaluate.per_axis=101"}))
-    // The grid has a point on the peak, which smoothing lowers by 1 - 0.831819 [Sch06, Table 5.1; its grid just misses the peak].
+  for (const Errors& error :
+       errors_of("rotating_cone", {"particles.per_axis=100", "time.step=0.05", "evaluate.per_axis=101"}))
+    // The grid has a point on the peak, which smoothing lowers by 1 - 0.831819 [Sch06, Table 5.1; its grid just misses
+    // the peak].
     EXPECT_NEAR(error.linf, 1 - 0.831819, 1e-3);
 }
 
 TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
   const Case scene =
-      input::read_case(cases_folder + "rotating_cone.toml", {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"}).scene;
+      input::read_case(cases_folder + "rotating_cone.toml",
+                       {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"})
+          .scene;
   Simulation simulation(scene);
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.particles, 4386u);
@@ -82,20 +89,25 @@ TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
 TEST(RotatingCone, ErrorFallsWithTheCutoffsOrder) {
   // A Gaussian in place of the Wendland cone: smooth, so that each cutoff shows its order in eps.
   const auto error = [](const char* cutoff, int per_axis) {
-    return errors_of("rotating_cone", {std::string("particles.cutoff=") + cutoff, "particles.per_axis=" + std::to_string(per_axis), "density.shape=gaussian", "params.R=0.1",
-                                       "time.step=0.05", "evaluate.per_axis=81", "output.times=[\"2*pi\"]"})
+    return errors_of("rotating_cone",
+                     {std::string("particles.cutoff=") + cutoff, "particles.per_axis=" + std::to_string(per_axis),
+                      "density.shape=gaussian", "params.R=0.1", "time.step=0.05", "evaluate.per_axis=81",
+                      "output.times=[\"2*pi\"]"})
         .back()
         .linf;
   };
-  EXPECT_NEAR(std::log2(error("gauss2", 201) / error("gauss2", 401)), 2, 0.1);  // eps/R = 0.2 and 0.1: the next term is (eps/R)^2 smaller
+  EXPECT_NEAR(std::log2(error("gauss2", 201) / error("gauss2", 401)), 2,
+              0.1);  // eps/R = 0.2 and 0.1: the next term is (eps/R)^2 smaller
   EXPECT_NEAR(std::log2(error("gauss4", 201) / error("gauss4", 401)), 4, 0.3);
 }
 
 TEST(RotatingGap, StaysADiskWithAGap) {
-  const auto errors = errors_of("rotating_gap", {"particles.per_axis=100", "time.end=4*pi", "output.times=[0, \"2*pi\", \"4*pi\"]", "evaluate.per_axis=100"});
+  const auto errors = errors_of("rotating_gap", {"particles.per_axis=100", "time.end=4*pi",
+                                                 "output.times=[0, \"2*pi\", \"4*pi\"]", "evaluate.per_axis=100"});
   for (const Errors& error : errors) {
-    // Across a straight edge a Gaussian of width eps = 0.0404 errs by eps/sqrt(pi) in L1; the perimeter is 2.07, the area 0.171.
-    // The sides of the gap and its corners are nearer to each other than that, and the lattice has steps of 0.02.
+    // Across a straight edge a Gaussian of width eps = 0.0404 errs by eps/sqrt(pi) in L1; the perimeter is 2.07, the
+    // area 0.171. The sides of the gap and its corners are nearer to each other than that, and the lattice has steps of
+    // 0.02.
     EXPECT_NEAR(error.l1, 2.07 * 0.0404 / std::sqrt(std::numbers::pi) / 0.171, 0.04);
     EXPECT_NEAR(error.linf, 0.5, 0.15);  // on a straight edge the smoothed density is half the jump; more at corners
   }

@@ -22,7 +22,8 @@ std::map<std::string, std::map<std::string, double>> read_table(const std::strin
     std::vector<std::string> cells;
     std::istringstream row(line);
     for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
-    if (header.empty()) header = cells;
+    if (header.empty())
+      header = cells;
     else
       for (std::size_t k = 1; k < cells.size(); ++k) table[cells[0]][header[k]] = std::stod(cells[k]);
   }
@@ -36,9 +37,10 @@ TEST(ReproduceCone, AgreesWithAllPublishedHeights) {
   ASSERT_EQ(result.heights.size(), 120u);
   for (const ConeHeight& entry : result.heights) {
     const std::string c = std::to_string(entry.overlap);
-    const double published =
-        entry.table == 51 ? table_51.at(c).at("ng" + std::to_string(entry.per_axis)) : table_52.at(c).at(column.at(entry.time));
-    EXPECT_NEAR(entry.computed, published, cone_agreement) << "Table " << entry.table << ", n_g = " << entry.per_axis << ", c = " << c << ", t = " << entry.time;
+    const double published = entry.table == 51 ? table_51.at(c).at("ng" + std::to_string(entry.per_axis))
+                                               : table_52.at(c).at(column.at(entry.time));
+    EXPECT_NEAR(entry.computed, published, cone_agreement)
+        << "Table " << entry.table << ", n_g = " << entry.per_axis << ", c = " << c << ", t = " << entry.time;
     EXPECT_EQ(entry.published, published);  // what the program prints beside it is what was printed
   }
 }

@@ -32,14 +32,17 @@ TEST_P(EveryTableau, ReachesItsOrderOnATimeDependentProblem) {
     double y = 1;
     time::Stages work(GetParam(), 1);
     for (int i = 0; i < steps; ++i)
-      time::step(GetParam(), i * 2.0 / steps, 2.0 / steps, [](double t, const double* at, double* rate) { *rate = -2 * t * *at * *at; }, &y, work);
+      time::step(
+          GetParam(), i * 2.0 / steps, 2.0 / steps,
+          [](double t, const double* at, double* rate) { *rate = -2 * t * *at * *at; }, &y, work);
     return std::abs(y - 0.2);
   };
   const double order = std::log2(error(40) / error(80));
   EXPECT_NEAR(order, GetParam().time_order, 0.2) << GetParam().name;  // the next term of the expansion, at h = 1/40
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()), [](const auto& tableau) { return tableau.param.name; });
+INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()),
+                         [](const auto& tableau) { return tableau.param.name; });
 
 struct Turn {
   double step, radius_loss, phase_lag;
@@ -65,15 +68,17 @@ TEST_P(Rk4OnARotation, HasThePredictedAmplitudeAndPhaseAfterOneTurn) {
     phase_lag += std::pow(interval.length(i), 5) / 120;
   }
   const double rounding = 2e-13;  // thousands of steps, each with a few roundings of 1e-16
-  EXPECT_NEAR(1 - std::hypot(x, y), radius_loss, 0.03 * radius_loss + rounding);  // next term: theta^2/10 at theta = 0.2
+  EXPECT_NEAR(1 - std::hypot(x, y), radius_loss,
+              0.03 * radius_loss + rounding);  // next term: theta^2/10 at theta = 0.2
   EXPECT_NEAR(-std::atan2(y, x), phase_lag, 0.03 * phase_lag + rounding);
-  EXPECT_NEAR(radius_loss, GetParam().radius_loss, 0.05 * GetParam().radius_loss);  // these figures are given to two or three digits
+  EXPECT_NEAR(radius_loss, GetParam().radius_loss,
+              0.05 * GetParam().radius_loss);  // these figures are given to two or three digits
   EXPECT_NEAR(phase_lag, GetParam().phase_lag, 0.05 * GetParam().phase_lag);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Rk4OnARotation,
-                         ::testing::Values(Turn{0.2, 1.37e-5, 8.15e-5}, Turn{0.1, 4.3e-7, 5.2e-6}, Turn{0.05, 1.3e-8, 3.2e-7},
-                                           Turn{0.01, 4.3e-12, 5.2e-10}));
+                         ::testing::Values(Turn{0.2, 1.37e-5, 8.15e-5}, Turn{0.1, 4.3e-7, 5.2e-6},
+                                           Turn{0.05, 1.3e-8, 3.2e-7}, Turn{0.01, 4.3e-12, 5.2e-10}));
 
 }  // namespace
 }  // namespace gaussdrift

@@ -24,7 +24,8 @@ Case parse(const std::string& text, const std::vector<std::string>& overrides = 
 void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.title, b.title);
   EXPECT_EQ(a.cite, b.cite);
-  EXPECT_EQ(a.params, b.params);
+  for (const auto& param : a.params)  // a resolved case keeps the parameters that its expressions mention
+    EXPECT_NE(std::find(b.params.begin(), b.params.end(), param), b.params.end()) << param.first;
   EXPECT_EQ(a.domain.dimension, b.domain.dimension);
   EXPECT_EQ(a.domain.min, b.domain.min);
   EXPECT_EQ(a.domain.max, b.domain.max);

@@ -11,7 +11,8 @@ TEST(CommandLine, AnswersHelpAndVersion) {
   const ScratchFolder folder;
   const Outcome help = gaussdrift_in(folder, "--help");
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* word : {"run", "check", "reproduce", "Exit codes"}) EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  for (const char* word : {"run", "check", "reproduce", "Exit codes"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
   EXPECT_EQ(gaussdrift_in(folder, "--version").out.rfind("gaussdrift ", 0), 0u);
   EXPECT_NE(gaussdrift_in(folder, "run --help").out.find("--set"), std::string::npos);
 }
@@ -19,13 +20,30 @@ TEST(CommandLine, AnswersHelpAndVersion) {
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   const ScratchFolder folder;
   write_file(folder / "small.toml", small_case);
-  for (const char* wrong : {"", "fly", "run", "run small.toml --frce", "run small.toml --threads 0", "run small.toml --threads two", "reproduce moon"}) {
+  for (const char* wrong : {"", "fly", "run", "run small.toml --frce", "run small.toml --threads 0",
+                            "run small.toml --threads two", "reproduce moon"}) {
     const Outcome refused = gaussdrift_in(folder, wrong);
     EXPECT_EQ(refused.exit_code, 2) << wrong;
     EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;
     EXPECT_EQ(refused.out, "") << wrong;
   }
   EXPECT_FALSE(fs::exists(folder / "output"));
+}
+
+TEST(CommandLine, NamesTheVerbThatWasMeant) {
+  const ScratchFolder folder;
+  const Outcome refused = gaussdrift_in(folder, "chekc small.toml");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("there is no verb \"chekc\"; did you mean \"check\"?"), std::string::npos) << refused.err;
+}
+
+TEST(CommandLine, NoticesThatStandardOutputCannotBeWritten) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome lost = gaussdrift_in(folder, "check small.toml >/dev/full");
+  EXPECT_EQ(lost.exit_code, 6);
+  EXPECT_NE(lost.err.find("standard output cannot be written"), std::string::npos) << lost.err;
 }
 
 TEST(CommandLine, GivesAllErrorsOfACaseAndExitsWith3) {
@@ -37,7 +55,8 @@ TEST(CommandLine, GivesAllErrorsOfACaseAndExitsWith3) {
   for (const char* verb : {"run", "check"}) {
     const Outcome refused = gaussdrift_in(folder, std::string(verb) + " wrong.toml");
     EXPECT_EQ(refused.exit_code, 3);
-    EXPECT_NE(refused.err.find("unknown key \"overlapp\" in [particles]; did you mean \"overlap\"?"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("unknown key \"overlapp\" in [particles]; did you mean \"overlap\"?"), std::string::npos)
+        << refused.err;
     EXPECT_NE(refused.err.find("wrong.toml:17:1"), std::string::npos) << refused.err;
     EXPECT_NE(refused.err.find("step = -0.05"), std::string::npos) << refused.err;
   }
@@ -56,7 +75,8 @@ TEST(Check, DescribesACaseWithoutRunningIt) {
   write_file(folder / "small.toml", small_case);
   const Outcome check = gaussdrift_in(folder, "check small.toml");
   ASSERT_EQ(check.exit_code, 0) << check.err;
-  for (const char* part : {"small  2D  [-1,1]x[-1,1]   div u = 0 (sampled)", "3 600 on the lattice", "transport only", "126 steps", "3 frames of 1 600 points"})
+  for (const char* part : {"small  2D  [-1,1]x[-1,1]   div u = 0 (sampled)", "3 600 on the lattice", "transport only",
+                           "126 steps", "3 frames of 1 600 points"})
     EXPECT_NE(check.out.find(part), std::string::npos) << part << " in:\n" << check.out;
   EXPECT_FALSE(fs::exists(folder / "output"));
 }
@@ -66,7 +86,19 @@ TEST(Check, FindsTheDivergenceOfAFlow) {
   write_file(folder / "small.toml", small_case);
   const Outcome check = gaussdrift_in(folder, "check small.toml --json --set 'velocity.u=[\"0.5*x\", \"0.25*y\"]'");
   ASSERT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_NEAR(nlohmann::json::parse(check.out)["largest_divergence"].get<double>(), 0.75, 1e-9);  // exact for a linear field up to rounding
+  EXPECT_NEAR(nlohmann::json::parse(check.out)["largest_divergence"].get<double>(), 0.75,
+              1e-9);  // exact for a linear field up to rounding
+}
+
+TEST(Check, AcceptsAFieldThatIsFiniteWhereParticlesWillBe) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  // Particles move right with the place where the root begins: they never meet it, though their first places do.
+  const std::string options =
+      " small.toml --set 'density.center=[0,0]' --set density.radius=0.1 --set time.end=1 --set output.frames=2 "
+      "--set 'velocity.u=[\"1 + 0*sqrt(x - t + 0.2)\",\"0\"]'";
+  EXPECT_EQ(gaussdrift_in(folder, "check" + options).exit_code, 0);
+  EXPECT_EQ(gaussdrift_in(folder, "run" + options).exit_code, 0);
 }
 
 TEST(Check, RefusesAFieldThatIsNotFinite) {

@@ -50,10 +50,11 @@ struct Outcome {
 };
 
 /// `before` is shell text ahead of the call: limits, environment.
-inline Outcome gaussdrift_in(const ScratchFolder& folder, const std::string& arguments, const std::string& before = "") {
+inline Outcome gaussdrift_in(const ScratchFolder& folder, const std::string& arguments,
+                             const std::string& before = "") {
   const fs::path out = folder / "stdout.txt", err = folder / "stderr.txt";
-  const std::string command = "cd '" + folder.path().string() + "' && { " + before + " '" PROGRAM "' " + arguments + "; } >'" + out.string() + "' 2>'" +
-                              err.string() + "' </dev/null";
+  const std::string command = "cd '" + folder.path().string() + "' && { " + before + " '" PROGRAM "' " + arguments +
+                              "; } >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(out), read_file(err)};
 }

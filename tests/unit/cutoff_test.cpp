@@ -1,5 +1,5 @@
-// Moment conditions of [Sch06, Definition 5.2.1], by the trapezoidal rule, which is exact to rounding for Gaussians times
-// polynomials once the lattice is finer than about half a width.
+// Moment conditions of [Sch06, Definition 5.2.1], by the trapezoidal rule, which is exact to rounding for Gaussians
+// times polynomials once the lattice is finer than about half a width.
 #include "particle/cutoff.hpp"
 
 #include <gtest/gtest.h>
@@ -56,12 +56,14 @@ TEST_P(EveryCutoff, IntegratesToOneAndHasVanishingMoments) {
   const double eps = 0.7;
   for (const int dimension : {1, 2, 3}) {
     const Cutoff cutoff = make_cutoff(GetParam().name, dimension, eps);
-    EXPECT_NEAR(moment(cutoff, dimension, eps, {0, 0, 0}), 1, 1e-8);  // trapezoidal rule at half a width: 2 exp(-4 pi^2) a dimension, times moments
+    EXPECT_NEAR(moment(cutoff, dimension, eps, {0, 0, 0}), 1,
+                1e-8);  // trapezoidal rule at half a width: 2 exp(-4 pi^2) a dimension, times moments
     for (int a = 0; a < GetParam().cutoff_order; ++a)
       for (int b = 0; a + b < GetParam().cutoff_order && (dimension > 1 || b == 0); ++b)
         for (int c = 0; a + b + c < GetParam().cutoff_order && (dimension > 2 || c == 0); ++c)
           if (a + b + c > 0) {
-            EXPECT_NEAR(moment(cutoff, dimension, eps, {a, b, c}), 0, 1e-8) << a << b << c << " in " << dimension << "D";
+            EXPECT_NEAR(moment(cutoff, dimension, eps, {a, b, c}), 0, 1e-8)
+                << a << b << c << " in " << dimension << "D";
           }
   }
 }

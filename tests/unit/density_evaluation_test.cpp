@@ -16,7 +16,8 @@ const Vector low{-1, -1, 0}, high{1, 1, 0};
 
 Particles cone_particles(int per_axis) {
   const RadialDensity cone(RadialDensity::Profile::wendland, {0.5, 0, 0}, 0.25, 1);
-  return seed(make_lattice(2, low, high, per_axis), [&](const PointsView& x, double* v) { cone.add(x, v); }, 0);
+  return seed(
+      make_lattice(2, low, high, per_axis), [&](const PointsView& x, double* v) { cone.add(x, v); }, 0);
 }
 
 double largest(const std::vector<double>& values) {
@@ -61,13 +62,15 @@ TEST_P(EveryToleranceAndMethod, KeepsItsErrorRelativeToTheMaximum) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryToleranceAndMethod,
-                         ::testing::Combine(::testing::Values(1e-2, 1e-5, 1e-8, 1e-11), ::testing::Values("auto", "direct", "hermite"),
+                         ::testing::Combine(::testing::Values(1e-2, 1e-5, 1e-8, 1e-11),
+                                            ::testing::Values("auto", "direct", "hermite"),
                                             ::testing::Values("gauss2", "gauss4")));
 
 TEST(Density, ReportsTheErrorThatCanBePromisedWhereTheToleranceCannot) {
   Particles particles = cone_particles(60);
   DensityReport report;
-  evaluate_density(particles, make_cutoff("gauss2", 2, 4.0 / 59), make_lattice(2, low, high, 20), {.tolerance = 1e-14}, &report);
+  evaluate_density(particles, make_cutoff("gauss2", 2, 4.0 / 59), make_lattice(2, low, high, 20), {.tolerance = 1e-14},
+                   &report);
   EXPECT_GT(report.achievable, 1e-14);
   EXPECT_LE(report.measured_error, report.achievable);
 }
@@ -87,7 +90,9 @@ TEST(Density, OfNoParticlesIsZero) {
 }
 
 TEST(Density, RefusesAnUnknownMethod) {
-  EXPECT_THROW(evaluate_density(cone_particles(20), make_cutoff("gauss2", 2, 0.1), make_lattice(2, low, high, 5), {.method = "fft"}), InputError);
+  EXPECT_THROW(evaluate_density(cone_particles(20), make_cutoff("gauss2", 2, 0.1), make_lattice(2, low, high, 5),
+                                {.method = "fft"}),
+               InputError);
 }
 
 TEST(LargestWeight, IsAnUpperBoundAndNotAWildOne) {
@@ -97,7 +102,8 @@ TEST(LargestWeight, IsAnUpperBoundAndNotAWildOne) {
     for (std::size_t i = 0; i < particles.size(); ++i) {
       double weight = 0;
       for (std::size_t j = 0; j < particles.size(); ++j)
-        if (std::hypot(particles.position[0][i] - particles.position[0][j], particles.position[1][i] - particles.position[1][j]) < reach)
+        if (std::hypot(particles.position[0][i] - particles.position[0][j],
+                       particles.position[1][i] - particles.position[1][j]) < reach)
           weight += particles.alpha[j];
       exact = std::max(exact, weight);
     }

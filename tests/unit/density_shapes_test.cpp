@@ -19,7 +19,8 @@ double at(const InitialDensity& density, double x, double y) {
 TEST(RadialDensity, HasItsHeightAtTheCentreAndItsProfileAside) {
   const Vector centre{0.5, -0.25, 0};
   EXPECT_EQ(at(RadialDensity(Profile::wendland, centre, 0.25, 1), 0.5, -0.25), 1);
-  EXPECT_EQ(at(RadialDensity(Profile::wendland, centre, 0.25, 2), 0.625, -0.25), 2 * 0.0625 * 3);  // s = 1/2: (1/2)^4 * 3
+  EXPECT_EQ(at(RadialDensity(Profile::wendland, centre, 0.25, 2), 0.625, -0.25),
+            2 * 0.0625 * 3);  // s = 1/2: (1/2)^4 * 3
   EXPECT_EQ(at(RadialDensity(Profile::wendland, centre, 0.25, 1), 0.75, -0.25), 0);
   EXPECT_EQ(at(RadialDensity(Profile::cone, centre, 0.5, 4), 0.5, 0), 2);
   EXPECT_EQ(at(RadialDensity(Profile::gaussian, centre, 0.5, 1), 1, -0.25), std::exp(-1.0));

@@ -15,7 +15,8 @@ namespace {
 const Lattice square = make_lattice(2, {-1, -1, 0}, {1, 1, 0}, 300);
 
 Particles seed_radial(const RadialDensity& density, int threads) {
-  return seed(square, [&](const PointsView& x, double* values) { density.add(x, values); }, threads);
+  return seed(
+      square, [&](const PointsView& x, double* values) { density.add(x, values); }, threads);
 }
 
 TEST(Seeding, CarriesOnlyTheConesParticles) {
@@ -29,7 +30,8 @@ TEST(Seeding, WeighsWithTheLatticeCell) {
   const Particles particles = seed_radial(density, 0);
   double mass = 0;
   for (const double alpha : particles.alpha) mass += alpha;
-  EXPECT_NEAR(mass, std::numbers::pi * 0.04, 1e-8);  // lattice sum of a Gaussian; its tail at the domain's edge is exp(-16)
+  EXPECT_NEAR(mass, std::numbers::pi * 0.04,
+              1e-8);  // lattice sum of a Gaussian; its tail at the domain's edge is exp(-16)
 }
 
 TEST(Seeding, NumbersParticlesByLatticeIndexForAnyThreads) {
@@ -46,7 +48,8 @@ TEST(Seeding, NumbersParticlesByLatticeIndexForAnyThreads) {
 TEST(Seeding, SaysWhereTheDensityIsNotFinite) {
   const Lattice lattice = make_lattice(2, {0, 0, 0}, {1, 1, 0}, 5);
   const auto pole = [](const PointsView& x, double* values) {
-    for (std::size_t i = 0; i < x.count; ++i) values[i] += 1 / (std::abs(x.axis[0][i] - 0.25) + std::abs(x.axis[1][i] - 0.5));
+    for (std::size_t i = 0; i < x.count; ++i)
+      values[i] += 1 / (std::abs(x.axis[0][i] - 0.25) + std::abs(x.axis[1][i] - 0.5));
   };
   try {
     seed(lattice, pole, 1);

@@ -61,7 +61,8 @@ TEST(Stepper, NamesStepTimeParticleAndPlaceOfABadVelocity) {
     FAIL() << "a velocity that is not finite was not noticed";
   } catch (const NumericalError& error) {
     const std::string text = error.what();
-    EXPECT_NE(text.find("in step 105"), std::string::npos) << text;  // from 0.95 at t = 0.4: half a step brings it, by rounding, just beyond 1
+    EXPECT_NE(text.find("in step 105"), std::string::npos)
+        << text;  // from 0.95 at t = 0.4: half a step brings it, by rounding, just beyond 1
     EXPECT_NE(text.find("particle 8"), std::string::npos) << text;
     EXPECT_NE(text.find("t = 0.45"), std::string::npos) << text;
     EXPECT_NE(text.find("(1, 0.25)"), std::string::npos) << text;

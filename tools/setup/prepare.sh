@@ -42,6 +42,7 @@ install_missing() {
     exit 1
   fi
   rm -f "$log"
+  reconfigure=yes  # an earlier configuration may have gone without them
 }
 
 # build TARGET

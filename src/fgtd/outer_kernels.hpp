@@ -1,0 +1,206 @@
+// The kernel of `outer`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as matrices; see
+// kernels_vector.hpp for what may stand here.
+#pragma once
+
+#include "fgtd/cells_job.hpp"
+#include "fgtd/cells_kernels.hpp"
+#include "fgtd/kernels_vector.hpp"
+
+namespace fgtd::detail::FGTD_ISA {
+namespace {
+
+/// C += B D as in `product`, a block of `rows` rows and `vectors` vectors, the last of which holds `valid` numbers.
+template <int rows, int vectors>
+FGTD_INLINE void outer_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d,
+                             std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
+  Vector sum[rows][vectors] = {};
+  for (std::size_t k = 0; k < depth; ++k) {
+    Vector right[vectors];
+    for (int v = 0; v < vectors; ++v) right[v] = load(d + k * d_stride + static_cast<std::size_t>(v) * lanes);
+    for (int i = 0; i < rows; ++i) {
+      const double left = b[static_cast<std::size_t>(i) * b_stride + k];
+      for (int v = 0; v < vectors; ++v) sum[i][v] += right[v] * left;
+    }
+  }
+  for (int i = 0; i < rows; ++i) {
+    double* row = c + static_cast<std::size_t>(i) * c_stride;
+    for (int v = 0; v < vectors; ++v) {
+      double* at = row + static_cast<std::size_t>(v) * lanes;
+      if (v + 1 < vectors || valid == lanes) {
+        store(at, load(at) + sum[i][v]);
+      } else {
+        for (std::size_t x = 0; x < valid; ++x) at[x] += sum[i][v][x];
+      }
+    }
+  }
+}
+
+template <int vectors>
+FGTD_INLINE void outer_columns(std::size_t rows, std::size_t depth, const double* b, std::size_t b_stride,
+                               const double* d, std::size_t d_stride, double* c, std::size_t c_stride,
+                               std::size_t valid) {
+  std::size_t i = 0;
+  for (; i + 4 <= rows; i += 4)
+    outer_block<4, vectors>(depth, b + i * b_stride, b_stride, d, d_stride, c + i * c_stride, c_stride, valid);
+  b += i * b_stride;
+  c += i * c_stride;
+  if (rows - i == 3) outer_block<3, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
+  if (rows - i == 2) outer_block<2, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
+  if (rows - i == 1) outer_block<1, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
+}
+
+FGTD_INLINE void outer_product(std::size_t rows, std::size_t depth, std::size_t width, const double* b,
+                               std::size_t b_stride, const double* d, std::size_t d_stride, double* c,
+                               std::size_t c_stride) {
+  std::size_t x = 0;
+  for (; x + 3 * lanes <= width; x += 3 * lanes)
+    outer_columns<3>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, lanes);
+  const std::size_t rest = width - x;
+  if (rest == 0) return;
+  const std::size_t vectors = (rest + lanes - 1) / lanes, valid = rest - (vectors - 1) * lanes;
+  if (vectors == 1) outer_columns<1>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
+  if (vectors == 2) outer_columns<2>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
+  if (vectors == 3) outer_columns<3>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
+}
+
+/// rows[n stride] = h~_n(t), n = 0 .. highest.
+template <int degree>
+FGTD_INLINE void hermite_rows(Vector t, int highest, const Recurrence& recurrence, double* rows, std::size_t stride) {
+  t = clamp(t, 27.0);
+  Vector previous{}, current = power_of_half<degree>(t * t * log2_e, 1000.0);
+  store(rows, current);
+  for (int n = 0; n < highest; ++n) {
+    const Vector next = t * recurrence.up[n] * current - previous * recurrence.back[n];
+    previous = current;
+    current = next;
+    rows += stride;
+    store(rows, current);
+  }
+}
+
+constexpr std::size_t up_to_lanes(std::size_t n) { return (n + lanes - 1) / lanes * lanes; }
+
+template <int d, int degree>
+void outer_at(const OuterJob& job) {
+  const std::size_t sources = job.sources, depth = up_to_lanes(sources);
+  double* free = job.scratch;
+  const auto take = [&free](std::size_t size) {
+    double* taken = free;
+    free += size;
+    return taken;
+  };
+
+  // first[n][p][node]: rows of the first axis; vectors run over nodes.
+  const std::size_t width = up_to_lanes(job.nodes[0]), plane = sources * width;
+  double* node = take(width);
+  for (std::size_t i = 0; i < width; ++i) node[i] = job.node[0][i < job.nodes[0] ? i : job.nodes[0] - 1];
+  double* first = take(plane * static_cast<std::size_t>(job.highest[0] + 1));
+  for (std::size_t p = 0; p < sources; ++p)
+    for (std::size_t i = 0; i < width; i += lanes)
+      hermite_rows<degree>((load(node + i) - job.position[p]) * job.root_sigma, job.highest[0], job.recurrence,
+                           first + p * width + i, plane);
+
+  // upper[l][n][node][p]: of the other axes; vectors run over sources, padded by repeating the last.
+  double* upper[d];
+  for (int l = 1; l < d; ++l) {
+    const double* position = job.position + static_cast<std::size_t>(l) * job.stride;
+    double* x = take(depth);
+    for (std::size_t p = 0; p < depth; ++p) x[p] = position[p < sources ? p : sources - 1];
+    const std::size_t table = job.nodes[l] * depth;
+    upper[l] = take(table * static_cast<std::size_t>(job.highest[l] + 1));
+    for (std::size_t i = 0; i < job.nodes[l]; ++i)
+      for (std::size_t p = 0; p < depth; p += lanes)
+        hermite_rows<degree>((job.node[l][i] - load(x + p)) * job.root_sigma, job.highest[l], job.recurrence,
+                             upper[l] + i * depth + p, table);
+  }
+
+  double* weight = take(depth);
+  double* left = take((d > 1 ? job.nodes[1] : 1) * depth);
+  for (std::size_t i3 = 0; i3 < (d > 3 ? job.nodes[3] : 1); ++i3)
+    for (std::size_t i2 = 0; i2 < (d > 2 ? job.nodes[2] : 1); ++i2) {
+      // The part of the window that this slab leaves within reach of the group's bounding box.
+      std::size_t from[2] = {0, 0}, to[2] = {job.nodes[0], d > 1 ? job.nodes[1] : 1};
+      if constexpr (d > 2) {
+        double squared = job.reach * job.reach;
+        for (int l = 2; l < d; ++l) {
+          const double y = job.node[l][l == 2 ? i2 : i3];
+          const double apart = y < job.low[l] ? job.low[l] - y : y > job.high[l] ? y - job.high[l] : 0;
+          squared -= apart * apart;
+        }
+        if (squared < 0) continue;
+        const double reach = __builtin_sqrt(squared);
+        for (int l = 0; l < 2; ++l) {
+          while (from[l] < to[l] && job.node[l][from[l]] < job.low[l] - reach) ++from[l];
+          while (from[l] < to[l] && job.node[l][to[l] - 1] > job.high[l] + reach) --to[l];
+        }
+        from[0] = from[0] / lanes * lanes;
+        to[0] = up_to_lanes(to[0]) < job.nodes[0] ? up_to_lanes(to[0]) : job.nodes[0];
+        if (from[0] >= to[0] || from[1] >= to[1]) continue;
+      }
+      double* out = job.out + from[0] * job.step[0];
+      if (d > 1) out += from[1] * job.step[1];
+      if (d > 2) out += i2 * job.step[2];
+      if (d > 3) out += i3 * job.step[3];
+      const std::size_t rows = to[1] - from[1];
+
+      for (std::size_t q = 0; q < job.combinations; ++q)
+        for (std::size_t k = 0; k < job.columns; ++k) {
+          double* here = out + (q * job.columns + k) * job.output_stride;
+          for (std::size_t bundle = job.first_bundle[q]; bundle < job.first_bundle[q + 1]; ++bundle) {
+            for (std::size_t part = job.first_part[bundle]; part < job.first_part[bundle + 1]; ++part) {
+              const int* order = job.order + part * max_dimension;
+              for (std::size_t p = 0; p < depth; ++p)
+                weight[p] = p < sources ? job.weights[k * job.stride + p] * job.factor[part] : 0.0;
+              for (int l = 2; l < d; ++l) {
+                const double* row = upper[l] + (static_cast<std::size_t>(order[l]) * job.nodes[l] +
+                                                (l == 2 ? i2 : i3)) * depth;
+                for (std::size_t p = 0; p < depth; p += lanes) store(weight + p, load(weight + p) * load(row + p));
+              }
+              const bool fresh = part == job.first_part[bundle];
+              for (std::size_t i = 0; i < rows; ++i)
+                for (std::size_t p = 0; p < depth; p += lanes) {
+                  Vector value = load(weight + p);
+                  if constexpr (d > 1)
+                    value *= load(upper[1] +
+                                  (static_cast<std::size_t>(order[1]) * job.nodes[1] + from[1] + i) * depth + p);
+                  double* at = left + i * depth + p;
+                  store(at, fresh ? value : load(at) + value);
+                }
+            }
+            outer_product(rows, sources, to[0] - from[0], left, depth,
+                          first + static_cast<std::size_t>(job.bundle_order[bundle]) * plane + from[0], width, here,
+                          d > 1 ? job.step[1] : 0);
+          }
+        }
+    }
+}
+
+template <int d>
+void outer_in(const OuterJob& job) {
+  switch (job.degree) {
+    case 4:
+      return outer_at<d, 4>(job);
+    case 6:
+      return outer_at<d, 6>(job);
+    case 8:
+      return outer_at<d, 8>(job);
+    default:
+      return outer_at<d, 11>(job);
+  }
+}
+
+void outer(const OuterJob& job) {
+  switch (job.dimension) {
+    case 1:
+      return outer_in<1>(job);
+    case 2:
+      return outer_in<2>(job);
+    case 3:
+      return outer_in<3>(job);
+    default:
+      return outer_in<4>(job);
+  }
+}
+
+}  // namespace
+}  // namespace fgtd::detail::FGTD_ISA

@@ -1,0 +1,342 @@
+#include "study/sum_points.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
+
+namespace gaussdrift::study {
+
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+template <class Number>
+bool read_number(std::string_view text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end;
+}
+
+double node(const GridAxis& axis, std::size_t i) {
+  if (i == 0) return axis.lower;
+  if (i + 1 == axis.count) return axis.upper;
+  return axis.lower + (axis.upper - axis.lower) * static_cast<double>(i) / static_cast<double>(axis.count - 1);
+}
+
+std::string column_name(const std::vector<int>& derivative) { return fmt::format("d_{}", fmt::join(derivative, "_")); }
+
+void refuse_other_dimension(const std::string& what, std::size_t given, const input::PointsTable& sources) {
+  if (given == sources.coordinates.size()) return;
+  throw CommandLineError(fmt::format("{}, but the sources have {} ({})", what, sources.coordinates.size(),
+                                     fmt::join(sources.coordinates, ", ")));
+}
+
+void check_together(const SumRequest& request) {
+  const input::PointsTable& sources = request.sources;
+  if (!request.grid.empty())
+    refuse_other_dimension(
+        fmt::format("--grid has {} {}", request.grid.size(), request.grid.size() == 1 ? "axis" : "axes"),
+        request.grid.size(), sources);
+  for (const auto& derivative : request.derivatives) {
+    refuse_other_dimension(fmt::format("--derivative {} has {} {}", fmt::join(derivative, ","), derivative.size(),
+                                       derivative.size() == 1 ? "number" : "numbers"),
+                           derivative.size(), sources);
+    if (std::count(request.derivatives.begin(), request.derivatives.end(), derivative) > 1)
+      throw CommandLineError(fmt::format("--derivative {} is there twice", fmt::join(derivative, ",")));
+  }
+  if (!request.targets) return;
+  // Columns belong together by their place; the same names in another order are a mistake.
+  const auto &from = sources.coordinates, &to = request.targets->coordinates;
+  if (from.size() != to.size())
+    throw InputError(fmt::format("targets have {} coordinates ({}), sources have {} ({}); both need the same",
+                                 to.size(), fmt::join(to, ", "), from.size(), fmt::join(from, ", ")));
+  if (from != to && std::is_permutation(from.begin(), from.end(), to.begin()))
+    throw InputError(fmt::format(
+        "the coordinates of the targets come in the order {}, those of the sources in the order {}; use one order",
+        fmt::join(to, ", "), fmt::join(from, ", ")));
+}
+
+// As doubles: a product of counts may exceed an integer.
+double targets_of(const SumRequest& request) {
+  if (request.targets) return static_cast<double>(request.targets->size());
+  if (request.grid.empty()) return static_cast<double>(request.sources.size());
+  double product = 1;
+  for (const GridAxis& axis : request.grid) product *= static_cast<double>(axis.count);
+  return product;
+}
+
+// What is left for the plan when the points, the nodes and the values have their memory.
+std::size_t memory_for_plan(const SumRequest& request) {
+  const auto numbers = [](const input::PointsTable& table) { return table.positions.size() + table.weights.size(); };
+  const double targets = targets_of(request);
+  const double columns = static_cast<double>(std::max<std::size_t>(1, request.derivatives.size()));
+  double doubles = static_cast<double>(numbers(request.sources)) + targets * columns;
+  if (request.targets) doubles += static_cast<double>(numbers(*request.targets));
+  for (const GridAxis& axis : request.grid) doubles += static_cast<double>(axis.count);
+  const double bytes = sizeof(double) * doubles, limit = static_cast<double>(request.memory_limit);
+  if (bytes < limit) return request.memory_limit - static_cast<std::size_t>(bytes);
+  throw InputError(
+      fmt::format("{:.4g} targets with {} {} would take {:.4g} GB with the points; at most {:.4g} GB are used; ask for "
+                  "fewer targets "
+                  "at a time",
+                  targets, columns, columns == 1 ? "value" : "values", bytes / 1e9, limit / 1e9));
+}
+
+fgtd::TensorGrid nodes_of(const std::vector<GridAxis>& grid) {
+  fgtd::TensorGrid result;
+  for (const GridAxis& axis : grid) {
+    std::vector<double>& nodes = result.axes.emplace_back(axis.count);
+    for (std::size_t i = 0; i < axis.count; ++i) nodes[i] = node(axis, i);
+    if (std::adjacent_find(nodes.begin(), nodes.end(), [](double a, double b) { return !(a < b); }) != nodes.end())
+      throw CommandLineError(fmt::format("--grid: {} nodes from {} to {} cannot be told apart in double precision",
+                                         axis.count, axis.lower, axis.upper));
+  }
+  return result;
+}
+
+void check_values(const PointSums& sums) {
+  for (Eigen::Index k = 0; k < sums.values.cols(); ++k)
+    for (Eigen::Index i = 0; i < sums.values.rows(); ++i)
+      if (!std::isfinite(sums.values(i, k)))
+        throw NumericalError(fmt::format("{} at target {} (counted from 1) is {}; scale the weights or sigma down",
+                                         sums.columns[k], i + 1, sums.values(i, k)));
+}
+
+template <int d>
+void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
+  using Points = Eigen::Map<const fgtd::Points<d>>;
+  const auto points = [](const input::PointsTable& table) {
+    return Points(table.positions.data(), d, static_cast<Eigen::Index>(table.size()));
+  };
+  std::vector<fgtd::Combination<d>> combinations;
+  for (const auto& derivative : result.derivatives) {
+    fgtd::Term<d> term;
+    std::copy(derivative.begin(), derivative.end(), term.derivative.begin());
+    combinations.push_back({term});
+  }
+  if (!request.grid.empty()) options.expected_grid = nodes_of(request.grid);
+
+  const base::Stopwatch preparing;
+  const auto weights = Eigen::Map<const Eigen::VectorXd>(request.sources.weights.data(),
+                                                         static_cast<Eigen::Index>(request.sources.weights.size()));
+  const fgtd::Plan<d> plan(points(request.sources), weights, request.sigma, options);
+  result.prepare_seconds = preparing.seconds();
+
+  const base::Stopwatch evaluating;
+  if (options.expected_grid)
+    result.values = plan.evaluate_combinations(*options.expected_grid, combinations);
+  else
+    result.values =
+        plan.evaluate_combinations(points(request.targets ? *request.targets : request.sources), combinations);
+  result.evaluate_seconds = evaluating.seconds();
+
+  result.choice = plan.choice();
+  for (const auto& combination : combinations) {
+    result.error_bounds.emplace_back();
+    if (result.choice.bound)
+      result.error_bounds.back() = *result.choice.bound *
+                                   fgtd::derivative_scale<d>(combination.front().derivative, request.sigma) *
+                                   result.weight_total;
+  }
+}
+
+// The tables are finite and belong together, so what fgtd refuses is a number of the command line.
+template <class Work>
+void with_errors_of_fgtd(const Work& work) {
+  try {
+    work();
+  } catch (const fgtd::InvalidArgument& error) {
+    throw CommandLineError(error.what());
+  } catch (const fgtd::Error& error) {
+    throw InputError(error.what());
+  }
+}
+
+// Numbers that JSON has no word for become null.
+nlohmann::ordered_json number(std::optional<double> value) {
+  if (value && std::isfinite(*value)) return *value;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<GridAxis> parse_grid(const std::string& text) {
+  std::vector<GridAxis> grid;
+  for (const std::string_view part : split(text, ',')) {
+    const auto refuse = [&](const char* why) {
+      throw CommandLineError(fmt::format(
+          "--grid: \"{}\" {}; write lowest:highest:count for every axis, as in --grid=-1:1:200,0:1:100", part, why));
+    };
+    const auto numbers = split(part, ':');
+    GridAxis axis;
+    if (numbers.size() != 3 || !read_number(numbers[0], axis.lower) || !read_number(numbers[1], axis.upper))
+      refuse("is not an axis");
+    if (!read_number(numbers[2], axis.count) || axis.count < 1) refuse("has no positive count");
+    if (!std::isfinite(axis.lower) || !std::isfinite(axis.upper) || !std::isfinite(axis.upper - axis.lower))
+      refuse("is not finite");
+    if (axis.count == 1 && axis.lower != axis.upper) refuse("has one node between two ends");
+    if (axis.count > 1 && !(axis.lower < axis.upper)) refuse("does not ascend");
+    grid.push_back(axis);
+  }
+  if (grid.size() > 4) throw CommandLineError(fmt::format("--grid has {} axes, at most 4 are possible", grid.size()));
+  return grid;
+}
+
+std::vector<int> parse_derivative(const std::string& text) {
+  std::vector<int> derivative;
+  for (const std::string_view part : split(text, ',')) {
+    int order = -1;
+    if (!read_number(part, order) || order < 0)
+      throw CommandLineError(
+          fmt::format("--derivative: \"{}\" in \"{}\" is not an order; write one number for every coordinate, as in "
+                      "--derivative 0,1,2",
+                      part, text));
+    derivative.push_back(order);
+  }
+  return derivative;
+}
+
+PointSums sum_points(const SumRequest& request) {
+  check_together(request);
+  PointSums result;
+  result.dimension = request.sources.dimension();
+  result.sigma = request.sigma;
+  result.derivatives = request.derivatives;
+  if (result.derivatives.empty()) result.derivatives.emplace_back(result.dimension, 0);
+  result.asked = request.method;
+  result.threads = base::resolve_threads(request.threads);
+  for (const double weight : request.sources.weights) result.weight_total += std::abs(weight);
+
+  fgtd::Options options;
+  options.tolerance = request.tolerance;
+  options.method = request.method;
+  options.threads = request.threads;
+  options.memory_limit = memory_for_plan(request);
+  options.expected_targets = request.targets ? request.targets->size() : request.sources.size();
+  for (const auto& derivative : result.derivatives) {
+    result.columns.push_back(column_name(derivative));
+    double order = 0;  // the sum of large orders may exceed an int
+    for (const int part : derivative) order += part;
+    options.derivative_order = std::max(options.derivative_order, static_cast<int>(std::min(order, 1e6)));
+  }
+  with_errors_of_fgtd([&] {
+    switch (result.dimension) {
+      case 1:
+        return sum<1>(request, std::move(options), result);
+      case 2:
+        return sum<2>(request, std::move(options), result);
+      case 3:
+        return sum<3>(request, std::move(options), result);
+      default:
+        return sum<4>(request, std::move(options), result);
+    }
+  });
+  check_values(result);
+  return result;
+}
+
+void write_table(const PointSums& sums, std::FILE* out) {
+  constexpr int digits = 17;                  // enough to read the same double again
+  constexpr std::size_t longest_number = 32;  // "-1.2345678901234567e-308," and room
+  constexpr std::size_t block = std::size_t{1} << 16;
+  const auto columns = static_cast<std::size_t>(sums.values.cols());
+  const auto flush = [out](std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), out) != text.size())
+      throw std::system_error(errno, std::generic_category());
+    text.clear();
+  };
+  std::string text = fmt::format("{}\n", fmt::join(sums.columns, ","));
+  text.reserve(block + longest_number * columns);
+  for (Eigen::Index i = 0; i < sums.values.rows(); ++i) {
+    for (Eigen::Index k = 0; k < sums.values.cols(); ++k) {
+      std::array<char, longest_number> buffer;
+      const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), sums.values(i, k),
+                                     std::chars_format::general, digits)
+                           .ptr;
+      text.append(buffer.data(), end);
+      text += k + 1 < sums.values.cols() ? ',' : '\n';
+    }
+    if (text.size() >= block) flush(text);
+  }
+  flush(text);
+  if (std::fflush(out) != 0) throw std::system_error(errno, std::generic_category());
+}
+
+std::string to_text(const PointSums& sums) {
+  std::ostringstream choice;
+  choice << sums.choice;
+  std::string text = fmt::format(
+      "sums   {} at {} targets in {:.3g} s on {} {} (read {:.3g}, prepare {:.3g}, evaluate {:.3g}, write {:.3g})\n",
+      fmt::join(sums.columns, ", "), sums.values.rows(),
+      sums.read_seconds + sums.prepare_seconds + sums.evaluate_seconds + sums.write_seconds, sums.threads,
+      sums.threads == 1 ? "thread" : "threads", sums.read_seconds, sums.prepare_seconds, sums.evaluate_seconds,
+      sums.write_seconds);
+  text += fmt::format("method {}\n", choice.str());
+  text += fmt::format("Q      {:.9g}", sums.weight_total);
+  for (std::size_t k = 0; k < sums.columns.size(); ++k)
+    if (sums.error_bounds[k])
+      text += fmt::format("{} {} right to {:.1e}", k ? "," : ";", sums.columns[k], *sums.error_bounds[k]);
+  return text + "\n";
+}
+
+std::string to_json(const PointSums& sums) {
+  const fgtd::Choice& choice = sums.choice;
+  std::ostringstream line;
+  line << choice;
+  nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+  if (choice.method == fgtd::Method::hermite) {
+    parameters = {{"box_scale", choice.box_scale},
+                  {"box_side", number(choice.box_side)},
+                  {"expansion_order", choice.expansion_order},
+                  {"neighbours", choice.neighbours},
+                  {"boxes", choice.boxes}};
+  }
+  nlohmann::ordered_json errors = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < sums.columns.size(); ++k) errors[sums.columns[k]] = number(sums.error_bounds[k]);
+  const nlohmann::ordered_json json = {{"kernel", "gauss"},
+                                       {"dimension", sums.dimension},
+                                       {"sources", choice.sources},
+                                       {"targets", sums.values.rows()},
+                                       {"sigma", sums.sigma},
+                                       {"columns", sums.columns},
+                                       {"derivatives", sums.derivatives},
+                                       {"tolerance", choice.tolerance},
+                                       {"method_asked", fgtd::to_string(sums.asked)},
+                                       {"method", fgtd::to_string(choice.method)},
+                                       {"parameters", parameters},
+                                       {"choice", line.str()},
+                                       {"bound", number(choice.bound)},
+                                       {"error_bounds", errors},
+                                       {"Q", number(sums.weight_total)},
+                                       {"predicted_seconds", number(choice.seconds)},
+                                       {"threads", sums.threads},
+                                       {"seconds",
+                                        {{"read", sums.read_seconds},
+                                         {"prepare", sums.prepare_seconds},
+                                         {"evaluate", sums.evaluate_seconds},
+                                         {"write", sums.write_seconds}}}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gaussdrift::study

@@ -1,0 +1,66 @@
+// The library fgtd on a table of points: reads nothing, writes the values of the sum as a table
+// (docs/usage.md, "Sums over a table of points").
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fgtd/fgtd.hpp"
+#include "input/points_table.hpp"
+
+namespace gaussdrift::study {
+
+/// `count` nodes at equal distances, both ends among them.
+struct GridAxis {
+  double lower = 0, upper = 0;
+  std::size_t count = 0;
+};
+
+struct SumRequest {
+  input::PointsTable sources;
+  std::optional<input::PointsTable> targets;  // neither targets nor grid: the sources are the targets
+  std::vector<GridAxis> grid;                 // one for every coordinate
+  double sigma = 0;                           // the Gaussian is exp(-sigma r^2)
+  std::vector<std::vector<int>> derivatives;  // none: the plain sum
+  double tolerance = 1e-6;
+  fgtd::Method method = fgtd::Method::automatic;
+  int threads = 0;                                  // 0: all
+  std::size_t memory_limit = std::size_t{8} << 30;  // bytes of points, values and plan together
+};
+
+struct PointSums {
+  int dimension = 0;
+  double sigma = 0;
+  std::vector<std::vector<int>> derivatives;
+  std::vector<std::string> columns;  // "d_0_1_2", one for every derivative
+  Eigen::MatrixXd values;            // targets x derivatives; a grid's first axis runs fastest
+  fgtd::Method asked = fgtd::Method::automatic;
+  fgtd::Choice choice;
+  double weight_total = 0;                          // Q = sum_j |lambda_j|
+  std::vector<std::optional<double>> error_bounds;  // of each column: bound N_alpha Q; none without a bound
+  int threads = 1;
+  double read_seconds = 0, prepare_seconds = 0, evaluate_seconds = 0, write_seconds = 0;
+};
+
+/// "-1:1:200,-1:1:200". Throws CommandLineError, also for nodes that a double cannot tell apart.
+std::vector<GridAxis> parse_grid(const std::string& text);
+/// "0,1,2". Throws CommandLineError.
+std::vector<int> parse_derivative(const std::string& text);
+
+/// Throws CommandLineError where the request contradicts the tables or itself, InputError for tables that do not belong
+/// together, a tolerance that cannot be promised and sizes beyond the limit, NumericalError for values that are not
+/// finite.
+PointSums sum_points(const SumRequest& request);
+
+/// A header line, then a line for every target with 17 significant digits. Throws std::system_error.
+void write_table(const PointSums& sums, std::FILE* out);
+
+/// What was chosen and what it cost, for people and as JSON.
+std::string to_text(const PointSums& sums);
+std::string to_json(const PointSums& sums);
+
+}  // namespace gaussdrift::study

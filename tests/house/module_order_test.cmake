@@ -1,0 +1,30 @@
+# The check of the module order finds what it should: each of these includes, put into a copy of the tree, must fail it.
+# Usage: cmake -D ROOT=<source folder> -D SCRATCH=<folder> -P module_order_test.cmake
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+file(COPY ${ROOT}/src ${ROOT}/include DESTINATION ${SCRATCH})
+
+function(check expected what)
+  execute_process(COMMAND ${CMAKE_COMMAND} -D ROOT=${SCRATCH} -P ${ROOT}/tools/check_layers.cmake
+    RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  if(expected STREQUAL "passes" AND NOT result EQUAL 0)
+    message(FATAL_ERROR "the tree as it is fails the check:\n${text}")
+  elseif(expected STREQUAL "fails" AND result EQUAL 0)
+    message(FATAL_ERROR "not noticed: ${what}")
+  endif()
+endfunction()
+
+check(passes "the tree")
+foreach(pair
+    "src/base/lattice.cpp|cli/verbs.hpp" "src/sim/simulation.cpp|cli/verbs.hpp" "src/fgtd/plan.cpp|sim/frame.hpp"
+    "src/particle/seeding.cpp|field/velocity.hpp" "src/write/summary.cpp|input/read_case.hpp"
+    "src/fgtd/plan.cpp|base/error.hpp" "include/fgtd/fgtd.hpp|gaussdrift/case.hpp" "src/time/schedule.cpp|../sim/frame.hpp")
+  string(REPLACE "|" ";" pair "${pair}")
+  list(GET pair 0 file)
+  list(GET pair 1 header)
+  file(READ ${SCRATCH}/${file} before)
+  file(APPEND ${SCRATCH}/${file} "\n#include \"${header}\"\n")
+  check(fails "${file} includes ${header}")
+  file(WRITE ${SCRATCH}/${file} "${before}")
+endforeach()
+check(passes "the tree again")
