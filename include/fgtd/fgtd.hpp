@@ -74,12 +74,12 @@ struct TensorGrid {
 };
 
 /// How the sum is computed. `automatic` takes the smallest predicted cost whose bound meets the tolerance.
-enum class Method { automatic, direct, hermite };
+enum class Method { automatic, direct, hermite, cells, outer, chebyshev, spread };
 
 /// Every method, `automatic` first.
 const std::vector<Method>& methods();
 
-/// The name as it is written in files: "auto", "direct", "hermite".
+/// The name as it is written in files: "auto", "direct", "hermite", "cells", "outer", "chebyshev", "spread".
 std::string to_string(Method method);
 
 /// Parameters of `hermite` set by hand, as in the thesis [Sch06, ch. 3]; the accuracy is then bound (3.5) and nothing
@@ -197,6 +197,18 @@ class Plan {
  private:
   std::unique_ptr<detail::Engine<d>> engine_;
 };
+
+namespace detail {
+/// Matrices that the library allocates are freed by the program. How Eigen does that follows from the instruction set
+/// and the sanitizers a file is compiled with; the library defines this function for its own way alone, so that a
+/// program compiled in another way does not link, where it would corrupt the heap.
+template <int alignment, int by_malloc>
+void compile_with_the_same_march_and_sanitizer_flags_as_fgtd();
+namespace {
+[[maybe_unused, gnu::used]] void (*const same_flags)() =
+    &compile_with_the_same_march_and_sanitizer_flags_as_fgtd<EIGEN_DEFAULT_ALIGN_BYTES, EIGEN_MALLOC_ALREADY_ALIGNED>;
+}  // namespace
+}  // namespace detail
 
 extern template class Plan<1>;
 extern template class Plan<2>;

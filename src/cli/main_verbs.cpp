@@ -81,16 +81,17 @@ ExitCode dispatch(int argc, char** argv) {
   CLI::App* sum_verb = app.add_subcommand("sum", "sums of Gaussians and their derivatives over a table of points");
   add_sum_options(*sum_verb, sum_options);
 
-  std::string table;
-  int threads = 0;
-  bool json = false;
+  ReproduceOptions reproduce_options;
   CLI::App* reproduce_verb =
       app.add_subcommand("reproduce", "compute a published table again, beside the published numbers");
-  reproduce_verb->add_option("table", table, "what to reproduce (none: a list)")->type_name("TABLE");
-  reproduce_verb->add_option("--threads", threads, "threads to use; all by default")
+  reproduce_verb->add_option("what", reproduce_options.what, "what to reproduce (none: a list)")->type_name("WHAT");
+  reproduce_verb->add_option("table,--table", reproduce_options.table, "one table of fgtd, as in 4.6; all by default")
+      ->type_name("TABLE");
+  reproduce_verb->add_flag("--full", reproduce_options.full, "fgtd: also the largest rows, and every target compared");
+  reproduce_verb->add_option("--threads", reproduce_options.threads, "threads to use; all by default")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  reproduce_verb->add_flag("--json", json, "results as JSON on standard output");
+  reproduce_verb->add_flag("--json", reproduce_options.json, "results as JSON on standard output");
 
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> verbs;
@@ -112,7 +113,7 @@ ExitCode dispatch(int argc, char** argv) {
   if (run_verb->parsed()) return run(run_options);
   if (check_verb->parsed()) return check(check_options);
   if (sum_verb->parsed()) return sum(sum_options);
-  return reproduce(table, threads, json);
+  return reproduce(reproduce_options);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "sim/simulation.hpp"
 #include "study/describe.hpp"
 #include "study/reproduce_cone.hpp"
+#include "study/reproduce_fgtd.hpp"
 #include "write/atomic_file.hpp"
 #include "write/observers.hpp"
 #include "write/run_folder.hpp"
@@ -132,23 +133,48 @@ ExitCode check(const CaseOptions& options) {
   return ExitCode::ok;
 }
 
-ExitCode reproduce(const std::string& table, int threads, bool json) {
-  if (table.empty()) {
-    fmt::print(
-        "tables that can be reproduced:\n  cone   heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder "
-        "2006\n");
-    return ExitCode::ok;
-  }
-  if (table != "cone")
-    throw CommandLineError(fmt::format("nothing called \"{}\" can be reproduced; there is: cone", table));
+namespace {
+
+ExitCode reproduce_cone(const ReproduceOptions& options) {
+  if (!options.table.empty() || options.full)
+    throw CommandLineError("the cone has no tables to choose from and no --full; that is for: reproduce fgtd");
   study::ConeReproduction result;
   {
     ProgressLine line;
-    result = study::reproduce_cone(
-        threads, [&](std::size_t done, std::size_t total) { line.show(fmt::format("{} of {} heights", done, total)); });
+    result = study::reproduce_cone(options.threads, [&](std::size_t done, std::size_t total) {
+      line.show(fmt::format("{} of {} heights", done, total));
+    });
   }
-  fmt::print("{}", json ? study::to_json(result) : study::to_text(result));
+  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
   return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;
+}
+
+ExitCode reproduce_fgtd(const ReproduceOptions& options) {
+  study::FgtdOptions fgtd = options.full ? study::FgtdOptions::everything() : study::FgtdOptions{};
+  fgtd.table = options.table;
+  fgtd.threads = options.threads;
+  study::FgtdReproduction result;
+  {
+    ProgressLine line;
+    result = study::reproduce_fgtd(fgtd, [&](const std::string& table) { line.show(table); });
+  }
+  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
+}
+
+}  // namespace
+
+ExitCode reproduce(const ReproduceOptions& options) {
+  if (options.what == "cone") return reproduce_cone(options);
+  if (options.what == "fgtd") return reproduce_fgtd(options);
+  if (!options.what.empty())
+    throw CommandLineError(fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd", options.what));
+  fmt::print(
+      "tables that can be reproduced:\n"
+      "  cone   heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
+      "  fgtd   errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n",
+      fmt::join(study::fgtd_tables(), ", "));
+  return ExitCode::ok;
 }
 
 }  // namespace gaussdrift::cli

@@ -125,6 +125,9 @@ ExitCode sum(const SumOptions& options) {
 
     study::PointSums sums = study::sum_points(request);
     sums.read_seconds = read_seconds;
+    if (sums.asked != fgtd::Method::automatic && sums.asked != sums.choice.method)
+      fmt::print(stderr, "warning: {} is not possible for these points, targets and tolerance; {} did the sum\n",
+                 options.method, fgtd::to_string(sums.choice.method));
     const base::Stopwatch writing;
     write_values(sums, options);
     sums.write_seconds = writing.seconds();

@@ -38,8 +38,14 @@ struct SumOptions {
 
 ExitCode run(const RunOptions& options);
 ExitCode check(const CaseOptions& options);
-/// `table` is empty to list what can be reproduced.
-ExitCode reproduce(const std::string& table, int threads, bool json);
+struct ReproduceOptions {
+  std::string what;   // "cone", "fgtd"; empty: a list
+  std::string table;  // of fgtd, as in 4.6; empty: all
+  bool full = false;  // fgtd: every row, and no samples of targets
+  int threads = 0;    // 0: all
+  bool json = false;
+};
+ExitCode reproduce(const ReproduceOptions& options);
 ExitCode sum(const SumOptions& options);
 
 /// Parses the command line, does what it says, prints errors on stderr; returns the exit code.

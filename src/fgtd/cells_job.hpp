@@ -20,6 +20,8 @@ constexpr double log2_e = 1.4426950408889634;
 /// Targets of one cell that are handed over at a time, and sources that are brought near at a time.
 constexpr std::size_t cell_targets = 128;
 constexpr std::size_t cell_chunk = 1024;
+/// Sums that are kept at a time.
+constexpr std::size_t cells_outputs = 16;
 /// Numbers that may be read beyond the end of an array of sources.
 constexpr std::size_t source_padding = 16;
 
@@ -32,9 +34,9 @@ struct CellsJob {
   double squared_reach;  // of t = sqrt(sigma) (y - x); beyond it a term is exactly 0
   const double* origin;  // [dimension]
   std::size_t runs;
-  const std::size_t* run;   // [runs][2]: first source and the one after the last
-  const double* position;   // [dimension][stride], readable for source_padding numbers beyond each run
-  const double* weights;    // [columns][stride]
+  const std::size_t* run;  // [runs][2]: first source and the one after the last
+  const double* position;  // [dimension][stride], readable for source_padding numbers beyond each run
+  const double* weights;   // [columns][stride]
   std::size_t stride;
   std::size_t columns;
   std::size_t combinations;
@@ -45,18 +47,21 @@ struct CellsJob {
   Recurrence recurrence;
   std::size_t targets;   // at most cell_targets
   const double* target;  // [dimension][cell_targets]
-  double* scratch;       // cells_scratch numbers
+  double* scratch;       // cells_scratch(...) numbers
   double* out;           // [combinations columns][cell_targets], overwritten
 };
 
-constexpr std::size_t cells_scratch = (max_dimension + 16) * (cell_chunk + source_padding);
+constexpr std::size_t cells_scratch(std::size_t dimension, std::size_t columns) {
+  return (dimension + (columns < cells_outputs ? columns : cells_outputs)) * (cell_chunk + source_padding);
+}
 
 /// Sources of one group of `outer`, and grid nodes an axis of one block of its window.
 constexpr std::size_t outer_depth = 32;
 constexpr std::size_t outer_nodes = 256;
 
 /// One group of sources on one block of grid nodes:
-///   out[q c + k][nodes] += sum_p weights[k][p] sum_{parts of q} factor prod_l h~_{alpha_l}(sqrt(sigma) (node_l - x_p)_l)
+///   out[q c + k][nodes] += sum_p weights[k][p] sum_{parts of q} factor prod_l h~_{alpha_l}(sqrt(sigma) (node_l -
+///   x_p)_l)
 /// Parts of a combination that share alpha_0 are a bundle: a bundle is one product of matrices.
 struct OuterJob {
   int dimension;
@@ -68,12 +73,12 @@ struct OuterJob {
   const double* weights;   // [columns][stride]
   std::size_t stride;
   std::size_t columns;
-  const double* low;                // [dimension]: bounding box of the group
-  const double* high;               // [dimension]
+  const double* low;                  // [dimension]: bounding box of the group
+  const double* high;                 // [dimension]
   const double* node[max_dimension];  // first node of the block
   std::size_t nodes[max_dimension];   // of the block, 1 beyond `dimension`
   std::size_t step[max_dimension];    // from a node to the next in `out`
-  const int* highest;               // [max_dimension]
+  const int* highest;                 // [max_dimension]
   std::size_t combinations;
   const std::size_t* first_bundle;  // [combinations + 1]
   const int* bundle_order;          // [bundles]: alpha_0
@@ -86,12 +91,15 @@ struct OuterJob {
   std::size_t output_stride;  // from one output to the next
 };
 
-/// Size of OuterJob::scratch.
-constexpr std::size_t outer_scratch(int dimension, const int* highest) {
-  constexpr std::size_t table = outer_depth * (outer_nodes + source_padding);
-  std::size_t tables = 3;  // nodes and sources, rows of the second axis with weights
-  for (int l = 0; l < dimension; ++l) tables += static_cast<std::size_t>(highest[l]) + 1;
-  return tables * table;
+/// Size of OuterJob::scratch for blocks of up to nodes[l] nodes an axis: the tables of all axes, then the rows of the
+/// second axis with weights.
+constexpr std::size_t outer_scratch(int dimension, const int* highest, const std::size_t* nodes) {
+  std::size_t size = outer_depth * (1 + (dimension > 1 ? nodes[1] : 1));
+  for (int l = 0; l < dimension; ++l) {
+    const std::size_t row = l == 0 ? nodes[0] + source_padding : nodes[l];
+    size += row + outer_depth * (1 + row * (static_cast<std::size_t>(highest[l]) + 1));
+  }
+  return size;
 }
 
 }  // namespace fgtd::detail

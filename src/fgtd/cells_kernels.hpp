@@ -1,5 +1,5 @@
-// The kernel of `cells`: pair sums over runs of sources; see kernels_vector.hpp for what may stand here. Vectors run over
-// sources, which are brought near first: shifted to an origin among the targets, scaled, and without gaps.
+// The kernel of `cells`: pair sums over runs of sources; see kernels_vector.hpp for what may stand here. Vectors run
+// over sources, which are brought near first: shifted to an origin among the targets, scaled, and without gaps.
 #pragma once
 
 #include "fgtd/cells_job.hpp"
@@ -133,15 +133,14 @@ FGTD_INLINE void cells_values_at(const CellsJob& job, double scale, double limit
 /// |y - x| is scaled by sqrt(sigma log2 e), so that the exponential is 2^-squared.
 template <int d, int degree>
 void cells_values(const CellsJob& job) {
-  const double scale = job.root_sigma * 0x1.3382aea1c1e1fp+0;  // sqrt(log2 e)
+  const double scale = job.root_sigma * 0x1.337cc2183b050p+0;  // sqrt(log2 e)
   const double limit = job.squared_reach * log2_e;
   for (std::size_t k = 0; k < job.columns; ++k) {
     double* out = job.out + k * cell_targets;
     for (std::size_t i = 0; i < job.targets; ++i) out[i] = 0;
     std::size_t run = 0, begin = job.runs > 0 ? job.run[0] : 0;
     while (run < job.runs) {
-      const std::size_t sources =
-          bring_near<d>(job, scale, job.weights + k * job.stride, 1, run, begin, job.scratch);
+      const std::size_t sources = bring_near<d>(job, scale, job.weights + k * job.stride, 1, run, begin, job.scratch);
       std::size_t i = 0;
       for (; i + 4 <= job.targets; i += 4)
         cells_values_at<d, degree, 4>(job, scale, limit, job.scratch, sources, i, out);
@@ -169,10 +168,8 @@ void cells_all_values(const CellsJob& job) {
   }
 }
 
-constexpr std::size_t cells_outputs = 16;  // sums kept at a time
-
-/// Combinations [q0, q1) for columns [k0, k1). Every |t_l| is clamped to 27, beyond every reach, so that the polynomials
-/// stay finite where the Gaussian is 0.
+/// Combinations [q0, q1) for columns [k0, k1). Every |t_l| is clamped to 27, beyond every reach, so that the
+/// polynomials stay finite where the Gaussian is 0.
 template <int d>
 void cells_terms(const CellsJob& job, std::size_t q0, std::size_t q1, std::size_t k0, std::size_t k1) {
   const std::size_t columns = k1 - k0, outputs = (q1 - q0) * columns;
@@ -181,8 +178,8 @@ void cells_terms(const CellsJob& job, std::size_t q0, std::size_t q1, std::size_
       for (std::size_t i = 0; i < job.targets; ++i) job.out[(q * job.columns + k) * cell_targets + i] = 0;
   std::size_t run = 0, begin = job.runs > 0 ? job.run[0] : 0;
   while (run < job.runs) {
-    const std::size_t sources = bring_near<d>(job, job.root_sigma, job.weights + k0 * job.stride, columns, run, begin,
-                                              job.scratch);
+    const std::size_t sources =
+        bring_near<d>(job, job.root_sigma, job.weights + k0 * job.stride, columns, run, begin, job.scratch);
     for (std::size_t i = 0; i < job.targets; ++i) {
       double y[d];
       for (std::size_t l = 0; l < d; ++l) y[l] = (job.target[l * cell_targets + i] - job.origin[l]) * job.root_sigma;
@@ -202,8 +199,8 @@ void cells_terms(const CellsJob& job, std::size_t q0, std::size_t q1, std::size_
             polynomial[l][n + 1] = next;
           }
         }
-        const Vector gaussian = select(reinterpret_cast<Bits>(squared <= job.squared_reach),
-                                       power_of_half<11>(squared * log2_e, 1000.0));
+        const Vector gaussian =
+            select(reinterpret_cast<Bits>(squared <= job.squared_reach), power_of_half<11>(squared * log2_e, 1000.0));
         std::size_t output = 0;
         for (std::size_t q = q0; q < q1; ++q) {
           Vector sum{};

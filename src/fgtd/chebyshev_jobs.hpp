@@ -1,5 +1,5 @@
-// What the kernels of `chebyshev` are given (chebyshev_kernels.hpp). Coordinates within a box are local: -1 on its lower
-// face, 1 on its upper.
+// What the kernels of `chebyshev` are given (chebyshev_kernels.hpp). Coordinates within a box are local: -1 on its
+// lower face, 1 on its upper.
 #pragma once
 
 #include <cstddef>
@@ -28,34 +28,34 @@ struct LagrangeBasis {
   const double* scale;  // [P]
 };
 
-/// Points are spread in chunks of so many at most.
-constexpr std::size_t spread_chunk = 64;
+/// Points are brought to moments in chunks of so many at most.
+constexpr std::size_t moments_chunk = 64;
 /// Products read so many numbers beyond a row.
 constexpr std::size_t chain_padding = 8;
 
 /// moments[k][i] += sum_j weights[k][j] prod_l l_{i_l}(z_jl), first axis fastest.
-struct SpreadJob {
+struct MomentsJob {
   int dimension;
   LagrangeBasis basis;
-  std::size_t count;    // <= spread_chunk
+  std::size_t count;    // <= moments_chunk
   const double* local;  // [count][dimension]
   std::size_t columns;
   const double* weights;  // [columns][weight_stride]
   std::size_t weight_stride;
   double* moments;  // [columns][P^dimension]
-  double* scratch;  // spread_scratch(...) numbers
+  double* scratch;  // moments_scratch(...) numbers
 };
 
-constexpr std::size_t spread_scratch(int dimension, int nodes, std::size_t columns) {
+constexpr std::size_t moments_scratch(int dimension, int nodes, std::size_t columns) {
   const std::size_t p = static_cast<std::size_t>(nodes);
   const std::size_t left = dimension <= 1 ? 1 : dimension <= 3 ? p : p * p;
   const std::size_t right = dimension <= 2 ? p : p * p;
-  return spread_chunk * (static_cast<std::size_t>(dimension) * p + columns * left + right + 2 * chain_padding + p) +
+  return moments_chunk * (static_cast<std::size_t>(dimension) * p + columns * left + right + 2 * chain_padding + p) +
          4 * chain_padding;
 }
 
 /// values[q][j] = sum_i coefficients[q][i] prod_l l_{i_l}(z_jl).
-struct GatherJob {
+struct InterpolateJob {
   int dimension;
   LagrangeBasis basis;
   std::size_t count;
@@ -64,10 +64,10 @@ struct GatherJob {
   const double* coefficients;  // [outputs][P^dimension]
   double* values;              // [outputs][value_stride]
   std::size_t value_stride;
-  double* scratch;  // gather_scratch(...) numbers
+  double* scratch;  // interpolate_scratch(...) numbers
 };
 
-constexpr std::size_t gather_scratch(int dimension, int nodes) {
+constexpr std::size_t interpolate_scratch(int dimension, int nodes) {
   return static_cast<std::size_t>(dimension) * static_cast<std::size_t>(nodes) * 32;
 }
 

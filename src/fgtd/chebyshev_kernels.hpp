@@ -1,7 +1,7 @@
-// The kernels of `chebyshev` (jobs: chebyshev_jobs.hpp). Included only by kernels_body.hpp, after contract().
+// The kernels of `chebyshev` (jobs: chebyshev_jobs.hpp). Included only by kernels_body.hpp, inside its namespaces and
+// after contract().
 
-namespace fgtd::detail::FGTD_ISA {
-namespace {
+namespace chebyshev {
 
 // ---------------------------------------------------------------------------------------------------------------
 // locate
@@ -20,7 +20,8 @@ FGTD_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, do
   i = i > job.last ? broadcast(job.last) : i;
   // The rounding of the quotient may miss the box by one; what is left over says so.
   Vector rest = x - (i * job.side + job.origin);
-  const Vector below = select(reinterpret_cast<Bits>(rest < 0.0) & reinterpret_cast<Bits>(i > job.first), broadcast(1.0));
+  const Vector below =
+      select(reinterpret_cast<Bits>(rest < 0.0) & reinterpret_cast<Bits>(i > job.first), broadcast(1.0));
   const Vector above =
       select(reinterpret_cast<Bits>(rest >= job.side) & reinterpret_cast<Bits>(i < job.last), broadcast(1.0));
   i = i - below + above;
@@ -121,7 +122,7 @@ void chain(const ChainJob& job) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------
-// spread and gather
+// moments and interpolate
 
 /// to[i stride] = l_i(z): products of the factors before i and of those after it.
 FGTD_INLINE void lagrange(const LagrangeBasis& basis, Vector z, double* to, std::size_t stride) {
@@ -153,56 +154,58 @@ FGTD_INLINE Vector local_of(const double* local, std::size_t count, std::size_t 
 /// The moments of a box are a product of two matrices: the leading one or two axes at each point on the right, the
 /// other axes times the weights on the left.
 template <int d>
-void spread_in(const SpreadJob& job) {
+void moments_in(const MomentsJob& job) {
   const std::size_t p = static_cast<std::size_t>(job.basis.nodes);
   constexpr std::size_t right_axes = d <= 2 ? 1 : 2;
   const std::size_t right_width = right_axes == 1 ? p : p * p;
   const std::size_t right_stride = right_width + chain_padding;
-  double* table = job.scratch;                       // [d][p][spread_chunk]
-  double* left = table + d * p * spread_chunk;       // [columns][p^(d - right_axes)][spread_chunk]
+  double* table = job.scratch;                   // [d][p][moments_chunk]
+  double* left = table + d * p * moments_chunk;  // [columns][p^(d - right_axes)][moments_chunk]
   std::size_t left_rows = 1;
   for (std::size_t l = right_axes; l < d; ++l) left_rows *= p;
-  double* right = left + job.columns * left_rows * spread_chunk;  // [count][right_stride]
+  double* right = left + job.columns * left_rows * moments_chunk;  // [count][right_stride]
 
   for (std::size_t j = 0; j < job.count; j += lanes)
     for (std::size_t l = 0; l < d; ++l)
-      lagrange(job.basis, local_of<d>(job.local, job.count, j, l), table + l * p * spread_chunk + j, spread_chunk);
+      lagrange(job.basis, local_of<d>(job.local, job.count, j, l), table + l * p * moments_chunk + j, moments_chunk);
 
   for (std::size_t j = 0; j < job.count; ++j) {
     double* row = right + j * right_stride;
     if constexpr (right_axes == 1) {
-      for (std::size_t i = 0; i < p; ++i) row[i] = table[i * spread_chunk + j];
+      for (std::size_t i = 0; i < p; ++i) row[i] = table[i * moments_chunk + j];
     } else {
       // whole vectors run over into the next row, which is written after
       alignas(64) double first[24] = {};
-      for (std::size_t i = 0; i < p; ++i) first[i] = table[i * spread_chunk + j];
-      const double* second = table + p * spread_chunk + j;
+      for (std::size_t i = 0; i < p; ++i) first[i] = table[i * moments_chunk + j];
+      const double* second = table + p * moments_chunk + j;
       if (p <= lanes) {
         const Vector x = load(first);
-        for (std::size_t i = 0; i < p; ++i) store(row + i * p, x * second[i * spread_chunk]);
+        for (std::size_t i = 0; i < p; ++i) store(row + i * p, x * second[i * moments_chunk]);
       } else {
         for (std::size_t i = 0; i < p; ++i)
-          for (std::size_t n = 0; n < p; n += lanes) store(row + i * p + n, load(first + n) * second[i * spread_chunk]);
+          for (std::size_t n = 0; n < p; n += lanes)
+            store(row + i * p + n, load(first + n) * second[i * moments_chunk]);
       }
     }
   }
 
   for (std::size_t k = 0; k < job.columns; ++k) {
     const double* weight = job.weights + k * job.weight_stride;
-    double* to = left + k * left_rows * spread_chunk;
+    double* to = left + k * left_rows * moments_chunk;
     if constexpr (d == 1) {
       for (std::size_t j = 0; j < job.count; ++j) to[j] = weight[j];
     } else {
-      const double* last = table + (d - 1) * p * spread_chunk;
+      const double* last = table + (d - 1) * p * moments_chunk;
       for (std::size_t i = 0; i < p; ++i) {
         if constexpr (d == 4) {
-          const double* third = table + 2 * p * spread_chunk;
+          const double* third = table + 2 * p * moments_chunk;
           for (std::size_t m = 0; m < p; ++m)
             for (std::size_t j = 0; j < job.count; ++j)
-              to[(i * p + m) * spread_chunk + j] =
-                  weight[j] * last[i * spread_chunk + j] * third[m * spread_chunk + j];
+              to[(i * p + m) * moments_chunk + j] =
+                  weight[j] * last[i * moments_chunk + j] * third[m * moments_chunk + j];
         } else {
-          for (std::size_t j = 0; j < job.count; ++j) to[i * spread_chunk + j] = weight[j] * last[i * spread_chunk + j];
+          for (std::size_t j = 0; j < job.count; ++j)
+            to[i * moments_chunk + j] = weight[j] * last[i * moments_chunk + j];
         }
       }
     }
@@ -215,7 +218,7 @@ void spread_in(const SpreadJob& job) {
          .width = right_width,
          .links = 1,
          .b = &b,
-         .b_stride = spread_chunk,
+         .b_stride = moments_chunk,
          .d = &r,
          .d_stride = right_stride,
          .c = job.moments,
@@ -223,21 +226,21 @@ void spread_in(const SpreadJob& job) {
          .add = true});
 }
 
-void spread(const SpreadJob& job) {
+void moments(const MomentsJob& job) {
   switch (job.dimension) {
     case 1:
-      return spread_in<1>(job);
+      return moments_in<1>(job);
     case 2:
-      return spread_in<2>(job);
+      return moments_in<2>(job);
     case 3:
-      return spread_in<3>(job);
+      return moments_in<3>(job);
     default:
-      return spread_in<4>(job);
+      return moments_in<4>(job);
   }
 }
 
 template <int d, int vectors>
-FGTD_INLINE void gather_at(const GatherJob& job, std::size_t first, std::size_t size) {
+FGTD_INLINE void interpolate_at(const InterpolateJob& job, std::size_t first, std::size_t size) {
   const std::size_t p = static_cast<std::size_t>(job.basis.nodes);
   const double* g[d];
   for (std::size_t l = 0; l < d; ++l) {
@@ -262,29 +265,28 @@ FGTD_INLINE void gather_at(const GatherJob& job, std::size_t first, std::size_t 
 }
 
 template <int d>
-void gather_in(const GatherJob& job) {
+void interpolate_in(const InterpolateJob& job) {
   for (std::size_t first = 0; first < job.count; first += 2 * lanes) {
     const std::size_t rest = job.count - first;
     if (rest <= lanes) {
-      gather_at<d, 1>(job, first, rest);
+      interpolate_at<d, 1>(job, first, rest);
     } else {
-      gather_at<d, 2>(job, first, rest < 2 * lanes ? rest : 2 * lanes);
+      interpolate_at<d, 2>(job, first, rest < 2 * lanes ? rest : 2 * lanes);
     }
   }
 }
 
-void gather(const GatherJob& job) {
+void interpolate(const InterpolateJob& job) {
   switch (job.dimension) {
     case 1:
-      return gather_in<1>(job);
+      return interpolate_in<1>(job);
     case 2:
-      return gather_in<2>(job);
+      return interpolate_in<2>(job);
     case 3:
-      return gather_in<3>(job);
+      return interpolate_in<3>(job);
     default:
-      return gather_in<4>(job);
+      return interpolate_in<4>(job);
   }
 }
 
-}  // namespace
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace chebyshev

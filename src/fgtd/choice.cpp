@@ -6,7 +6,7 @@
 namespace fgtd {
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all{Method::automatic, Method::direct, Method::hermite};
+  static const std::vector<Method> all{Method::automatic, Method::direct, Method::hermite, Method::cells, Method::outer, Method::chebyshev, Method::spread};
   return all;
 }
 
@@ -16,6 +16,14 @@ std::string to_string(Method method) {
       return "direct";
     case Method::hermite:
       return "hermite";
+    case Method::cells:
+      return "cells";
+    case Method::outer:
+      return "outer";
+    case Method::chebyshev:
+      return "chebyshev";
+    case Method::spread:
+      return "spread";
     default:
       return "auto";
   }
@@ -39,6 +47,15 @@ std::ostream& operator<<(std::ostream& out, const Choice& choice) {
     }
     out << ", " << choice.boxes << " occupied boxes";
   }
+  if (choice.method == Method::cells || choice.method == Method::outer)
+    out << ", cells of side " << choice.box_side << ", " << choice.neighbours << " within reach, " << choice.boxes
+        << " occupied";
+  if (choice.method == Method::chebyshev)
+    out << ", box side " << choice.box_side << ", " << choice.expansion_order << " nodes an axis, " << choice.neighbours
+        << " neighbours, " << choice.boxes << " occupied boxes";
+  if (choice.method == Method::spread)
+    out << ", lattice spacing " << choice.box_side << ", window of " << choice.expansion_order << " nodes, "
+        << choice.boxes << (choice.boxes == 1 ? " brick" : " bricks");
   return out << ", cost " << choice.cost << " pairs, about " << choice.seconds << " s";
 }
 

@@ -36,7 +36,13 @@ Proposal<d> choose(const std::vector<double>& position, std::size_t count, std::
     std::optional<Proposal<d>> proposal = propose(at);
     if (proposal && (asked == method || proposal->choice.seconds < best.choice.seconds)) best = std::move(*proposal);
   };
-  consider(Method::hermite, propose_hermite<d>);
+  // A search that takes longer than what it could save is left out.
+  const auto worth = [&](Method method, double search) { return asked == method || best.choice.seconds > search; };
+  if (worth(Method::cells, cost::cells_search)) consider(Method::cells, propose_cells<d>);
+  consider(Method::outer, propose_outer<d>);
+  consider(Method::chebyshev, propose_chebyshev<d>);
+  if (worth(Method::hermite, cost::hermite_search)) consider(Method::hermite, propose_hermite<d>);
+  consider(Method::spread, propose_spread<d>);
 
   best.choice.tolerance = options.hermite ? 0 : options.tolerance;
   best.choice.sources = count;
@@ -44,6 +50,10 @@ Proposal<d> choose(const std::vector<double>& position, std::size_t count, std::
   return best;
 }
 
+template Proposal<1> propose_direct<1>(const Situation<1>&);
+template Proposal<2> propose_direct<2>(const Situation<2>&);
+template Proposal<3> propose_direct<3>(const Situation<3>&);
+template Proposal<4> propose_direct<4>(const Situation<4>&);
 template Proposal<1> choose<1>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&);
 template Proposal<2> choose<2>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&);
 template Proposal<3> choose<3>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&);

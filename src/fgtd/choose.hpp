@@ -28,6 +28,18 @@ Proposal<d> propose_direct(const Situation<d>& at);
 /// Throws MemoryLimitError if Method::hermite is asked for and no parameters fit the limit.
 template <int d>
 std::optional<Proposal<d>> propose_hermite(const Situation<d>& at);
+/// Throws MemoryLimitError as propose_hermite().
+template <int d>
+std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at);
+/// For scattered targets, unless asked for; throws MemoryLimitError as propose_hermite().
+template <int d>
+std::optional<Proposal<d>> propose_cells(const Situation<d>& at);
+/// For grids, unless asked for; throws MemoryLimitError as propose_hermite().
+template <int d>
+std::optional<Proposal<d>> propose_outer(const Situation<d>& at);
+/// Throws MemoryLimitError as propose_hermite().
+template <int d>
+std::optional<Proposal<d>> propose_spread(const Situation<d>& at);
 
 /// The proposal of the method that is asked for; of all for Method::automatic. A method that cannot serve here (no
 /// sources, boxes that coordinates cannot tell apart) gives way to `direct`. position [d][count].

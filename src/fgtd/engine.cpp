@@ -46,9 +46,17 @@ template <int d>
 void Engine<d>::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
   check_weights(weights, sources_);
   const std::size_t columns = static_cast<std::size_t>(weights.cols());
-  check_memory("the plan", summation_->plan_bytes(columns), options_.memory_limit);
+  const bool gaps = columns > 1 && weights.outerStride() != weights.rows();
+  check_memory("the plan",
+               summation_->plan_bytes(columns) +
+                   (gaps ? 8.0 * static_cast<double>(sources_) * static_cast<double>(columns) : 0.0),
+               options_.memory_limit);
   columns_ = columns;
-  const Eigen::MatrixXd packed = weights;  // a reference may have gaps between its columns
+  if (!gaps) {
+    summation_->set_weights(weights.data(), columns);
+    return;
+  }
+  const Eigen::MatrixXd packed = weights;  // there are gaps between its columns
   summation_->set_weights(packed.data(), columns);
 }
 
@@ -59,12 +67,17 @@ Eigen::MatrixXd Engine<d>::evaluate(const Eigen::Ref<const Points<d>>& targets,
   check_points("target", targets.data(), d, count, stride<d>(targets));
   const Request<d> request = make_request<d>(combinations, sigma_, options_.derivative_order);
   const std::size_t outputs = combinations.size() * columns_;
+  const bool gaps = stride<d>(targets) != d;
   check_memory("evaluation",
                summation_->plan_bytes(columns_) + summation_->point_bytes(request, count) +
-                   8.0 * static_cast<double>(count) * static_cast<double>(outputs + d),
+                   8.0 * static_cast<double>(count) * static_cast<double>(outputs + (gaps ? d : 0)),
                options_.memory_limit);
-  const Points<d> packed = targets;
   Eigen::MatrixXd values(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(outputs));
+  if (!gaps) {
+    summation_->evaluate(request, targets.data(), count, values.data());
+    return values;
+  }
+  const Points<d> packed = targets;
   summation_->evaluate(request, packed.data(), count, values.data());
   return values;
 }

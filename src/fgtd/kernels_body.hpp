@@ -1,6 +1,9 @@
 // The kernels of `direct` and `hermite`; one kernels_*.cpp an instruction set includes this (see kernels_vector.hpp).
+#include "fgtd/cells_kernels.hpp"
+#include "fgtd/chebyshev_jobs.hpp"
 #include "fgtd/kernels.hpp"
 #include "fgtd/kernels_vector.hpp"
+#include "fgtd/outer_kernels.hpp"
 
 namespace fgtd::detail::FGTD_ISA {
 namespace {
@@ -381,11 +384,16 @@ void table(const TableJob& job) {
   }
 }
 
+#include "fgtd/spread_kernels.hpp"
+
+#include "fgtd/chebyshev_kernels.hpp"
+
 }  // namespace
 
 #define FGTD_TEXT_OF(x) #x
 #define FGTD_TEXT(x) FGTD_TEXT_OF(x)
 extern const Kernels kernels;
-const Kernels kernels = {FGTD_TEXT(FGTD_ISA), direct, product, expansion, table};
+const Kernels kernels = {FGTD_TEXT(FGTD_ISA), direct, product, expansion, table, spread, cells, outer,
+                         chebyshev::locate, chebyshev::moments, chebyshev::interpolate, chebyshev::chain};
 
 }  // namespace fgtd::detail::FGTD_ISA

@@ -1,5 +1,5 @@
-// The kernel of `outer`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as matrices; see
-// kernels_vector.hpp for what may stand here.
+// The kernel of `outer`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as matrices;
+// see kernels_vector.hpp for what may stand here.
 #pragma once
 
 #include "fgtd/cells_job.hpp"
@@ -152,8 +152,8 @@ void outer_at(const OuterJob& job) {
               for (std::size_t p = 0; p < depth; ++p)
                 weight[p] = p < sources ? job.weights[k * job.stride + p] * job.factor[part] : 0.0;
               for (int l = 2; l < d; ++l) {
-                const double* row = upper[l] + (static_cast<std::size_t>(order[l]) * job.nodes[l] +
-                                                (l == 2 ? i2 : i3)) * depth;
+                const double* row =
+                    upper[l] + (static_cast<std::size_t>(order[l]) * job.nodes[l] + (l == 2 ? i2 : i3)) * depth;
                 for (std::size_t p = 0; p < depth; p += lanes) store(weight + p, load(weight + p) * load(row + p));
               }
               const bool fresh = part == job.first_part[bundle];
@@ -161,8 +161,8 @@ void outer_at(const OuterJob& job) {
                 for (std::size_t p = 0; p < depth; p += lanes) {
                   Vector value = load(weight + p);
                   if constexpr (d > 1)
-                    value *= load(upper[1] +
-                                  (static_cast<std::size_t>(order[1]) * job.nodes[1] + from[1] + i) * depth + p);
+                    value *=
+                        load(upper[1] + (static_cast<std::size_t>(order[1]) * job.nodes[1] + from[1] + i) * depth + p);
                   double* at = left + i * depth + p;
                   store(at, fresh ? value : load(at) + value);
                 }

@@ -4,16 +4,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 namespace fgtd::detail {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+// b / w: the widest lattice over all tolerances and derivatives, flat within 0.15; larger for windows with less than
+// two nodes more than digits, whose jump 1/I_0(b) at the ends would show.
+constexpr double wide_shape = 2.35, narrow_shape = 2.5, windows_digits = 1.9;
 constexpr std::size_t filter_terms = 14;  // of f on a panel of width H: interpolation error below 1e-15
 constexpr int mesh_sources = 9;           // offsets of a source in a cell of the lattice at which errors are measured
 constexpr int mesh_targets = 5;           // offsets of a target
-constexpr double mesh_safety = 1.25;      // the largest error is at most so much larger than on that mesh (measured)
+constexpr double mesh_safety = 1.4;       // the largest error is at most so much larger than on that mesh (measured)
 
 /// I_0(x) by its series; all terms are positive.
 double bessel_i0(double x) {
@@ -25,28 +32,35 @@ double bessel_i0(double x) {
   return sum;
 }
 
-/// Coefficients of the polynomial that interpolates `value` at the Chebyshev points of [-1, 1]. In long double: those of
-/// higher powers are differences of large numbers.
-template <class Value>
-std::vector<double> interpolate(std::size_t terms, const Value& value) {
-  std::vector<long double> at(terms), power(terms, 0.0L), before(terms, 0.0L), now(terms, 0.0L);
-  for (std::size_t i = 0; i < terms; ++i) at[i] = value(i);
-  now[0] = 1;  // T_0
-  for (std::size_t n = 0; n < terms; ++n) {
-    long double c = 0;
-    for (std::size_t i = 0; i < terms; ++i)
-      c += at[i] * static_cast<long double>(
-                       std::cos(pi * static_cast<double>((n * (2 * i + 1)) % (4 * terms)) / static_cast<double>(2 * terms)));
-    c *= (n == 0 ? 1.0L : 2.0L) / static_cast<long double>(terms);
-    for (std::size_t i = 0; i < terms; ++i) power[i] += c * now[i];
-    std::vector<long double> next(terms, 0.0L);  // T_{n+1} = 2 x T_n - T_{n-1}
-    for (std::size_t i = 0; i + 1 < terms; ++i) next[i + 1] = (n == 0 ? 1 : 2) * now[i];
-    for (std::size_t i = 0; i < terms; ++i) next[i] -= before[i];
-    before.swap(now);
-    now.swap(next);
+/// Values at the Chebyshev points of [-1, 1] to coefficients of Chebyshev polynomials to those of powers; in that
+/// order, because the one matrix for both has large entries of both signs.
+class Interpolation {
+ public:
+  explicit Interpolation(std::size_t terms) : terms_(terms), cosine_(terms * terms), power_(terms * terms, 0.0) {
+    for (std::size_t n = 0; n < terms; ++n)
+      for (std::size_t i = 0; i < terms; ++i)
+        cosine_[n * terms + i] =
+            (n == 0 ? 1.0 : 2.0) / static_cast<double>(terms) *
+            std::cos(pi * static_cast<double>((n * (2 * i + 1)) % (4 * terms)) / static_cast<double>(2 * terms));
+    power_[0] = 1;  // T_0 = 1, T_{n+1} = 2 x T_n - T_{n-1}
+    for (std::size_t n = 0; n + 1 < terms; ++n)
+      for (std::size_t i = 0; i < terms; ++i)
+        power_[(n + 1) * terms + i] =
+            (i > 0 ? (n == 0 ? 1 : 2) * power_[n * terms + i - 1] : 0.0) - (n > 0 ? power_[(n - 1) * terms + i] : 0.0);
   }
-  return {power.begin(), power.end()};
-}
+  void operator()(const double* value, double* power) const {
+    std::fill_n(power, terms_, 0.0);
+    for (std::size_t n = 0; n < terms_; ++n) {
+      double c = 0;
+      for (std::size_t i = 0; i < terms_; ++i) c += cosine_[n * terms_ + i] * value[i];
+      for (std::size_t i = 0; i <= n; ++i) power[i] += c * power_[n * terms_ + i];
+    }
+  }
+
+ private:
+  std::size_t terms_;
+  std::vector<double> cosine_, power_;  // [n][i]
+};
 
 double chebyshev_point(std::size_t i, std::size_t terms) {
   return std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(terms));
@@ -78,11 +92,14 @@ void SpreadFilter::make_window() {
   const std::size_t terms = static_cast<std::size_t>(degree_) + 1, w = static_cast<std::size_t>(width_);
   coefficients_.assign(terms * padded_window, 0.0);
   const double top = bessel_i0(shape_);
+  const Interpolation interpolation(terms);
+  std::vector<double> value(terms), power(terms);
   for (std::size_t j = 0; j < w; ++j) {
-    const std::vector<double> power = interpolate(terms, [&](std::size_t i) {
+    for (std::size_t i = 0; i < terms; ++i) {
       const double s = static_cast<double>(j) - 0.5 * width_ + 0.5 * (chebyshev_point(i, terms) + 1);
-      return bessel_i0(shape_ * std::sqrt(std::max(0.0, 1 - 4 * s * s / (width_ * width_)))) / top;
-    });
+      value[i] = bessel_i0(shape_ * std::sqrt(std::max(0.0, 1 - 4 * s * s / (width_ * width_)))) / top;
+    }
+    interpolation(value.data(), power.data());
     for (std::size_t i = 0; i < terms; ++i) coefficients_[i * padded_window + j] = power[i];
   }
 }
@@ -91,7 +108,8 @@ void SpreadFilter::window_at(double theta, double* values) const {
   for (int j = 0; j < width_; ++j) {
     double sum = 0;
     for (int i = degree_; i >= 0; --i)
-      sum = sum * (2 * theta - 1) + coefficients_[static_cast<std::size_t>(i) * padded_window + static_cast<std::size_t>(j)];
+      sum = sum * (2 * theta - 1) +
+            coefficients_[static_cast<std::size_t>(i) * padded_window + static_cast<std::size_t>(j)];
     values[j] = sum;
   }
 }
@@ -105,13 +123,15 @@ void SpreadFilter::make_filters() {
     const double value = root < 1e-4 ? 1 + squared / 6 : (squared > 0 ? std::sinh(root) : std::sin(root)) / root;
     return width_ * value / top;
   };
-  const double allowed = 0.02 * tolerance_;
+  const double allowed = 0.15 * tolerance_;
   const double farthest = 1.3 * std::sqrt(std::log(1 / tolerance_) + 2.0 * order_) + 4 * h + 2;
   const double step = pi / (farthest + 0.5 * width_ * h + 2);
   const std::size_t panels = static_cast<std::size_t>(std::ceil(farthest / h));
   const std::size_t orders = static_cast<std::size_t>(order_) + 1;
   std::vector<std::vector<double>> at(orders, std::vector<double>(panels * filter_terms, 0.0));
   lattice_.assign(orders, std::vector<double>(panels, 0.0));
+  std::vector<double> root(orders);  // q^{a+1} / sqrt(2^{a+1} (a+1)!) from that of a
+  for (std::size_t a = 0; a < orders; ++a) root[a] = 1 / std::sqrt(2.0 * static_cast<double>(a + 1));
   for (int n = 0;; ++n) {
     const double q = n * step, gaussian = std::sqrt(pi) * std::exp(-0.25 * q * q);
     double sum = 0;
@@ -122,18 +142,18 @@ void SpreadFilter::make_filters() {
     const double quotient = transform(q * h) / sum;
     double factor = (n == 0 ? 0.5 : 1.0) * step / pi * gaussian * quotient;
     double largest = 0;
+    const double turn_c = std::cos(q * h), turn_s = std::sin(q * h);
     for (std::size_t i = 0; i < filter_terms; ++i) {
       // e^{i q t} along the panels by turning
       const double start = q * 0.5 * h * (chebyshev_point(i, filter_terms) + 1);
       double c = std::cos(start), s = std::sin(start);
-      const double turn_c = std::cos(q * h), turn_s = std::sin(q * h);
       for (std::size_t p = 0; p < panels; ++p) {
         double power = factor;
         for (std::size_t a = 0; a < orders; ++a) {
           // cos(q t - a pi/2)
           const double wave = a % 4 == 0 ? c : a % 4 == 1 ? s : a % 4 == 2 ? -c : -s;
           at[a][p * filter_terms + i] += power * wave;
-          power *= q / std::sqrt(2.0 * static_cast<double>(a + 1));
+          power *= q * root[a];
           largest = std::max(largest, std::abs(power));
         }
         const double next = c * turn_c - s * turn_s;
@@ -141,13 +161,16 @@ void SpreadFilter::make_filters() {
         c = next;
       }
     }
+    double c = 1, s = 0;
     for (std::size_t j = 0; j < panels; ++j) {
-      const double c = std::cos(q * h * static_cast<double>(j)), s = std::sin(q * h * static_cast<double>(j));
       double power = factor * quotient;
       for (std::size_t a = 0; a < orders; ++a) {
         lattice_[a][j] += power * (a % 4 == 0 ? c : a % 4 == 1 ? s : a % 4 == 2 ? -c : -s);
-        power *= q / std::sqrt(2.0 * static_cast<double>(a + 1));
+        power *= q * root[a];
       }
+      const double next = c * turn_c - s * turn_s;
+      s = s * turn_c + c * turn_s;
+      c = next;
     }
     if (q > 8 && largest < 1e-19) break;
   }
@@ -166,13 +189,12 @@ void SpreadFilter::make_filters() {
   for (std::size_t j = 0; j < panels; ++j)
     for (std::size_t a = 0; a < orders; ++a)
       if (std::abs(lattice_[a][j]) > allowed) kept = j + 1;
-  filter_.assign(orders, {});
+  const Interpolation interpolation(filter_terms);
+  filter_.assign(orders, std::vector<double>(used * filter_terms));
   for (std::size_t a = 0; a < orders; ++a) {
     lattice_[a].resize(kept);
-    for (std::size_t p = 0; p < used; ++p) {
-      const auto power = interpolate(filter_terms, [&](std::size_t i) { return at[a][p * filter_terms + i]; });
-      filter_[a].insert(filter_[a].end(), power.begin(), power.end());
-    }
+    for (std::size_t p = 0; p < used; ++p)
+      interpolation(at[a].data() + p * filter_terms, filter_[a].data() + p * filter_terms);
   }
 }
 
@@ -257,8 +279,8 @@ SpreadFilter::AxisError SpreadFilter::measure_points() const {
   return axis;
 }
 
-/// The promise beyond rho^2 = L, tolerance e^{L - rho^2}, allows half for the sum itself: with |sum| <= e^{excess - t^2}
-/// on each axis that is d excess <= ln(tolerance/2) + L.
+/// The promise beyond rho^2 = L, tolerance e^{L - rho^2}, allows half for the sum itself: with |sum| <= e^{excess -
+/// t^2} on each axis that is d excess <= ln(tolerance/2) + L.
 double SpreadFilter::product_error(const AxisError& axis, int d) const {
   const double limit = 2 * std::log(1 / tolerance_) + 40;
   if (d * axis.excess > std::log(0.5 * tolerance_) + limit) return std::numeric_limits<double>::infinity();
@@ -272,6 +294,39 @@ double SpreadFilter::product_error(const AxisError& axis, int d) const {
     largest.swap(next);
   }
   return largest.back() - 1;
+}
+
+double expected_spacing(int width, int derivative_order, double tolerance) {
+  // where the transform of h~_a falls below the tolerance: q^2/4 = ln(1/tolerance) + a ln q - ln(2^a a!)/2
+  const double a = derivative_order;
+  double q = 6;
+  for (int step = 0; step < 30; ++step)
+    q = 2 * std::sqrt(std::max(
+                1.0, -std::log(tolerance) + a * std::log(q) - 0.5 * (a * std::numbers::ln2 + std::lgamma(a + 1))));
+  const bool narrow = width < windows_digits - std::log10(tolerance);
+  return (narrow ? 0.78 : 0.88) * pi / q;
+}
+
+std::shared_ptr<const SpreadFilter> find_filter(int d, int width, int derivative_order, double tolerance) {
+  using Key = std::tuple<int, int, int, double>;
+  constexpr std::size_t remembered = 256;
+  static std::mutex mutex;
+  static std::map<Key, std::shared_ptr<const SpreadFilter>> known;
+  const Key key(d, width, derivative_order, tolerance);
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (const auto place = known.find(key); place != known.end()) return place->second;
+  }
+  std::shared_ptr<const SpreadFilter> found;
+  const double shape = width < windows_digits - std::log10(tolerance) ? narrow_shape : wide_shape;
+  const double widest = expected_spacing(width, derivative_order, tolerance);
+  for (double spacing = widest; spacing > 0.5 * widest && !found; spacing *= 0.96) {
+    auto filter = std::make_shared<const SpreadFilter>(width, spacing, shape * width, derivative_order, tolerance);
+    if (std::max(filter->grid_error(d), filter->point_error(d)) <= tolerance) found = std::move(filter);
+  }
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (known.size() >= remembered) known.clear();
+  return known.emplace(key, std::move(found)).first->second;
 }
 
 }  // namespace fgtd::detail

@@ -1,10 +1,12 @@
-// The one-dimensional parts of `spread`. In units in which the Gaussian is exp(-t^2), with a lattice of nodes x_k = k H,
+// The one-dimensional parts of `spread`. In units in which the Gaussian is exp(-t^2), with a lattice of nodes x_k = k
+// H,
 //   h~_a(y - x) = sum_k phi((x - x_k)/H) f_a(y - x_k)                                    targets anywhere: grids
 //   h~_a(y - x) = sum_k sum_m phi((x - x_k)/H) F_a(x_m - x_k) phi((y - x_m)/H)            scattered targets
 // up to the error measured here. phi is the Kaiser-Bessel window of w nodes, I_0(b sqrt(1 - (2s/w)^2)) / I_0(b),
 // whose transform is known, phi^(q) = w sinh(r)/(r I_0(b)), r^2 = b^2 - (q w/2)^2; f and F are those of the orthogonal
 // projection onto the lattice's functions,
-//   f^(q) = g^(q) phi^(qH) / P(qH),   F^ = f^ phi^ / P,   P(q) = sum_m phi^(q + 2 pi m)^2,   g^(q) = sqrt(pi) e^{-q^2/4},
+//   f^(q) = g^(q) phi^(qH) / P(qH),   F^ = f^ phi^ / P,   P(q) = sum_m phi^(q + 2 pi m)^2,   g^(q) = sqrt(pi)
+//   e^{-q^2/4},
 // which, unlike a plain quotient g^/phi^ cut off somewhere, leaves no slowly fading tail.
 #pragma once
 
@@ -20,11 +22,12 @@ constexpr int smallest_window = 3, largest_window = 16;  // w
 /// phi, f and F for one window, spacing and highest derivative.
 class SpreadFilter {
  public:
+  /// spacing H, shape b of the window.
   SpreadFilter(int width, double spacing, double shape, int derivative_order, double tolerance);
 
-  int width() const { return width_; }             // w
-  double spacing() const { return spacing_; }      // H
-  double reach() const { return reach_; }          // f_a(t) = 0 for |t| > reach
+  int width() const { return width_; }                                            // w
+  double spacing() const { return spacing_; }                                     // H
+  double reach() const { return reach_; }                                         // f_a(t) = 0 for |t| > reach
   int lattice_reach() const { return static_cast<int>(lattice_[0].size()) - 1; }  // F_a(j H) = 0 for |j| > this
 
   /// phi at the w nodes around a point: with theta in [0, 1) the distance to the first of them less -w/2, node j is at
@@ -33,8 +36,8 @@ class SpreadFilter {
   const double* coefficients() const { return coefficients_.data(); }  // [degree + 1][padded_window]
   static constexpr std::size_t padded_window = 16;
 
-  double filter(int a, double t) const;          // f_a(t)
-  double lattice_filter(int a, int j) const;     // F_a(j H)
+  double filter(int a, double t) const;       // f_a(t)
+  double lattice_filter(int a, int j) const;  // F_a(j H)
 
   /// Largest error of a product over d axes relative to N_alpha, |alpha| <= derivative_order: prod (1 + E_a) - 1, E_a
   /// that of one axis on a mesh, times `mesh_safety`. Infinite if the product does not fade as promised.
@@ -63,5 +66,12 @@ class SpreadFilter {
   std::vector<std::vector<double>> lattice_;  // [order + 1][j]
   AxisError grid_axis_, point_axis_;
 };
+
+/// The spacing that a window of w nodes should allow, before anything is measured.
+double expected_spacing(int width, int derivative_order, double tolerance);
+
+/// The window of w nodes on the widest lattice that keeps the tolerance in d dimensions, for grids and for scattered
+/// targets; none if it cannot. Remembered: made once for every different call.
+std::shared_ptr<const SpreadFilter> find_filter(int d, int width, int derivative_order, double tolerance);
 
 }  // namespace fgtd::detail

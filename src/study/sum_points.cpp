@@ -21,6 +21,8 @@ namespace gaussdrift::study {
 
 namespace {
 
+constexpr double rounding = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
@@ -155,7 +157,7 @@ void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
   for (const auto& combination : combinations) {
     result.error_bounds.emplace_back();
     if (result.choice.bound)
-      result.error_bounds.back() = *result.choice.bound *
+      result.error_bounds.back() = (*result.choice.bound + rounding) *
                                    fgtd::derivative_scale<d>(combination.front().derivative, request.sigma) *
                                    result.weight_total;
   }
@@ -305,13 +307,15 @@ std::string to_json(const PointSums& sums) {
   std::ostringstream line;
   line << choice;
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-  if (choice.method == fgtd::Method::hermite) {
-    parameters = {{"box_scale", choice.box_scale},
-                  {"box_side", number(choice.box_side)},
-                  {"expansion_order", choice.expansion_order},
-                  {"neighbours", choice.neighbours},
-                  {"boxes", choice.boxes}};
-  }
+  // Those that the method has.
+  if (choice.box_scale > 0) parameters["box_scale"] = choice.box_scale;
+  if (choice.box_side > 0) parameters["box_side"] = number(choice.box_side);
+  if (choice.expansion_order > 0) parameters["expansion_order"] = choice.expansion_order;
+  if (choice.neighbours == fgtd::HermiteParameters::all_boxes)
+    parameters["neighbours"] = "all";
+  else if (choice.neighbours > 0)
+    parameters["neighbours"] = choice.neighbours;
+  if (choice.boxes > 0) parameters["boxes"] = choice.boxes;
   nlohmann::ordered_json errors = nlohmann::ordered_json::object();
   for (std::size_t k = 0; k < sums.columns.size(); ++k) errors[sums.columns[k]] = number(sums.error_bounds[k]);
   const nlohmann::ordered_json json = {{"kernel", "gauss"},

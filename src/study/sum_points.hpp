@@ -41,7 +41,7 @@ struct PointSums {
   fgtd::Method asked = fgtd::Method::automatic;
   fgtd::Choice choice;
   double weight_total = 0;                          // Q = sum_j |lambda_j|
-  std::vector<std::optional<double>> error_bounds;  // of each column: bound N_alpha Q; none without a bound
+  std::vector<std::optional<double>> error_bounds;  // of each column: with rounding, for all of Q; none without a bound
   int threads = 1;
   double read_seconds = 0, prepare_seconds = 0, evaluate_seconds = 0, write_seconds = 0;
 };

@@ -112,6 +112,27 @@ TEST(Reproduce, ListsWhatItCan) {
   const Outcome list = gaussdrift_in(folder, "reproduce");
   EXPECT_EQ(list.exit_code, 0);
   EXPECT_NE(list.out.find("cone"), std::string::npos);
+  EXPECT_NE(list.out.find("fgtd"), std::string::npos);
+}
+
+TEST(Reproduce, GivesOneTableAsJsonOrText) {
+  const ScratchFolder folder;
+  const Outcome json = gaussdrift_in(folder, "reproduce fgtd --table 4.6 --json");
+  EXPECT_EQ(json.exit_code, 0) << json.err;
+  const auto document = nlohmann::json::parse(json.out);
+  ASSERT_EQ(document["tables"].size(), 1u);
+  EXPECT_EQ(document["tables"][0]["table"], "4.6");
+  EXPECT_EQ(document["tables"][0]["rows"].size(), 9u);
+  EXPECT_TRUE(document["disagreements"].empty());
+  const Outcome text = gaussdrift_in(folder, "reproduce fgtd 3.2");
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_NE(text.out.find("112320 112320"), std::string::npos) << text.out;
+}
+
+TEST(Reproduce, RefusesATableThatThereIsNot) {
+  const ScratchFolder folder;
+  for (const char* wrong : {"reproduce fgtd 4.9", "reproduce cone 4.6", "reproduce cone --full"})
+    EXPECT_EQ(gaussdrift_in(folder, wrong).exit_code, 2) << wrong;
 }
 
 }  // namespace

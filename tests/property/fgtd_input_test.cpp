@@ -177,7 +177,7 @@ TEST(FgtdMemory, AutomaticTakesAMethodThatFits) {
   const auto sources = naive::random_points<3>(3000, 45);
   fgtd::Options options{.tolerance = 1e-4, .expected_targets = 1000000};
   const Eigen::MatrixXd weights = Eigen::MatrixXd::Ones(3000, 1);
-  ASSERT_EQ(fgtd::Plan<3>(sources, weights, 2.0, options).choice().method, fgtd::Method::hermite);
+  ASSERT_NE(fgtd::Plan<3>(sources, weights, 2.0, options).choice().method, fgtd::Method::direct);
   options.memory_limit = 110000;
   EXPECT_EQ(fgtd::Plan<3>(sources, weights, 2.0, options).choice().method, fgtd::Method::direct);
   options.method = fgtd::Method::hermite;

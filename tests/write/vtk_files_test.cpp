@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -160,16 +162,16 @@ TEST(ParticleFile, WithoutParticlesIsStillAFile) {
   EXPECT_NE(text.find("field TimeValue double 1 1\n"), std::string::npos) << text;
 }
 
-TEST(VtkFiles, AreRawAppendedAndUncompressed) {
+TEST(VtkFiles, AreWellFormedXmlThroughout) {
+  // Readers whose parser looks behind <AppendedData> stumble over what follows there: nothing must.
   const Folder folder;
-  const auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, 20);
-  write_density(folder / "rho.vti", density, 0);
+  write_density(folder / "rho.vti", some_density(2, {0, 0, 0}, {1, 1, 0}, 20), 0);
   const std::string text = text_of(folder / "rho.vti");
-  for (const char* part : {"encoding=\"raw\"", "header_type=\"UInt64\"", "type=\"Float64\" Name=\"rho\"", "TimeValue"})
+  for (const char* part : {"format=\"binary\"", "header_type=\"UInt64\"", "type=\"Float64\" Name=\"rho\"", "TimeValue"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
+  EXPECT_EQ(text.find("AppendedData"), std::string::npos);
   EXPECT_EQ(text.find("compressor"), std::string::npos);
-  const std::string bytes(reinterpret_cast<const char*>(density.rho.data()), density.rho.size() * sizeof(double));
-  EXPECT_NE(text.find(bytes), std::string::npos) << "the numbers are not there as they are in memory";
+  EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](unsigned char c) { return c == '\n' || (c >= ' ' && c < 127); }));
 }
 
 TEST(VtkFiles, RefuseArraysOfTheWrongLength) {

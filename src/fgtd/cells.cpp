@@ -1,0 +1,333 @@
+// Sorts points into cells and hands the sources around each cell of targets to the kernel `cells`; see cells.hpp.
+#include "fgtd/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/parallel.hpp"
+#include "fgtd/cells_job.hpp"
+#include "fgtd/kernels.hpp"
+
+namespace fgtd::detail {
+namespace {
+
+constexpr std::size_t piece_targets = 512;  // at least so many targets are one piece of work
+
+/// The request as the kernel reads it.
+template <int d>
+struct FlatTerms {
+  std::vector<std::size_t> first{0};
+  std::vector<int> order;
+  std::vector<double> coefficient;
+
+  explicit FlatTerms(const Request<d>& request) {
+    for (const auto& combination : request.combinations) {
+      for (const auto& part : combination) {
+        for (std::size_t l = 0; l < max_dimension; ++l)
+          order.push_back(l < d ? request.derivatives[part.derivative][l] : 0);
+        coefficient.push_back(part.factor);
+      }
+      first.push_back(coefficient.size());
+    }
+  }
+};
+
+/// The cells around a line of cells: each line of sources within reach, with the cells along it that are.
+struct NearLine {
+  std::size_t cell, end;  // the next cell that may be within reach, and the end of the line
+  std::int64_t reach;     // along the line, in cells
+};
+
+/// The first place in [from, end) whose index along the line is `index` or more; near `from` as a rule.
+template <int d>
+std::size_t advance(const Cells<d>& cells, std::size_t from, std::size_t end, std::int64_t index) {
+  std::size_t step = 1;
+  while (from + step < end && cells.index[from + step][0] < index) {
+    from += step;
+    step *= 2;
+  }
+  end = std::min(end, from + step);
+  while (from < end) {
+    const std::size_t middle = from + (end - from) / 2;
+    if (cells.index[middle][0] < index) {
+      from = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return from;
+}
+
+/// True if the line of cell `cell` comes before the line with the upper indices of `at`.
+template <int d>
+bool line_before(const BoxIndex<d>& cell, const BoxIndex<d>& at) {
+  for (std::size_t l = d; l-- > 1;)
+    if (cell[l] != at[l]) return cell[l] < at[l];
+  return false;
+}
+
+/// Lists the lines of sources whose axes 1 .. d-1 are within reach of those of `at`.
+template <int d>
+void find_lines(const Cells<d>& cells, const BoxIndex<d>& at, std::vector<NearLine>& lines) {
+  lines.clear();
+  const std::int64_t span = cells.span;
+  const std::size_t line_count = cells.first_line.size() - 1;
+  // One search finds the lines that differ in axis 1 alone; the axes above are counted through.
+  BoxIndex<d> from = at;
+  for (std::size_t l = 1; l < d; ++l) from[l] -= span;
+  while (true) {
+    std::size_t low = 0, high = line_count;
+    while (low < high) {
+      const std::size_t middle = low + (high - low) / 2;
+      if (line_before<d>(cells.index[cells.first_line[middle]], from)) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    for (; low < line_count; ++low) {
+      const BoxIndex<d>& line = cells.index[cells.first_line[low]];
+      bool near = true;
+      for (std::size_t l = 2; l < d; ++l) near = near && line[l] == from[l];
+      if constexpr (d > 1) near = near && line[1] <= at[1] + span;
+      if (!near) break;
+      // Points of cells that are i apart are more than i - 1 sides apart.
+      std::int64_t squared = 0;
+      for (std::size_t l = 1; l < d; ++l) {
+        const std::int64_t apart = std::max<std::int64_t>(0, std::abs(line[l] - at[l]) - 1);
+        squared += apart * apart;
+      }
+      if (squared > span * span) continue;
+      std::int64_t reach = 1;
+      while (reach < span && reach * reach + squared <= span * span) ++reach;
+      lines.push_back({cells.first_line[low], cells.first_line[low + 1], reach});
+    }
+    std::size_t l = 2;
+    for (; l < d; ++l) {
+      if (++from[l] <= at[l] + span) break;
+      from[l] = at[l] - span;
+    }
+    if (l >= d) return;
+  }
+}
+
+/// Targets of one cell, at most cell_targets of them.
+struct Block {
+  std::size_t begin, end;
+};
+
+template <int d>
+std::vector<BoxIndex<d>> cell_indices(const Cells<d>& cells, const double* points, std::size_t count,
+                                      std::size_t point_step, std::size_t axis_step) {
+  std::vector<BoxIndex<d>> index(count);
+  for (std::size_t l = 0; l < d; ++l)
+    for (std::size_t i = 0; i < count; ++i) index[i][l] = cells.index_at(l, points[i * point_step + l * axis_step]);
+  return index;
+}
+
+/// Sorts the indices; `order[new place] = old place`. What is read out of order is read in a loop of its own, so that
+/// the reads overlap.
+template <int d>
+std::vector<std::size_t> sort_indices(std::vector<BoxIndex<d>>& index) {
+  std::vector<std::size_t> order = sorted_places<d>(index);
+  std::vector<BoxIndex<d>> sorted(index.size());
+  for (std::size_t j = 0; j < order.size(); ++j) sorted[j] = index[order[j]];
+  index.swap(sorted);
+  return order;
+}
+
+/// Calls open(j, axis) wherever the sorted indices change, with the last axis that does; for the first with d - 1.
+template <int d, class Open>
+void for_each_change(const std::vector<BoxIndex<d>>& index, const Open& open) {
+  for (std::size_t j = 0; j < index.size(); ++j) {
+    if (j == 0) {
+      open(j, std::size_t{d - 1});
+      continue;
+    }
+    const BoxIndex<d>&now = index[j], &before = index[j - 1];
+    for (std::size_t l = d; l-- > 0;)
+      if (now[l] != before[l]) {
+        open(j, l);
+        break;
+      }
+  }
+}
+
+/// Sorts `position` ([d][count]) into cells; the result is padded to `stride` numbers an axis.
+template <int d>
+std::vector<double> sort_into_cells(Cells<d>& cells, const std::vector<double>& position, std::size_t count,
+                                    std::size_t stride, std::vector<std::size_t>& order) {
+  for (std::size_t l = 0; l < d; ++l) {
+    const double* x = position.data() + l * count;
+    const auto [low, high] = std::minmax_element(x, x + count);
+    cells.low[l] = *low;
+    cells.last[l] = std::int64_t{1} << 40;  // not yet a bound
+    cells.last[l] = cells.index_at(l, *high);
+  }
+  std::vector<BoxIndex<d>> index = cell_indices<d>(cells, position.data(), count, 1, count);
+  order = sort_indices<d>(index);
+  std::vector<double> sorted(d * stride, 0.0);
+  for (std::size_t l = 0; l < d; ++l)
+    for (std::size_t j = 0; j < count; ++j) sorted[l * stride + j] = position[l * count + order[j]];
+  for_each_change<d>(index, [&](std::size_t j, std::size_t axis) {
+    if (axis > 0 || j == 0) cells.first_line.push_back(cells.index.size());
+    cells.first.push_back(j);
+    cells.index.push_back(index[j]);
+  });
+  cells.first_line.push_back(cells.index.size());
+  cells.first.push_back(count);
+  return sorted;
+}
+
+}  // namespace
+
+template <int d>
+std::int64_t Cells<d>::index_at(std::size_t axis, double x) const {
+  const int before = span + 1;
+  const double cell = (x - low[axis]) * (1 / side) + before;  // rounded down by the conversion, as it is not negative
+  return static_cast<std::int64_t>(std::clamp(cell, 0.0, static_cast<double>(last[axis]) + 2 * before)) - before;
+}
+
+template <int d>
+CellsSum<d>::CellsSum(const CellsPlan& plan, double sigma, std::vector<double> position, std::size_t count, int threads)
+    : plan_(plan), sigma_(sigma), threads_(threads), count_(count) {
+  cells_.side = plan.side;
+  cells_.span = plan.span;
+  position_ = sort_into_cells<d>(cells_, position, count, stride(), order_);
+}
+
+template <int d>
+std::size_t CellsSum<d>::stride() const {
+  return count_ + source_padding;
+}
+
+template <int d>
+void CellsSum<d>::set_weights(const double* weights, std::size_t columns) {
+  columns_ = columns;
+  weights_.assign(columns * stride(), 0.0);
+  for (std::size_t k = 0; k < columns; ++k)
+    for (std::size_t j = 0; j < count_; ++j) weights_[k * stride() + j] = weights[k * count_ + order_[j]];
+}
+
+template <int d>
+void CellsSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const {
+  const std::size_t outputs = request.combinations.size() * columns_;
+  if (outputs == 0 || count == 0) return;
+  const FlatTerms<d> terms(request);
+  const RecurrenceTable recurrence(max_derivative_order + 1);
+
+  std::vector<BoxIndex<d>> index = cell_indices<d>(cells_, targets, count, d, 1);
+  const std::vector<std::size_t> order = sort_indices<d>(index);
+  std::vector<Block> blocks;
+  for_each_change<d>(index, [&](std::size_t j, std::size_t) {
+    if (j > 0) blocks.back().end = j;
+    blocks.push_back({j, count});
+  });
+  std::vector<std::size_t> pieces{0};  // blocks of piece i: pieces[i] .. pieces[i+1]
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (blocks[b].end - blocks[pieces.back()].begin >= piece_targets) pieces.push_back(b + 1);
+  if (pieces.back() < blocks.size()) pieces.push_back(blocks.size());
+
+  // In one go, so that the reads, which jump, overlap.
+  std::vector<double> sorted(count * d);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t l = 0; l < d; ++l) sorted[i * d + l] = targets[order[i] * d + l];
+  const std::size_t scratch_size = cells_scratch(d, columns_);
+
+  gaussdrift::base::parallel_for(pieces.size() - 1, threads_, [&](std::size_t piece) {
+    const auto scratch = std::make_unique_for_overwrite<double[]>(scratch_size);
+    std::vector<double> out(outputs * cell_targets);
+    std::vector<NearLine> lines;
+    std::vector<std::size_t> runs;
+    double target[d * cell_targets];
+    double origin[d];
+    CellsJob job{.dimension = d,
+                 .degree = plan_.degree,
+                 .root_sigma = std::sqrt(sigma_),
+                 .squared_reach = plan_.reach * plan_.reach,
+                 .origin = origin,
+                 .runs = 0,
+                 .run = nullptr,
+                 .position = position_.data(),
+                 .weights = weights_.data(),
+                 .stride = stride(),
+                 .columns = columns_,
+                 .combinations = request.combinations.size(),
+                 .first_term = terms.first.data(),
+                 .order = terms.order.data(),
+                 .coefficient = terms.coefficient.data(),
+                 .highest = request.highest.data(),
+                 .recurrence = recurrence.view(),
+                 .targets = 0,
+                 .target = target,
+                 .scratch = scratch.get(),
+                 .out = out.data()};
+
+    const BoxIndex<d>* before = nullptr;
+    for (std::size_t b = pieces[piece]; b < pieces[piece + 1]; ++b) {
+      const BoxIndex<d>& at = index[blocks[b].begin];
+      if (before == nullptr || line_before<d>(*before, at)) find_lines<d>(cells_, at, lines);
+      before = &at;
+      runs.clear();
+      for (NearLine& line : lines) {
+        line.cell = advance<d>(cells_, line.cell, line.end, at[0] - line.reach);
+        std::size_t end = line.cell;
+        while (end < line.end && cells_.index[end][0] <= at[0] + line.reach) ++end;
+        if (end == line.cell) continue;
+        const std::size_t first = cells_.first[line.cell], last = cells_.first[end];
+        if (!runs.empty() && runs.back() == first) {
+          runs.back() = last;
+        } else {
+          runs.insert(runs.end(), {first, last});
+        }
+      }
+      if (runs.empty()) {
+        for (std::size_t i = blocks[b].begin; i < blocks[b].end; ++i)
+          for (std::size_t output = 0; output < outputs; ++output) values[output * count + order[i]] = 0;
+        continue;
+      }
+      job.runs = runs.size() / 2;
+      job.run = runs.data();
+      for (std::size_t begin = blocks[b].begin; begin < blocks[b].end; begin += cell_targets) {
+        job.targets = std::min(cell_targets, blocks[b].end - begin);
+        for (std::size_t i = 0; i < job.targets; ++i)
+          for (std::size_t l = 0; l < d; ++l) target[l * cell_targets + i] = sorted[(begin + i) * d + l];
+        for (std::size_t l = 0; l < d; ++l) origin[l] = target[l * cell_targets];
+        kernels().cells(job);
+        for (std::size_t output = 0; output < outputs; ++output)
+          for (std::size_t i = 0; i < job.targets; ++i)
+            values[output * count + order[begin + i]] = out[output * cell_targets + i];
+      }
+    }
+  });
+}
+
+template <int d>
+double CellsSum<d>::plan_bytes(std::size_t columns) const {
+  const double cells =
+      static_cast<double>(cells_.index.capacity()) * sizeof(BoxIndex<d>) +
+      static_cast<double>(cells_.first.capacity() + cells_.first_line.capacity()) * sizeof(std::size_t);
+  return 8.0 * static_cast<double>(stride()) * static_cast<double>(d + columns) + 8.0 * static_cast<double>(count_) +
+         cells;
+}
+
+/// Indices, places and keys of the sort, blocks and pieces.
+template <int d>
+double CellsSum<d>::point_bytes(const Request<d>& request, std::size_t count) const {
+  const double threads = gaussdrift::base::resolve_threads(threads_);
+  const double outputs = static_cast<double>(request.combinations.size() * columns_);
+  return static_cast<double>(count) * (3 * 8.0 * d + 4 * 8.0 + 2 * sizeof(Block) + 16.0) +
+         threads * 8 * (static_cast<double>(cells_scratch(d, columns_)) + outputs * static_cast<double>(cell_targets));
+}
+
+#define FGTD_INSTANTIATE(d) \
+  template struct Cells<d>; \
+  template class CellsSum<d>;
+FGTD_INSTANTIATE(1)
+FGTD_INSTANTIATE(2)
+FGTD_INSTANTIATE(3)
+FGTD_INSTANTIATE(4)
+#undef FGTD_INSTANTIATE
+
+}  // namespace fgtd::detail

@@ -1,0 +1,74 @@
+// Nothing is expanded: sources sorted into cells of about the reach, or a fraction of it, and every Gaussian summed
+// where it is within reach. Method `cells` does so for scattered targets, pair by pair with the sources of the cells
+// around; method `outer` on tensor grids, where the Gaussians of a cell are a product of matrices. The two share their
+// sources, so that each serves both kinds of targets; they differ in the side of the cells.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fgtd/boxes.hpp"
+#include "fgtd/direct.hpp"
+#include "fgtd/fgtd.hpp"
+#include "fgtd/request.hpp"
+#include "fgtd/summation.hpp"
+
+namespace fgtd::detail {
+
+/// Cells of one side that start at the lower corner of the sources; occupied ones only, sorted with the last axis
+/// slowest.
+template <int d>
+struct Cells {
+  double side = 0;
+  std::array<double, d> low{};  // lower corner of cell (0, ..., 0)
+  int span = 1;                 // what is within reach lies at most so many cells away along an axis
+  BoxIndex<d> last{};           // largest index of each axis
+  std::vector<BoxIndex<d>> index;
+  std::vector<std::size_t> first;       // sources of cell c: first[c] .. first[c+1]
+  std::vector<std::size_t> first_line;  // cells that differ in the first axis only: first_line[i] .. first_line[i+1]
+
+  /// Index of the cell of any coordinate; where no source is within reach, an index that says so.
+  std::int64_t index_at(std::size_t axis, double x) const;
+};
+
+/// How far a Gaussian counts, and the cells that suit.
+struct CellsPlan {
+  double reach = 0;    // times sqrt(sigma)
+  int degree = 0;      // of the exponential of a pair, see cells_job.hpp
+  int row_degree = 0;  // of the exponentials of rows, of which a term has one an axis
+  double side = 0;
+  int span = 1;
+};
+
+template <int d>
+class CellsSum : public Summation<d> {
+ public:
+  /// position [d][count]
+  CellsSum(const CellsPlan& plan, double sigma, std::vector<double> position, std::size_t count, int threads);
+
+  void set_weights(const double* weights, std::size_t columns) override;
+  void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;
+  void evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const override;  // outer.cpp
+
+  double plan_bytes(std::size_t columns) const override;
+  double point_bytes(const Request<d>& request, std::size_t count) const override;
+  double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
+  std::size_t boxes() const override { return cells_.index.size(); }
+
+ private:
+  std::size_t stride() const;  // from one axis, or one column of weights, to the next
+
+  CellsPlan plan_;
+  double sigma_;
+  int threads_;
+  std::size_t count_;
+  std::size_t columns_ = 0;
+  std::vector<double> position_;    // [d][stride], sorted by cell
+  std::vector<double> weights_;     // [columns][stride]
+  std::vector<std::size_t> order_;  // sorted source j is the caller's order_[j]
+  Cells<d> cells_;
+};
+
+}  // namespace fgtd::detail

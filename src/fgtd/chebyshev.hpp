@@ -1,0 +1,64 @@
+// Wide Gaussians: boxes with P Chebyshev nodes an axis, and the Gaussian between the nodes of two boxes, which is a
+// product over the axes (docs/fgtd.md).
+//   s_alpha(y) = (-1)^|alpha| N_alpha sum_m prod_l l_{m_l}(y_l) sum_boxes sum_n prod_l h~_{alpha_l}(sqrt(sigma) (y_m -
+//   x_n)_l) A_n,      A_n = sum_j lambda_j prod_l l_{n_l}(x_jl)
+// with the Lagrange polynomials l of the nodes y_m of the target's box and x_n of the sources' boxes. On a tensor grid
+// the y_m are the grid's nodes themselves. The sums over boxes and nodes are taken one axis after the other, last axis
+// first.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "fgtd/chebyshev_lattice.hpp"
+#include "fgtd/fgtd.hpp"
+#include "fgtd/request.hpp"
+#include "fgtd/summation.hpp"
+
+namespace fgtd::detail {
+
+template <int d>
+struct ChebyshevPlan {
+  int nodes = 0;     // P
+  double reach = 0;  // R: boxes farther apart on some axis (times sqrt(sigma)) do not see each other
+  Lattice<d> lattice;
+};
+
+template <int d>
+class ChebyshevSum : public Summation<d> {
+ public:
+  /// position [d][count]
+  ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const std::vector<double>& position, std::size_t count,
+               int threads);
+
+  void set_weights(const double* weights, std::size_t columns) override;  // computes the moments
+  void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;
+  void evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const override;
+
+  double plan_bytes(std::size_t columns) const override;
+  double point_bytes(const Request<d>& request, std::size_t count) const override;
+  double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
+  std::size_t boxes() const override { return sources_.box.size(); }
+
+ private:
+  class Translation;
+
+  /// Boxes whose indices differ by more than this on axis l do not see each other.
+  std::int64_t neighbours(std::size_t l) const;
+  std::size_t box_numbers() const { return box_numbers_; }
+  void evaluate_block(const Request<d>& request, const double* targets, std::size_t count, double* values,
+                      std::size_t stride) const;
+
+  ChebyshevPlan<d> plan_;
+  double sigma_;
+  int threads_;
+  std::vector<double> node_, scale_;  // of the Lagrange polynomials
+  std::size_t box_numbers_;           // P^d
+  SortedPoints<d> sources_;           // first axis slowest
+  std::array<BoxLevel, d> tree_;
+  std::size_t columns_ = 0;
+  std::vector<double> moments_;  // [boxes][columns][P^d], first axis fastest
+};
+
+}  // namespace fgtd::detail

@@ -1,0 +1,392 @@
+// Layout of the lattice, sorting and spreading; see spread.hpp.
+#include "fgtd/spread.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "fgtd/boxes.hpp"
+
+namespace fgtd::detail {
+namespace {
+
+constexpr std::size_t most_bricks = 64;
+constexpr double dense_enough = 32;       // nodes for every source up to which one brick is laid without a second look
+constexpr double small_lattice = 0x1p16;  // nodes that need no justification
+constexpr double spare_sources = 4;       // bricks may hold so many times the nodes that single sources would need
+constexpr double exact_nodes = 0x1p27;    // multiples of spacing_high are exact up to here
+
+constexpr std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+/// A set of occupied tiles, and the part of the lattice around it.
+template <int d>
+struct Cluster {
+  std::vector<std::size_t> tile;  // indices into a list
+  std::array<std::int64_t, d> low{}, high{};
+  bool settled = false;
+
+  /// Nodes that a brick around it has.
+  double nodes(int width) const {
+    double product = 1;
+    for (std::size_t l = 0; l < d; ++l)
+      product *= static_cast<double>(high[l] - low[l] + 1) * static_cast<double>(tile_side<d>(l)) + width;
+    return product;
+  }
+};
+
+template <int d>
+Cluster<d> enclose(const std::vector<BoxIndex<d>>& tiles, std::vector<std::size_t> member) {
+  Cluster<d> cluster;
+  cluster.low = cluster.high = tiles[member[0]];
+  for (const std::size_t i : member)
+    for (std::size_t l = 0; l < d; ++l) {
+      cluster.low[l] = std::min(cluster.low[l], tiles[i][l]);
+      cluster.high[l] = std::max(cluster.high[l], tiles[i][l]);
+    }
+  cluster.tile = std::move(member);
+  return cluster;
+}
+
+/// Cuts a cluster in two by the plane that leaves the fewest nodes; false if no plane saves a fifth.
+template <int d>
+bool split(const std::vector<BoxIndex<d>>& tiles, int width, Cluster<d>& cluster, Cluster<d>& other) {
+  const double whole = cluster.nodes(width);
+  double best = 0.8 * whole;
+  std::size_t best_axis = d, best_count = 0;
+  std::vector<std::size_t> sorted = cluster.tile;
+  std::vector<double> behind(sorted.size());
+  const auto by_axis = [&](std::size_t axis) {
+    std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+      return tiles[a][axis] != tiles[b][axis] ? tiles[a][axis] < tiles[b][axis] : a < b;
+    });
+  };
+  for (std::size_t axis = 0; axis < d; ++axis) {
+    by_axis(axis);
+    Cluster<d> part;
+    const auto grow = [&](std::size_t i, bool first) {
+      if (first) part.low = part.high = tiles[i];
+      for (std::size_t l = 0; l < d; ++l) {
+        part.low[l] = std::min(part.low[l], tiles[i][l]);
+        part.high[l] = std::max(part.high[l], tiles[i][l]);
+      }
+      return part.nodes(width);
+    };
+    for (std::size_t i = sorted.size(); i-- > 0;) behind[i] = grow(sorted[i], i + 1 == sorted.size());
+    for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
+      const double nodes = grow(sorted[i], i == 0) + behind[i + 1];
+      if (nodes < best && tiles[sorted[i]][axis] != tiles[sorted[i + 1]][axis]) {
+        best = nodes;
+        best_axis = axis;
+        best_count = i + 1;
+      }
+    }
+  }
+  if (best_axis == d) return false;
+  by_axis(best_axis);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(best_count);
+  other = enclose<d>(tiles, {middle, sorted.end()});
+  cluster = enclose<d>(tiles, {sorted.begin(), middle});
+  return true;
+}
+
+/// Clusters of tiles far apart, each in a box of its own.
+template <int d>
+std::vector<Cluster<d>> find_clusters(const std::vector<BoxIndex<d>>& tiles, int width) {
+  std::vector<std::size_t> all(tiles.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::vector<Cluster<d>> clusters{enclose<d>(tiles, std::move(all))};
+  while (clusters.size() < most_bricks) {
+    std::size_t largest = clusters.size();
+    for (std::size_t i = 0; i < clusters.size(); ++i)
+      if (!clusters[i].settled &&
+          (largest == clusters.size() || clusters[i].nodes(width) > clusters[largest].nodes(width)))
+        largest = i;
+    if (largest == clusters.size()) break;
+    Cluster<d> other;
+    if (split<d>(tiles, width, clusters[largest], other)) {
+      clusters.push_back(std::move(other));
+    } else {
+      clusters[largest].settled = true;
+    }
+  }
+  return clusters;
+}
+
+/// The brick around sources whose first nodes lie in low .. high: one node to spare on each side.
+template <int d>
+Brick<d> brick_around(const std::array<std::int64_t, d>& low, const std::array<std::int64_t, d>& high, int width) {
+  Brick<d> brick;
+  for (std::size_t l = 0; l < d; ++l) {
+    const std::size_t span = static_cast<std::size_t>(high[l] - low[l]) + 1;
+    const std::size_t written = l == 0 ? SpreadFilter::padded_window : static_cast<std::size_t>(width);
+    brick.first[l] = low[l] - 1;
+    brick.nodes[l] = span + written + 1;
+    brick.tiles[l] = (span + tile_side<d>(l) - 1) / tile_side<d>(l);
+  }
+  return brick;
+}
+
+}  // namespace
+
+template <int d>
+std::int64_t LatticeFrame<d>::first_node(double x) const {
+  constexpr double shift = 0x1.8p52;  // adding it rounds to an integer
+  return static_cast<std::int64_t>((x / spacing + (0.5 - 0.5 * width) + shift) - shift);
+}
+
+template <int d>
+std::size_t Brick<d>::size() const {
+  std::size_t product = 1;
+  for (const std::size_t n : nodes) product *= n;
+  return product;
+}
+
+template <int d>
+std::size_t Brick<d>::tile_count() const {
+  std::size_t product = 1;
+  for (const std::size_t n : tiles) product *= n;
+  return product;
+}
+
+template <int d>
+std::size_t SpreadLayout<d>::nodes() const {
+  std::size_t sum = 0;
+  for (const auto& brick : bricks) sum += brick.size();
+  return sum;
+}
+
+template <int d>
+std::size_t tile_side(std::size_t axis) {
+  static_assert(SpreadFilter::padded_window == 16, "tiles must be wider than what a source writes, and two to spare");
+  if (d == 1) return 256;
+  return d == 2 || axis == 0 ? 32 : 18;
+}
+
+template <int d>
+std::optional<SpreadLayout<d>> lay_out(const std::vector<double>& position, std::size_t count,
+                                       const std::array<double, d>& low, const std::array<double, d>& extent,
+                                       double spacing, int width) {
+  SpreadLayout<d> layout;
+  LatticeFrame<d>& frame = layout.frame;
+  if (!(spacing > 0x1p-900) || !(spacing < 0x1p900) || count == 0 ||
+      count > std::numeric_limits<std::uint32_t>::max() / 2)
+    return std::nullopt;
+  frame.spacing = spacing;
+  frame.spacing_high = static_cast<double>(static_cast<float>(std::ldexp(spacing, -std::ilogb(spacing))));
+  frame.spacing_high = std::ldexp(frame.spacing_high, std::ilogb(spacing));
+  frame.spacing_low = spacing - frame.spacing_high;
+  frame.width = width;
+  double dense = 1;
+  std::array<std::int64_t, d> first{}, last{};
+  for (std::size_t l = 0; l < d; ++l) {
+    if (!(extent[l] < 0.25 * exact_nodes * spacing)) return std::nullopt;
+    // From the origin while nodes are exact there; else all coordinates are within a factor of two of each other.
+    const double high = low[l] + extent[l];
+    frame.anchor[l] = std::max(std::abs(low[l]), std::abs(high)) < 0.5 * exact_nodes * spacing ? 0 : low[l];
+    if (std::abs(frame.anchor[l]) > 0x1p43 * spacing) return std::nullopt;
+    first[l] = frame.first_node(low[l] - frame.anchor[l]);
+    last[l] = frame.first_node(high - frame.anchor[l]) + 1;
+    dense *= static_cast<double>(last[l] - first[l] + 1 + width);
+  }
+  const double sources = static_cast<double>(count);
+  if (dense <= dense_enough * sources + small_lattice) {
+    layout.bricks.push_back(brick_around<d>(first, last, width));
+    return layout;
+  }
+
+  std::vector<BoxIndex<d>> node(count), index(count);
+  for (std::size_t l = 0; l < d; ++l)
+    for (std::size_t j = 0; j < count; ++j) {
+      node[j][l] = frame.first_node(position[l * count + j] - frame.anchor[l]);
+      index[j][l] = floor_divide(node[j][l], static_cast<std::int64_t>(tile_side<d>(l)));
+    }
+  const std::vector<std::size_t> order = sorted_places<d>(index);
+  std::vector<BoxIndex<d>> tiles;
+  std::vector<std::size_t> tile_of(count);
+  for (const std::size_t j : order) {
+    if (tiles.empty() || tiles.back() != index[j]) tiles.push_back(index[j]);
+    tile_of[j] = tiles.size() - 1;
+  }
+  const std::vector<Cluster<d>> clusters = find_clusters<d>(tiles, width);
+  std::vector<std::uint16_t> cluster_of(tiles.size());
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    for (const std::size_t i : clusters[c].tile) cluster_of[i] = static_cast<std::uint16_t>(c);
+  // Bricks fit their sources tightly.
+  std::vector<BoxIndex<d>> lowest(clusters.size()), highest(clusters.size());
+  std::vector<char> seen(clusters.size(), 0);
+  layout.brick_of.resize(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::size_t c = cluster_of[tile_of[j]];
+    layout.brick_of[j] = static_cast<std::uint16_t>(c);
+    if (!seen[c]) lowest[c] = highest[c] = node[j];
+    seen[c] = 1;
+    for (std::size_t l = 0; l < d; ++l) {
+      lowest[c][l] = std::min(lowest[c][l], node[j][l]);
+      highest[c][l] = std::max(highest[c][l], node[j][l]);
+    }
+  }
+  double nodes = 0;
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    double product = 1;
+    for (std::size_t l = 0; l < d; ++l)
+      product *= static_cast<double>(highest[c][l] - lowest[c][l]) + SpreadFilter::padded_window + 2;
+    nodes += product;
+  }
+  if (nodes > spare_sources * sources * std::pow(width + 2, d) + most_bricks * small_lattice) return std::nullopt;
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    Brick<d> brick = brick_around<d>(lowest[c], highest[c], width);
+    if (c > 0) {
+      brick.first_tile = layout.bricks.back().first_tile + layout.bricks.back().tile_count();
+      brick.offset = layout.bricks.back().offset + layout.bricks.back().size();
+    }
+    layout.bricks.push_back(brick);
+  }
+  return layout;
+}
+
+void sort_into_tiles(const std::vector<std::uint32_t>& tile, std::size_t tiles, int threads,
+                     std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& first) {
+  const std::size_t count = tile.size();
+  const std::size_t piece = std::max<std::size_t>(std::size_t{1} << 16, 4 * tiles);
+  const std::size_t pieces = (count + piece - 1) / piece;
+  std::vector<std::uint32_t> start(std::max<std::size_t>(1, pieces) * tiles, 0);  // [piece][tile]
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+    std::uint32_t* counts = start.data() + i * tiles;
+    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) ++counts[tile[j]];
+  });
+  first.assign(tiles + 1, 0);
+  std::uint32_t sum = 0;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    first[t] = sum;
+    for (std::size_t i = 0; i < pieces; ++i) sum += std::exchange(start[i * tiles + t], sum);
+  }
+  first[tiles] = sum;
+  order.resize(count);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+    std::uint32_t* to = start.data() + i * tiles;
+    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j)
+      order[to[tile[j]]++] = static_cast<std::uint32_t>(j);
+  });
+}
+
+template <int d>
+SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma,
+                        std::vector<double> position, int threads)
+    : filter_(std::move(filter)),
+      layout_(std::move(layout)),
+      sigma_(sigma),
+      threads_(threads),
+      count_(position.size() / d) {
+  constexpr std::size_t piece = 1 << 14;
+  const std::size_t pieces = (count_ + piece - 1) / piece;
+  std::vector<std::uint32_t> tile(count_);
+  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
+    for (std::size_t j = i * piece; j < std::min(count_, (i + 1) * piece); ++j) {
+      const Brick<d>& brick = layout_.bricks[layout_.brick_of.empty() ? 0 : layout_.brick_of[j]];
+      std::size_t number = 0;
+      for (std::size_t l = d; l-- > 0;) {
+        const std::int64_t node = layout_.frame.first_node(position[l * count_ + j] - layout_.frame.anchor[l]);
+        number = number * brick.tiles[l] + static_cast<std::size_t>(node - brick.first[l] - 1) / tile_side<d>(l);
+      }
+      tile[j] = static_cast<std::uint32_t>(brick.first_tile + number);
+    }
+  });
+  const Brick<d>& last = layout_.bricks.back();
+  sort_into_tiles(tile, last.first_tile + last.tile_count(), threads_, order_, tile_first_);
+  position_.resize(position.size());
+  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
+    for (std::size_t l = 0; l < d; ++l)
+      for (std::size_t j = i * piece; j < std::min(count_, (i + 1) * piece); ++j)
+        position_[l * count_ + j] = position[l * count_ + order_[j]] - layout_.frame.anchor[l];
+  });
+  for (std::size_t b = 0; b < layout_.bricks.size(); ++b) {
+    const Brick<d>& brick = layout_.bricks[b];
+    for (std::size_t number = 0; number < brick.tile_count(); ++number) {
+      if (tile_first_[brick.first_tile + number] == tile_first_[brick.first_tile + number + 1]) continue;
+      std::size_t rest = number, colour = 0;
+      for (std::size_t l = 0; l < d; ++l) {
+        colour |= (rest % brick.tiles[l] % 2) << l;
+        rest /= brick.tiles[l];
+      }
+      colour_[colour].push_back({b, brick.first_tile + number});
+    }
+  }
+}
+
+template <int d>
+SpreadJob SpreadSum<d>::job_for(const Brick<d>& brick) const {
+  SpreadJob job{};
+  job.dimension = d;
+  job.width = filter_->width();
+  job.degree = filter_->degree();
+  job.window = filter_->coefficients();
+  job.spacing_high = layout_.frame.spacing_high;
+  job.spacing_low = layout_.frame.spacing_low;
+  job.inverse_spacing = 1 / layout_.frame.spacing;
+  std::size_t stride = 1;
+  for (std::size_t l = 0; l < d; ++l) {
+    job.first[l] = brick.first[l];
+    job.stride[l] = stride;
+    stride *= brick.nodes[l];
+  }
+  job.lattice_stride = brick.size();
+  return job;
+}
+
+template <int d>
+void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
+  columns_ = columns;
+  lattice_.clear();
+  lattice_.resize(columns * layout_.nodes() + SpreadFilter::padded_window, 0.0);
+  std::vector<double> sorted(columns * count_);
+  constexpr std::size_t piece = 1 << 14;
+  gaussdrift::base::parallel_for((count_ + piece - 1) / piece, threads_, [&](std::size_t i) {
+    for (std::size_t k = 0; k < columns; ++k)
+      for (std::size_t j = i * piece; j < std::min(count_, (i + 1) * piece); ++j)
+        sorted[k * count_ + j] = weights[k * count_ + order_[j]];
+  });
+  for (const auto& tiles : colour_)
+    gaussdrift::base::parallel_for(tiles.size(), threads_, [&](std::size_t i) {
+      const Brick<d>& brick = layout_.bricks[tiles[i].brick];
+      SpreadJob job = job_for(brick);
+      job.position = position_.data();
+      job.position_stride = count_;
+      job.begin = tile_first_[tiles[i].number];
+      job.end = tile_first_[tiles[i].number + 1];
+      job.columns = columns;
+      job.weights = sorted.data();
+      job.lattice = lattice_.data() + columns * brick.offset;
+      kernels().spread(job);
+    });
+}
+
+/// Sorted positions and order, the lattice, and while weights are set their sorted copy.
+template <int d>
+double SpreadSum<d>::plan_bytes(std::size_t columns) const {
+  const double tiles = static_cast<double>(tile_first_.size());
+  return static_cast<double>(count_) * (8.0 * static_cast<double>(d + columns) + 6) + 20 * tiles +
+         8.0 * static_cast<double>(columns) * static_cast<double>(layout_.nodes());
+}
+
+#define FGTD_INSTANTIATE(d)                                                                                           \
+  template struct LatticeFrame<d>;                                                                                    \
+  template struct Brick<d>;                                                                                           \
+  template struct SpreadLayout<d>;                                                                                    \
+  template std::size_t tile_side<d>(std::size_t);                                                                     \
+  template std::optional<SpreadLayout<d>> lay_out<d>(const std::vector<double>&, std::size_t,                         \
+                                                     const std::array<double, d>&, const std::array<double, d>&,      \
+                                                     double, int);                                                    \
+  template SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter>, SpreadLayout<d>, double, std::vector<double>, \
+                                   int);                                                                              \
+  template SpreadJob SpreadSum<d>::job_for(const Brick<d>&) const;                                                    \
+  template void SpreadSum<d>::set_weights(const double*, std::size_t);                                                \
+  template double SpreadSum<d>::plan_bytes(std::size_t) const;
+FGTD_INSTANTIATE(1)
+FGTD_INSTANTIATE(2)
+FGTD_INSTANTIATE(3)
+FGTD_INSTANTIATE(4)
+#undef FGTD_INSTANTIATE
+
+}  // namespace fgtd::detail

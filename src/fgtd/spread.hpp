@@ -1,0 +1,148 @@
+// Sums of dense clouds through a lattice tied to the width of the Gaussian (spread_filter.hpp): the weights are spread
+// onto the nodes around each source once; every derivative is then a pass of banded matrices along each axis, straight
+// onto the nodes of a grid, or onto the lattice around scattered targets, from where phi interpolates.
+//   s(y) = sum_k prod_l f(y_l - x_k_l) sum_j lambda_j prod_l phi((x_j - x_k)_l / h)
+// The lattice exists in bricks around the sources: one for a cloud, several for clusters far apart. Sources are sorted
+// into tiles of a brick; tiles of one colour never touch the same node, so colours one after the other are parallel and
+// every node still adds its tiles in the same order.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fgtd/fgtd.hpp"
+#include "fgtd/kernels.hpp"
+#include "fgtd/request.hpp"
+#include "fgtd/spread_filter.hpp"
+#include "fgtd/summation.hpp"
+
+namespace fgtd::detail {
+
+/// The positions k h of the lattice's nodes. Coordinates are taken from an anchor that leaves them exact, and h in two
+/// parts of which the first has so few digits that its multiples are exact.
+template <int d>
+struct LatticeFrame {
+  double spacing = 0;  // h
+  double spacing_high = 0, spacing_low = 0;
+  std::array<double, d> anchor{};
+  int width = 0;  // w
+
+  /// First of the w nodes around x (from the anchor); the kernels may differ from it by one.
+  std::int64_t first_node(double x) const;
+  /// x - k h
+  double from_node(double x, std::int64_t k) const {
+    const double node = static_cast<double>(k);
+    return (x - node * spacing_high) - node * spacing_low;
+  }
+};
+
+/// A dense piece of the lattice and its tiles.
+template <int d>
+struct Brick {
+  std::array<std::int64_t, d> first{};  // node of the corner
+  std::array<std::size_t, d> nodes{};   // along axis 0 with the padding that kernels write zeros to
+  std::array<std::size_t, d> tiles{};
+  std::size_t first_tile = 0;  // number of its first tile among all
+  std::size_t offset = 0;      // of one column of its nodes, among those of all bricks
+
+  std::size_t size() const;
+  std::size_t tile_count() const;
+};
+
+/// Where sources lie.
+template <int d>
+struct SpreadLayout {
+  LatticeFrame<d> frame;
+  std::vector<Brick<d>> bricks;
+  std::vector<std::uint16_t> brick_of;  // of each source; empty if there is one brick
+
+  std::size_t nodes() const;  // of all bricks
+};
+
+/// Nodes a side of a tile; more than the nodes that one source writes.
+template <int d>
+std::size_t tile_side(std::size_t axis);
+
+/// Lays bricks around the points so that little of the lattice is empty; none if coordinates cannot be told apart on it
+/// or if it would be much larger than the points justify. position [d][count].
+template <int d>
+std::optional<SpreadLayout<d>> lay_out(const std::vector<double>& position, std::size_t count,
+                                       const std::array<double, d>& low, const std::array<double, d>& extent,
+                                       double spacing, int width);
+
+template <int d>
+class SpreadSum : public Summation<d> {
+ public:
+  /// position [d][count]
+  SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma,
+            std::vector<double> position, int threads);
+
+  void set_weights(const double* weights, std::size_t columns) override;
+  void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;
+  void evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const override;
+
+  double plan_bytes(std::size_t columns) const override;
+  double point_bytes(const Request<d>& request, std::size_t count) const override;
+  double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
+  std::size_t boxes() const override { return layout_.bricks.size(); }
+
+ private:
+  struct Tile {
+    std::size_t brick, number;
+  };
+  SpreadJob job_for(const Brick<d>& brick) const;
+
+  std::shared_ptr<const SpreadFilter> filter_;
+  SpreadLayout<d> layout_;
+  double sigma_;
+  int threads_;
+  std::size_t count_ = 0;
+  std::vector<double> position_;           // [d][count] from the anchor, sorted by tile
+  std::vector<std::uint32_t> order_;       // sorted source j is the caller's order_[j]
+  std::vector<std::uint32_t> tile_first_;  // sources of a tile
+  std::array<std::vector<Tile>, std::size_t{1} << d> colour_;
+  std::size_t columns_ = 0;
+  std::vector<double> lattice_;  // bricks one after the other: [columns][brick.size()], then padding
+};
+
+/// The filter of all bricks onto a grid: values[(q columns + k) nodes + i], overwritten. `node_of` empty: the grid's
+/// nodes are coordinates; else: lattice nodes [axis][i], as of one brick alone.
+template <int d>
+struct FilterTargets {
+  std::array<std::vector<double>, d> coordinate;  // from the anchor, ascending
+  std::array<std::vector<std::int64_t>, d> node;  // ascending
+  bool on_lattice = false;
+
+  std::size_t size(std::size_t axis) const { return on_lattice ? node[axis].size() : coordinate[axis].size(); }
+};
+
+template <int d>
+struct FilterJob {
+  const SpreadFilter& filter;
+  const LatticeFrame<d>& frame;
+  double sigma;
+  const Request<d>& request;
+  std::size_t columns;
+  std::vector<const Brick<d>*> bricks;
+  std::vector<const double*> lattice;  // of each brick, [columns][brick.size()]
+  int threads;
+};
+
+/// row_stride: numbers from row to row (along axis 1) of the result; its other axes are without gaps.
+template <int d>
+void apply_filter(const FilterJob<d>& job, const FilterTargets<d>& targets, std::size_t row_stride,
+                  std::size_t output_stride, double* values);
+
+/// Bytes that apply_filter() holds beside its result.
+template <int d>
+double filter_bytes(const FilterJob<d>& job, const std::array<double, d>& sizes, bool on_lattice);
+
+/// Sorts points into tiles by a stable counting sort over fixed pieces: order[new place] = old place, first[tile].
+void sort_into_tiles(const std::vector<std::uint32_t>& tile, std::size_t tiles, int threads,
+                     std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& first);
+
+}  // namespace fgtd::detail

@@ -1,0 +1,153 @@
+// Scattered targets of `spread`: the filter from the lattice around the sources to the lattice around the targets, and
+// phi from there to each target. Targets that a brick does not reach are left out; they add exactly nothing.
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "fgtd/spread.hpp"
+
+namespace fgtd::detail {
+namespace {
+
+constexpr std::size_t piece = 4096;  // targets at a time
+
+/// The targets near one brick: sorted by tile, from the anchor, and the lattice around them.
+template <int d>
+struct NearTargets {
+  std::vector<std::uint32_t> index;  // the caller's numbers, sorted
+  std::vector<double> position;      // [d][index.size()]
+  Brick<d> brick;
+};
+
+template <int d>
+NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, int reach, const double* targets,
+                         std::size_t count, int threads) {
+  NearTargets<d> near;
+  std::vector<std::uint32_t> index;
+  std::array<std::int64_t, d> low{}, high{};
+  std::array<double, d> from, to;  // first nodes within reach
+  for (std::size_t l = 0; l < d; ++l) {
+    const double first = static_cast<double>(source.first[l]), nodes = static_cast<double>(source.nodes[l]);
+    from[l] = (first - reach - frame.width) * frame.spacing;
+    to[l] = (first + nodes + reach + frame.width) * frame.spacing;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    bool inside = true;
+    std::array<std::int64_t, d> node{};
+    for (std::size_t l = 0; l < d; ++l) {
+      const double y = targets[i * d + l] - frame.anchor[l];
+      inside = inside && from[l] <= y && y <= to[l];
+      if (inside) node[l] = frame.first_node(y);
+    }
+    if (!inside) continue;
+    if (index.empty()) low = high = node;
+    for (std::size_t l = 0; l < d; ++l) {
+      low[l] = std::min(low[l], node[l]);
+      high[l] = std::max(high[l], node[l]);
+    }
+    index.push_back(static_cast<std::uint32_t>(i));
+  }
+  if (index.empty()) return near;
+  Brick<d>& brick = near.brick;
+  std::vector<std::uint32_t> tile(index.size(), 0);
+  for (std::size_t l = d; l-- > 0;) {
+    const std::size_t span = static_cast<std::size_t>(high[l] - low[l]) + 1;
+    brick.first[l] = low[l] - 1;
+    brick.nodes[l] = span + (l == 0 ? SpreadFilter::padded_window : static_cast<std::size_t>(frame.width)) + 1;
+    brick.tiles[l] = (span + tile_side<d>(l) - 1) / tile_side<d>(l);
+    for (std::size_t j = 0; j < index.size(); ++j) {
+      const std::int64_t node = frame.first_node(targets[index[j] * d + l] - frame.anchor[l]);
+      tile[j] = static_cast<std::uint32_t>(tile[j] * brick.tiles[l] +
+                                           static_cast<std::size_t>(node - low[l]) / tile_side<d>(l));
+    }
+  }
+  std::vector<std::uint32_t> order, tile_first;
+  sort_into_tiles(tile, brick.tile_count(), threads, order, tile_first);
+  near.index.resize(index.size());
+  near.position.resize(d * index.size());
+  for (std::size_t j = 0; j < index.size(); ++j) {
+    near.index[j] = index[order[j]];
+    for (std::size_t l = 0; l < d; ++l)
+      near.position[l * index.size() + j] = targets[near.index[j] * d + l] - frame.anchor[l];
+  }
+  return near;
+}
+
+}  // namespace
+
+template <int d>
+void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const {
+  const std::size_t outputs = request.combinations.size() * columns_;
+  std::fill(values, values + outputs * count, 0.0);
+  if (outputs == 0 || count == 0) return;
+  for (const auto& brick : layout_.bricks) {
+    const NearTargets<d> near = find_near<d>(layout_.frame, brick, filter_->lattice_reach(), targets, count, threads_);
+    const std::size_t near_count = near.index.size();
+    if (near_count == 0) continue;
+
+    const FilterJob<d> job{
+        *filter_, layout_.frame, sigma_, request, columns_, {&brick}, {lattice_.data() + columns_ * brick.offset},
+        threads_};
+    FilterTargets<d> nodes;
+    nodes.on_lattice = true;
+    for (std::size_t l = 0; l < d; ++l) {
+      // the padding of axis 0 stays zero
+      const std::size_t used =
+          near.brick.nodes[l] - (l == 0 ? SpreadFilter::padded_window - static_cast<std::size_t>(filter_->width()) : 0);
+      for (std::size_t i = 0; i < used; ++i)
+        nodes.node[l].push_back(near.brick.first[l] + static_cast<std::int64_t>(i));
+    }
+    const std::size_t size = near.brick.size();
+    std::vector<double> lattice(outputs * size + SpreadFilter::padded_window);
+    apply_filter<d>(job, nodes, near.brick.nodes[0], size, lattice.data());
+
+    gaussdrift::base::parallel_for((near_count + piece - 1) / piece, threads_, [&](std::size_t i) {
+      SpreadJob gather = job_for(near.brick);
+      gather.position = near.position.data();
+      gather.position_stride = near_count;
+      gather.begin = i * piece;
+      gather.end = std::min(near_count, (i + 1) * piece);
+      gather.columns = outputs;
+      gather.lattice = lattice.data();
+      std::vector<double> out(outputs * piece);
+      gather.out = out.data();
+      gather.out_stride = piece;
+      kernels().spread(gather);
+      for (std::size_t output = 0; output < outputs; ++output)
+        for (std::size_t j = gather.begin; j < gather.end; ++j)
+          values[output * count + near.index[j]] += out[output * piece + j - gather.begin];
+    });
+  }
+}
+
+/// The lattice around the targets is no larger than what the brick reaches.
+template <int d>
+double SpreadSum<d>::point_bytes(const Request<d>& request, std::size_t count) const {
+  const double outputs = static_cast<double>(request.combinations.size() * columns_);
+  double largest = 0;
+  for (const auto& brick : layout_.bricks) {
+    double nodes = 1;
+    std::array<double, d> sizes;
+    for (std::size_t l = 0; l < d; ++l) {
+      sizes[l] = static_cast<double>(brick.nodes[l]) + 2 * (filter_->lattice_reach() + filter_->width()) +
+                 SpreadFilter::padded_window + 2;
+      nodes *= sizes[l];
+    }
+    const FilterJob<d> job{*filter_, layout_.frame, sigma_, request, columns_, {&brick}, {nullptr}, threads_};
+    largest = std::max(largest, 8 * outputs * nodes + filter_bytes<d>(job, sizes, true));
+  }
+  return largest + static_cast<double>(count) * (8 * d + 16) +
+         8 * outputs * static_cast<double>(piece) * gaussdrift::base::resolve_threads(threads_);
+}
+
+#define FGTD_INSTANTIATE(d)                                                                           \
+  template void SpreadSum<d>::evaluate(const Request<d>&, const double*, std::size_t, double*) const; \
+  template double SpreadSum<d>::point_bytes(const Request<d>&, std::size_t) const;                    \
+  template class SpreadSum<d>;
+FGTD_INSTANTIATE(1)
+FGTD_INSTANTIATE(2)
+FGTD_INSTANTIATE(3)
+FGTD_INSTANTIATE(4)
+#undef FGTD_INSTANTIATE
+
+}  // namespace fgtd::detail

@@ -1,0 +1,20 @@
+// The tables of reproduce_fgtd(), one function for those that are measured together.
+#pragma once
+
+#include <vector>
+
+#include "study/reproduce_fgtd.hpp"
+
+namespace gaussdrift::study {
+
+std::vector<Table> analytic_tables();                                // 3.2, 3.3
+std::vector<Table> parameter_tables();                               // 3.4, 3.5
+std::vector<Table> point_number_tables(const FgtdOptions& options);  // 4.1, 4.2
+std::vector<Table> preparation_table(const FgtdOptions& options);    // 4.3
+std::vector<Table> break_even_table(const FgtdOptions& options);     // 4.4
+std::vector<Table> dimension_table(const FgtdOptions& options);      // 4.5
+std::vector<Table> width_table(const FgtdOptions& options);          // 4.6
+std::vector<Table> spacing_table(const FgtdOptions& options);        // 4.7
+std::vector<Table> point_set_table(const FgtdOptions& options);      // 4.8
+
+}  // namespace gaussdrift::study

@@ -1,0 +1,103 @@
+# Uses fgtd as a stranger would, and runs what was built:
+#   MODE=package   installs the built tree into a scratch prefix, moves that prefix, configures tests/install/consumer against it
+#   MODE=refuse    the same with the consumer alone compiled for AVX: must not link
+#   MODE=folder    the consumer adds the source folder with add_subdirectory
+#   MODE=page      the two blocks of code in docs/fgtd.md, "Using it in your project", against an installed copy
+#   MODE=program   installs the program and asks it for its version
+# Usage: cmake -D MODE=... -D SOURCE=<source folder> -D BUILD=<build folder> -D SCRATCH=<folder> -D CONFIG=<build type>
+#              -D GENERATOR=... -D COMPILER=... -D FLAGS=... -P run.cmake
+cmake_policy(VERSION 3.25)
+
+function(call)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said COMMAND_ECHO STDOUT)
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "exit code ${code}:\n${said}")
+  endif()
+  set(said "${said}" PARENT_SCOPE)
+endfunction()
+
+function(configure project)
+  call(${CMAKE_COMMAND} -S ${project} -B ${SCRATCH}/build -G ${GENERATOR} -D CMAKE_BUILD_TYPE=${CONFIG}
+    -D CMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" ${ARGN})
+endfunction()
+
+function(configure_and_build project)
+  configure(${project} ${ARGN})
+  call(${CMAKE_COMMAND} --build ${SCRATCH}/build --config ${CONFIG})
+endfunction()
+
+# The installed copy has to work wherever it is, so it is moved before it is used.
+function(install_fgtd)
+  call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --component fgtd --prefix ${SCRATCH}/first)
+  file(RENAME ${SCRATCH}/first ${SCRATCH}/prefix)
+  file(GLOB_RECURSE files ${SCRATCH}/prefix/*.cmake)
+  foreach(file ${files})
+    file(READ ${file} text)
+    foreach(folder ${SOURCE} ${BUILD})
+      string(FIND "${text}" "${folder}" at)
+      if(NOT at EQUAL -1)
+        message(FATAL_ERROR "${file} names ${folder}, which the user of the package does not have")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+# The first block of that language after the heading, without its fences.
+function(extract_block page heading language result)
+  file(READ ${page} text)
+  string(FIND "${text}" "\n${heading}\n" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "${page} has no section \"${heading}\"")
+  endif()
+  string(SUBSTRING "${text}" ${at} -1 text)
+  string(FIND "${text}" "\n```${language}\n" begin)
+  if(begin EQUAL -1)
+    message(FATAL_ERROR "${page} has no block of ${language} after \"${heading}\"")
+  endif()
+  string(LENGTH "\n```${language}\n" fence)
+  math(EXPR begin "${begin} + ${fence}")
+  string(SUBSTRING "${text}" ${begin} -1 text)
+  string(FIND "${text}" "\n```" end)
+  string(SUBSTRING "${text}" 0 ${end} text)
+  set(${result} "${text}\n" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
+
+if(MODE STREQUAL "program")
+  call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${SCRATCH}/prefix)
+  call(${SCRATCH}/prefix/bin/gaussdrift --version)
+elseif(MODE STREQUAL "folder")
+  configure_and_build(${consumer} -D FGTD_FOLDER=${SOURCE} -D GAUSSDRIFT_BUILD_SIMULATOR=OFF)
+  call(${SCRATCH}/build/consumer)
+elseif(MODE STREQUAL "package")
+  install_fgtd()
+  configure_and_build(${consumer} -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+  call(${SCRATCH}/build/consumer)
+elseif(MODE STREQUAL "refuse")
+  install_fgtd()
+  string(APPEND FLAGS " -mavx")
+  configure(${consumer} -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${SCRATCH}/build --config ${CONFIG}
+    RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(code EQUAL 0 OR NOT said MATCHES "undefined reference to .*compile_with_the_same_march_and_sanitizer_flags_as_fgtd")
+    message(FATAL_ERROR "a program compiled for other processors than the library should not link; exit code ${code}:\n${said}")
+  endif()
+  set(said "refused, as it should be")
+elseif(MODE STREQUAL "page")
+  install_fgtd()
+  extract_block(${SOURCE}/docs/fgtd.md "## Interface" cpp program)
+  extract_block(${SOURCE}/docs/fgtd.md "## Using it in your project" cmake lists)
+  file(WRITE ${SCRATCH}/page/main.cpp "${program}")
+  file(WRITE ${SCRATCH}/page/CMakeLists.txt "${lists}")
+  configure_and_build(${SCRATCH}/page -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+  call(${SCRATCH}/build/my_program)
+  if(NOT said MATCHES "5000 sources, 40000 targets, tolerance 1e-08")
+    message(FATAL_ERROR "the program of the page says:\n${said}")
+  endif()
+else()
+  message(FATAL_ERROR "MODE=${MODE} is unknown")
+endif()
+message(STATUS "${said}")

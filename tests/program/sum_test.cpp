@@ -1,0 +1,342 @@
+// gaussdrift sum: right values in the promised layout, and every wrong call refused with its exit code.
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "program/program.hpp"
+
+namespace gaussdrift {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+struct Table {
+  std::string header;
+  Rows rows;
+};
+
+Table table_of(const std::string& text) {
+  Table table;
+  std::istringstream lines(text);
+  std::getline(lines, table.header);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    table.rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) table.rows.back().push_back(std::stod(cell));
+  }
+  return table;
+}
+
+/// Points that fill the unit cube without a pattern; the last column is the weight, of both signs.
+Rows points(int count, int columns) {
+  Rows rows(count, std::vector<double>(columns));
+  std::uint64_t state = 12345;
+  for (auto& row : rows)
+    for (double& entry : row) {
+      state = state * 6364136223846793005u + 1442695040888963407u;
+      entry = static_cast<double>(state >> 11) * 0x1p-53;
+    }
+  return rows;
+}
+
+std::string csv(const std::string& header, const Rows& rows) {
+  std::string text = header + "\n";
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      char buffer[32];
+      text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, row[k]).ptr);
+      text += k + 1 < row.size() ? "," : "\n";
+    }
+  return text;
+}
+
+/// d^n/dx^n exp(-sigma x^2) = (-1)^n sigma^(n/2) H_n(sqrt(sigma) x) exp(-sigma x^2),  H_{n+1}(t) = 2 t H_n - 2 n H_{n-1}
+double gaussian(double x, double sigma, int n) {
+  const double t = std::sqrt(sigma) * x;
+  double before = 0, now = 1;
+  for (int k = 0; k < n; ++k) before = std::exchange(now, 2 * t * now - 2 * k * before);
+  return (n % 2 ? -1 : 1) * std::pow(sigma, 0.5 * n) * now * std::exp(-sigma * x * x);
+}
+
+double exact(const Rows& sources, const std::vector<double>& target, double sigma, const std::vector<int>& alpha) {
+  double sum = 0;
+  for (const auto& source : sources) {
+    double term = source.back();
+    for (std::size_t k = 0; k < alpha.size(); ++k) term *= gaussian(target[k] - source[k], sigma, alpha[k]);
+    sum += term;
+  }
+  return sum;
+}
+
+/// N_alpha = sigma^(|alpha|/2) sqrt(2^|alpha| alpha!), the scale that a tolerance is relative to.
+double scale(double sigma, const std::vector<int>& alpha) {
+  double square = 1;
+  for (const int n : alpha)
+    for (int k = 1; k <= n; ++k) square *= 2 * sigma * k;
+  return std::sqrt(square);
+}
+
+double weight_total(const Rows& sources) {
+  double total = 0;
+  for (const auto& source : sources) total += std::abs(source.back());
+  return total;
+}
+
+const std::vector<std::string> headers{"", "x,weight", "x,y,weight", "x,y,z,weight", "x,y,z,w,weight"};
+const std::vector<std::string> target_headers{"", "x", "x,y", "x,y,z", "x,y,z,w"};
+
+TEST(Sum, MatchesTheFormulaInOneToFourDimensions) {
+  const ScratchFolder folder;
+  for (int d = 1; d <= 4; ++d) {
+    const Rows sources = points(60, d + 1), targets = points(25, d);
+    write_file(folder / "S.csv", csv(headers[d], sources));
+    write_file(folder / "T.csv", csv(target_headers[d], targets));
+    std::vector<int> mixed(d, 0);
+    mixed.front() = 2, mixed.back() += 1;
+    std::string list = std::to_string(mixed[0]), plain = "0";
+    for (int k = 1; k < d; ++k) list.append(",").append(std::to_string(mixed[k])), plain.append(",0");
+    const double sigma = 3;
+    const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --targets T.csv --sigma 3 --tolerance 1e-9 --derivative " +
+                                                  list + " --derivative " + plain);
+    ASSERT_EQ(sum.exit_code, 0) << sum.err;
+    const Table table = table_of(sum.out);
+    ASSERT_EQ(table.rows.size(), targets.size());
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      ASSERT_EQ(table.rows[i].size(), 2u);
+      const double allowed = 1e-9 * weight_total(sources);  // the promise summed over all terms
+      EXPECT_NEAR(table.rows[i][0], exact(sources, targets[i], sigma, mixed), allowed * scale(sigma, mixed)) << d;
+      EXPECT_NEAR(table.rows[i][1], exact(sources, targets[i], sigma, std::vector<int>(d, 0)), allowed) << d;
+    }
+  }
+}
+
+TEST(Sum, NamesColumnsByDerivativeAndKeepsTheirOrder) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", csv(headers[3], points(5, 4)));
+  EXPECT_EQ(table_of(gaussdrift_in(folder, "sum --sources S.csv --sigma 2").out).header, "d_0_0_0");
+  EXPECT_EQ(table_of(gaussdrift_in(folder, "sum --sources S.csv --sigma 2 --derivative 0,1,2 --derivative=10,0,0 --derivative 0,0,0").out).header,
+            "d_0_1_2,d_10_0_0,d_0_0_0");
+}
+
+TEST(Sum, TakesTheSourcesAsTargets) {
+  const ScratchFolder folder;
+  const Rows sources = points(40, 3);
+  write_file(folder / "S.csv", csv("weight,x,y", {{2, 0.25, 0.5}, {-1, 0.75, 0.5}}));
+  const Outcome two = gaussdrift_in(folder, "sum --sources S.csv --sigma 4 --method direct");
+  ASSERT_EQ(two.exit_code, 0) << two.err;
+  const Table table = table_of(two.out);
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_NEAR(table.rows[0][0], 2 - std::exp(-1), 1e-15);      // distance 1/2, each source counts for itself: rounding
+  EXPECT_NEAR(table.rows[1][0], -1 + 2 * std::exp(-1), 1e-15);
+}
+
+TEST(Sum, RunsAlongTheFirstAxisOfAGridFastest) {
+  const ScratchFolder folder;
+  const Rows sources = points(30, 3);
+  write_file(folder / "S.csv", csv(headers[2], sources));
+  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --grid=-1:1:5,0:3:4 --sigma 2 --derivative 1,0 --tolerance 1e-11");
+  ASSERT_EQ(sum.exit_code, 0) << sum.err;
+  const Table table = table_of(sum.out);
+  ASSERT_EQ(table.rows.size(), 20u);
+  for (int j = 0, row = 0; j < 4; ++j)
+    for (int i = 0; i < 5; ++i, ++row)
+      EXPECT_NEAR(table.rows[row][0], exact(sources, {-1 + 0.5 * i, 1.0 * j}, 2, {1, 0}),
+                  1e-11 * weight_total(sources) * scale(2, {1, 0}));  // the promise
+  const Outcome single = gaussdrift_in(folder, "sum --sources S.csv --grid=1:1:1,0:3:4 --sigma 2");
+  ASSERT_EQ(single.exit_code, 0) << single.err;
+  EXPECT_EQ(table_of(single.out).rows.size(), 4u);
+}
+
+TEST(Sum, KeepsThePromiseWithEveryMethod) {
+  const ScratchFolder folder;
+  const Rows sources = points(300, 3);
+  write_file(folder / "S.csv", csv(headers[2], sources));
+  const Outcome unknown = gaussdrift_in(folder, "sum --sources S.csv --sigma 30 --method none");
+  ASSERT_EQ(unknown.exit_code, 2);
+  std::istringstream names(unknown.err.substr(unknown.err.find("there are ") + 10));  // the list of all methods
+  int methods = 0;
+  for (std::string name; names >> name; ++methods) {
+    if (name.back() == ',') name.pop_back();
+    const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 30 --tolerance 1e-8 --derivative 1,1 --out V.csv --json --method " + name);
+    ASSERT_EQ(sum.exit_code, 0) << name << sum.err;
+    EXPECT_EQ(nlohmann::json::parse(sum.out)["method_asked"], name);
+    const Table table = table_of(read_file(folder / "V.csv"));
+    ASSERT_EQ(table.rows.size(), sources.size());
+    for (std::size_t i = 0; i < sources.size(); ++i)
+      EXPECT_NEAR(table.rows[i][0], exact(sources, sources[i], 30, {1, 1}),
+                  1e-8 * weight_total(sources) * scale(30, {1, 1})) << name;  // the promise
+  }
+  EXPECT_GE(methods, 3);  // auto, direct, hermite
+}
+
+TEST(Sum, WritesTheSameBytesOnAnyNumberOfThreads) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", csv(headers[3], points(2000, 4)));
+  const std::string call = "sum --sources S.csv --sigma 20 --derivative 0,1,0 --threads ";
+  const Outcome one = gaussdrift_in(folder, call + "1"), three = gaussdrift_in(folder, call + "3");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(one.out, three.out);
+  EXPECT_EQ(one.err, "");
+}
+
+TEST(Sum, WritesNumbersThatReadBackAsTheSameDouble) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "x,weight\n0,0.1\n");
+  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 1 --method direct");
+  EXPECT_EQ(sum.out, "d_0\n0.10000000000000001\n");
+}
+
+TEST(Sum, TellsWhatWasChosenAsJson) {
+  const ScratchFolder folder;
+  const Rows sources = points(500, 3);
+  write_file(folder / "S.csv", csv(headers[2], sources));
+  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --grid=0:1:40,0:1:30 --sigma 100 --derivative 2,0 --method hermite --tolerance 1e-7 --threads 1 --out V.csv --json");
+  ASSERT_EQ(sum.exit_code, 0) << sum.err;
+  EXPECT_EQ(sum.err, "");
+  const auto json = nlohmann::json::parse(sum.out);
+  EXPECT_EQ(json["kernel"], "gauss");
+  EXPECT_EQ(json["dimension"], 2);
+  EXPECT_EQ(json["sources"], 500);
+  EXPECT_EQ(json["targets"], 1200);
+  EXPECT_EQ(json["columns"], nlohmann::json::array({"d_2_0"}));
+  EXPECT_EQ(json["method"], "hermite");
+  EXPECT_EQ(json["tolerance"], 1e-7);
+  EXPECT_EQ(json["threads"], 1);
+  EXPECT_GE(json["parameters"]["expansion_order"].get<int>(), 1);
+  EXPECT_LE(json["bound"].get<double>(), 1e-7 * (1 + 1e-9));  // rounding of the bound itself
+  const double total = weight_total(sources);
+  EXPECT_NEAR(json["Q"].get<double>(), total, 1e-12 * total);  // rounding of 500 terms
+  EXPECT_LE(json["error_bounds"]["d_2_0"].get<double>(), (1e-7 + 3e-14) * total * scale(100, {2, 0}) * (1 + 1e-9));
+  for (const char* stage : {"read", "prepare", "evaluate", "write"}) EXPECT_GE(json["seconds"][stage].get<double>(), 0) << stage;
+  EXPECT_EQ(table_of(read_file(folder / "V.csv")).rows.size(), 1200u);
+}
+
+TEST(Sum, ReplacesAnEarlierResultAndLeavesNothingBeside) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "x,weight\n0,1\n");
+  write_file(folder / "V.csv", "an earlier result\n");
+  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 1 --out V.csv");
+  ASSERT_EQ(sum.exit_code, 0) << sum.err;
+  EXPECT_EQ(table_of(read_file(folder / "V.csv")).header, "d_0");
+  EXPECT_FALSE(fs::exists(folder / "V.csv.part"));
+  EXPECT_NE(sum.out.find("V.csv"), std::string::npos) << sum.out;
+}
+
+TEST(Sum, WritesIntoPipesAndDevicesWithoutReplacingThem) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "x,weight\n0,1\n");
+  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 1 --out pipe >said & cat pipe; wait", "mkfifo pipe;");
+  ASSERT_EQ(sum.exit_code, 0) << sum.err;
+  EXPECT_EQ(sum.out, "d_0\n1\n");
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+}
+
+TEST(Sum, RefusesAWrongCommandLine) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", csv(headers[2], points(10, 3)));
+  write_file(folder / "T.csv", csv(target_headers[2], points(10, 2)));
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"--sigma 2", "--sources"},
+      {"--sources S.csv", "--sigma"},
+      {"--sources S.csv --sigma 0", "--sigma 0: must be positive"},
+      {"--sources S.csv --sigma nan", "--sigma nan: must be positive"},
+      {"--sources S.csv --sigma two", "--sigma"},
+      {"--sources S.csv --sigma 2 --kernel coulomb", "there is gauss"},
+      {"--sources S.csv --sigma 2 --kernel log", "there is gauss"},
+      {"--sources S.csv --sigma 2 --method hermit", "is \"hermite\" meant?"},
+      {"--sources S.csv --sigma 2 --tolerance 1", "--tolerance 1: must lie in"},
+      {"--sources S.csv --sigma 2 --tolerance -1e-3", "--tolerance -0.001: must lie in"},
+      {"--sources S.csv --sigma 2 --threads 0", "--threads"},
+      {"--sources S.csv --sigma 2 --derivative 0,1,2", "--derivative 0,1,2 has 3 numbers, but the sources have 2 (x, y)"},
+      {"--sources S.csv --sigma 2 --derivative 1", "--derivative 1 has 1 number, but"},
+      {"--sources S.csv --sigma 2 --derivative=-1,0", "\"-1\" in \"-1,0\" is not an order"},
+      {"--sources S.csv --sigma 2 --derivative 1,,0", "\"\" in \"1,,0\" is not an order"},
+      {"--sources S.csv --sigma 2 --derivative 1.5,0", "\"1.5\" in \"1.5,0\" is not an order"},
+      {"--sources S.csv --sigma 2 --derivative 1,0 --derivative 0,0 --derivative 1,0", "--derivative 1,0 is there twice"},
+      {"--sources S.csv --sigma 2 --derivative 2000000000,2000000000", "must lie in 0 .. 16"},
+      {"--sources S.csv --sigma 1e300 --derivative 8,8", "fgtd: "},
+      {"--sources S.csv --sigma 2 --grid=0:1:3", "--grid has 1 axis, but"},
+      {"--sources S.csv --sigma 2 --grid=0:1:3,0:1", "\"0:1\" is not an axis"},
+      {"--sources S.csv --sigma 2 --grid=0:1:3,0:1:0", "\"0:1:0\" has no positive count"},
+      {"--sources S.csv --sigma 2 --grid=0:1:3,0:1:-2", "has no positive count"},
+      {"--sources S.csv --sigma 2 --grid=0:1:3,1:0:2", "\"1:0:2\" does not ascend"},
+      {"--sources S.csv --sigma 2 --grid=0:1:3,0:1:1", "has one node between two ends"},
+      {"--sources S.csv --sigma 2 --grid=0:inf:3,0:1:2", "\"0:inf:3\" is not finite"},
+      {"--sources S.csv --sigma 2 --grid=-1e308:1e308:3,0:1:2", "is not finite"},
+      {"--sources S.csv --sigma 2 --grid=1:1.0000000000000002:10,0:1:2", "cannot be told apart"},
+      {"--sources S.csv --sigma 2 --grid=0:1:2,0:1:2 --targets T.csv", "--grid"},
+      {"--sources S.csv --sigma 2 --json", "add --out FILE"},
+      {"--sources S.csv --sigma 2 --json --out -", "add --out FILE"},
+      {"--sources S.csv --sigma 2 --out S.csv", "would replace a table"},
+      {"--sources S.csv --targets T.csv --sigma 2 --out ./T.csv", "would replace a table"},
+      {"--sources S.csv --sigma 2 --bandwidth 2", "--bandwidth"}};
+  for (const auto& [arguments, said] : wrong) {
+    const Outcome refused = gaussdrift_in(folder, "sum " + arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments << "\n" << refused.err;
+    EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;
+    EXPECT_NE(refused.err.find(said), std::string::npos) << arguments << "\n" << refused.err;
+    EXPECT_EQ(refused.out, "") << arguments;
+  }
+}
+
+TEST(Sum, RefusesWrongTablesAndWritesNothing) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "x,y,weight\n0,0,1\n1,1,1\n");
+  write_file(folder / "bad.csv", "x,y,weight\n0,0,1\n0,nan,1\n");
+  write_file(folder / "plain.csv", "x,y\n0,0\n");
+  write_file(folder / "empty.csv", "");
+  write_file(folder / "swapped.csv", "y,x\n0,0\n");
+  write_file(folder / "line.csv", "x\n0\n");
+  write_file(folder / "ragged.csv", "x,y\n0,0\n1\n");
+  write_file(folder / "words.csv", "x,y\n0,0\n1,zwei\n");
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"--sources bad.csv", "bad.csv:3:3: nan is not finite in column \"y\""},
+      {"--sources plain.csv", "plain.csv:1:1: there is no column \"weight\""},
+      {"--sources empty.csv", "empty.csv is empty"},
+      {"--sources S.csv --targets bad.csv", "bad.csv:1:5: targets have coordinates only"},
+      {"--sources S.csv --targets ragged.csv", "ragged.csv:3:2: 1 value where the header names 2 columns"},
+      {"--sources S.csv --targets words.csv", "words.csv:3:3: \"zwei\" is not a number in column \"y\""},
+      {"--sources S.csv --targets line.csv", "targets have 1 coordinates (x), sources have 2 (x, y)"},
+      {"--sources S.csv --targets swapped.csv", "in the order y, x, those of the sources in the order x, y"},
+      {"--sources S.csv --tolerance 1e-15", "cannot be promised"},
+      {"--sources S.csv --grid=0:1:100000,0:1:100000", "1e+10 targets with 1 value would take 80 GB"},
+      {"--sources S.csv --grid=0:1:18446744073709551615,0:1:18446744073709551615", "would take"}};
+  for (const auto& [arguments, said] : wrong) {
+    const Outcome refused = gaussdrift_in(folder, "sum --sigma 2 --out V.csv " + arguments);
+    EXPECT_EQ(refused.exit_code, 3) << arguments << "\n" << refused.err;
+    EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;
+    EXPECT_NE(refused.err.find(said), std::string::npos) << arguments << "\n" << refused.err;
+    EXPECT_EQ(refused.out, "") << arguments;
+    EXPECT_FALSE(fs::exists(folder / "V.csv")) << arguments;
+    EXPECT_FALSE(fs::exists(folder / "V.csv.part")) << arguments;
+  }
+}
+
+TEST(Sum, ExitsWith4WhereASumIsNotFinite) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "x,weight\n0,1e308\n0,1e308\n");
+  const Outcome refused = gaussdrift_in(folder, "sum --sources S.csv --sigma 1 --out V.csv");
+  EXPECT_EQ(refused.exit_code, 4) << refused.err;
+  EXPECT_NE(refused.err.find("d_0 at target 1"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "V.csv"));
+}
+
+TEST(Sum, ExitsWith6WhereFilesFail) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "x,weight\n0,1\n");
+  write_file(folder / "file", "");
+  fs::create_directory(folder / "folder");
+  for (const char* arguments : {"--sources none.csv", "--sources folder", "--sources S.csv --targets none.csv", "--sources S.csv --out folder",
+                                "--sources S.csv --out file/V.csv", "--sources S.csv --out /dev/full", "--sources S.csv >/dev/full"}) {
+    const Outcome refused = gaussdrift_in(folder, std::string("sum --sigma 2 ") + arguments);
+    EXPECT_EQ(refused.exit_code, 6) << arguments << "\n" << refused.err;
+    EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;
+  }
+}
+
+}  // namespace
+}  // namespace gaussdrift
