@@ -56,20 +56,22 @@ std::vector<fgtd::Combination<3>> value_and_gradient() {
   return {{{{0, 0, 0}, 1.0}}, {{{1, 0, 0}, 1.0}}, {{{0, 1, 0}, 1.0}}, {{{0, 0, 1}, 1.0}}};
 }
 
-#define FGTD_BENCHMARK(d, name, ...) \
-  BENCHMARK_CAPTURE(scattered<d>, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()
-FGTD_BENCHMARK(3, 1e6_sigma_2_tolerance_1e3, 1000000, 2.0, 1e-3, 1, derivative<3>({}));
-FGTD_BENCHMARK(3, 1e6_sigma_2_tolerance_1e7, 1000000, 2.0, 1e-7, 1, derivative<3>({}));
-FGTD_BENCHMARK(3, 1e6_sigma_2_tolerance_1e12, 1000000, 2.0, 1e-12, 1, derivative<3>({}));
-FGTD_BENCHMARK(3, 1e6_sigma_2_tolerance_1e7_derivative_012, 1000000, 2.0, 1e-7, 1, derivative<3>({0, 1, 2}));
-FGTD_BENCHMARK(3, 1e6_sigma_2_tolerance_1e6, 1000000, 2.0, 1e-6, 1, derivative<3>({}));
-FGTD_BENCHMARK(3, 1e6_sigma_2_tolerance_1e6_value_and_gradient, 1000000, 2.0, 1e-6, 1, value_and_gradient());
-FGTD_BENCHMARK(3, 1e6_sigma_2_tolerance_1e7_two_threads, 1000000, 2.0, 1e-7, 2, derivative<3>({}))->UseRealTime();
-FGTD_BENCHMARK(3, 1e4_sigma_2_tolerance_1e7, 10000, 2.0, 1e-7, 1, derivative<3>({}));
-FGTD_BENCHMARK(2, 1e5_sigma_1e_4_tolerance_1e8, 100000, 1e-4, 1e-8, 1, derivative<2>({}));
-FGTD_BENCHMARK(2, 1e5_sigma_1_tolerance_1e8, 100000, 1.0, 1e-8, 1, derivative<2>({}));
-FGTD_BENCHMARK(2, 1e5_sigma_1e2_tolerance_1e8, 100000, 1e2, 1e-8, 1, derivative<2>({}));
-FGTD_BENCHMARK(2, 1e5_sigma_1e4_tolerance_1e8, 100000, 1e4, 1e-8, 1, derivative<2>({}));
+constexpr auto in_2d = scattered<2>;
+constexpr auto in_3d = scattered<3>;
+#define FGTD_BENCHMARK(run, name, ...) \
+  BENCHMARK_CAPTURE(run, name, __VA_ARGS__)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()
+FGTD_BENCHMARK(in_3d, 1e6_sigma_2_tolerance_1e3, 1000000, 2.0, 1e-3, 1, derivative<3>({}));
+FGTD_BENCHMARK(in_3d, 1e6_sigma_2_tolerance_1e7, 1000000, 2.0, 1e-7, 1, derivative<3>({}));
+FGTD_BENCHMARK(in_3d, 1e6_sigma_2_tolerance_1e12, 1000000, 2.0, 1e-12, 1, derivative<3>({}));
+FGTD_BENCHMARK(in_3d, 1e6_sigma_2_tolerance_1e7_derivative_012, 1000000, 2.0, 1e-7, 1, derivative<3>({0, 1, 2}));
+FGTD_BENCHMARK(in_3d, 1e6_sigma_2_tolerance_1e6, 1000000, 2.0, 1e-6, 1, derivative<3>({}));
+FGTD_BENCHMARK(in_3d, 1e6_sigma_2_tolerance_1e6_value_and_gradient, 1000000, 2.0, 1e-6, 1, value_and_gradient());
+FGTD_BENCHMARK(in_3d, 1e6_sigma_2_tolerance_1e7_two_threads, 1000000, 2.0, 1e-7, 2, derivative<3>({}))->UseRealTime();
+FGTD_BENCHMARK(in_3d, 1e4_sigma_2_tolerance_1e7, 10000, 2.0, 1e-7, 1, derivative<3>({}));
+FGTD_BENCHMARK(in_2d, 1e5_sigma_1e_4_tolerance_1e8, 100000, 1e-4, 1e-8, 1, derivative<2>({}));
+FGTD_BENCHMARK(in_2d, 1e5_sigma_1_tolerance_1e8, 100000, 1.0, 1e-8, 1, derivative<2>({}));
+FGTD_BENCHMARK(in_2d, 1e5_sigma_1e2_tolerance_1e8, 100000, 1e2, 1e-8, 1, derivative<2>({}));
+FGTD_BENCHMARK(in_2d, 1e5_sigma_1e4_tolerance_1e8, 100000, 1e4, 1e-8, 1, derivative<2>({}));
 #undef FGTD_BENCHMARK
 
 }  // namespace
