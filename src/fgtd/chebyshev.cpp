@@ -15,7 +15,7 @@ constexpr std::size_t moments_points = 1 << 14;      // of one piece of work
 constexpr std::size_t interpolate_points = 1 << 12;  // of one piece of work
 constexpr std::size_t interpolate_run = 256;         // targets of one box handed to the kernel at a time
 constexpr std::size_t block_points = 1 << 22;        // targets sorted at a time
-constexpr std::size_t coefficient_budget = 1 << 22;  // numbers of target boxes that exist at a time
+constexpr std::size_t coefficient_budget = 1 << 19;  // numbers of target boxes that exist at a time
 constexpr std::size_t grid_group = 16;               // nodes of a grid that are computed together
 constexpr double grid_group_sides = 2;               // and lie within so many boxes
 

@@ -62,11 +62,13 @@ template <int d>
 double chebyshev_seconds(const Situation<d>& at, const ChebyshevPlan<d>& plan, const Occupied<d>& boxes) {
   const double p = plan.nodes, numbers = std::pow(p, d), root = std::sqrt(at.sigma);
   const double vectors = std::ceil(p / 8) * 8 / p;
-  const double sort =
-      cost::chebyshev_sort + cost::chebyshev_spread * std::log10(std::max(1.0, boxes.leading[d - 1] / 100));
+  const auto sort = [&](double points) {
+    return cost::chebyshev_sort + cost::chebyshev_spread * std::log10(std::max(1.0, boxes.leading[d - 1] / 100)) +
+           (points > cost::chebyshev_sort_cache ? cost::chebyshev_sort_far : 0);
+  };
   const double fetch = boxes.leading[d - 1] * numbers > cost::chebyshev_cache ? cost::chebyshev_fetch : 0;
   const double right = d == 1 ? 0 : std::min(p * p, numbers);
-  double seconds = at.sources * (sort + d * p * cost::chebyshev_basis + right * cost::chebyshev_step +
+  double seconds = at.sources * (sort(at.sources) + d * p * cost::chebyshev_basis + right * cost::chebyshev_step +
                                  at.columns * numbers * (d <= 2 ? vectors : 1) * cost::chebyshev_step) +
                    boxes.leading[d - 1] * at.columns * numbers * cost::chebyshev_number;
   const double derivatives = at.options.derivative_order > 0 ? 2 : 1;
@@ -85,7 +87,10 @@ double chebyshev_seconds(const Situation<d>& at, const ChebyshevPlan<d>& plan, c
       const double spacing = axis.size() > 1 ? (axis.back() - axis.front()) / static_cast<double>(axis.size() - 1) : 0;
       rows = std::clamp(spacing > 0 ? std::floor(2 * plan.lattice.side[l] / spacing) + 1 : 1.0, 1.0,
                         std::min(16.0, std::max(1.0, static_cast<double>(axis.size()))));
-      outputs *= std::ceil(static_cast<double>(axis.size()) / rows);
+      const double groups = std::ceil(static_cast<double>(axis.size()) / rows);
+      seconds += groups * std::min(window, static_cast<double>(plan.lattice.boxes[l])) * p * rows *
+                 (at.options.derivative_order + 1) * cost::chebyshev_table;
+      outputs *= groups;
     } else {
       outputs = std::min(boxes.trailing[l], at.targets);
     }
@@ -105,7 +110,7 @@ double chebyshev_seconds(const Situation<d>& at, const ChebyshevPlan<d>& plan, c
   const double target_boxes = std::min(boxes.trailing[0], at.targets), a_box = at.targets / target_boxes;
   const double lanes = std::ceil(a_box / 8) * 8 / a_box;
   return seconds +
-         at.targets * (sort + cost::chebyshev_value * derivatives * at.columns +
+         at.targets * (sort(at.targets) + cost::chebyshev_value * derivatives * at.columns +
                        lanes * (d * p * cost::chebyshev_basis +
                                 derivatives * at.columns * (numbers + std::pow(p, d - 1)) * cost::chebyshev_step));
 }

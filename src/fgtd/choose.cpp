@@ -36,13 +36,14 @@ Proposal<d> choose(const std::vector<double>& position, std::size_t count, std::
     std::optional<Proposal<d>> proposal = propose(at);
     if (proposal && (asked == method || proposal->choice.seconds < best.choice.seconds)) best = std::move(*proposal);
   };
-  // A search that takes longer than what it could save is left out.
-  const auto worth = [&](Method method, double search) { return asked == method || best.choice.seconds > search; };
+  // A search that takes about as long as it could save is left out.
+  const auto worth = [&](Method method, double search) { return asked == method || best.choice.seconds > 2 * search; };
+  // The quickest searches come first.
   if (worth(Method::cells, cost::cells_search)) consider(Method::cells, propose_cells<d>);
-  consider(Method::outer, propose_outer<d>);
-  consider(Method::chebyshev, propose_chebyshev<d>);
+  if (worth(Method::outer, cost::outer_search)) consider(Method::outer, propose_outer<d>);
+  if (worth(Method::spread, cost::spread_search)) consider(Method::spread, propose_spread<d>);
   if (worth(Method::hermite, cost::hermite_search)) consider(Method::hermite, propose_hermite<d>);
-  consider(Method::spread, propose_spread<d>);
+  if (worth(Method::chebyshev, cost::chebyshev_search)) consider(Method::chebyshev, propose_chebyshev<d>);
 
   best.choice.tolerance = options.hermite ? 0 : options.tolerance;
   best.choice.sources = count;

@@ -17,37 +17,44 @@ constexpr double hermite_value = 0.2e-9;   // one value of a table of Hermite fu
 constexpr double point_sort = 30e-9;       // one source or target brought to its box
 constexpr double grid_value = 2e-9;        // one value of the result: fresh memory
 
+// What a search for parameters takes; it is left out where the best method so far is faster than that.
+constexpr double cells_search = 0.03e-3;
+constexpr double outer_search = 0.03e-3;
+constexpr double spread_search = 0.1e-3;
+constexpr double hermite_search = 0.5e-3;
+constexpr double chebyshev_search = 0.7e-3;
+
 // cells and outer, with bench_sharp
-constexpr double cells_search = 0.15e-3;                                // propose_cells()
-constexpr double hermite_search = 0.4e-3;                              // propose_hermite()
-constexpr double cells_source_sort = 45e-9;                            // one source brought to its cell
-constexpr double cells_target_sort = 60e-9;                            // one target brought to its cell, and its result back
-constexpr double cells_pair[4] = {0.6e-9, 0.7e-9, 0.8e-9, 1.0e-9};   // one source at one target, by dimension
-constexpr double cells_derivative_factor = 3;                          // the same with derivatives or several columns
-constexpr double cells_lane_loss = 4;                                  // pairs lost to vectors that are not full
-constexpr double cells_line = 15e-9;                                   // one line of cells looked at
-constexpr double cells_copy = 0.1e-9;                                  // one number of a source brought near
-constexpr double outer_source_sort = 20e-9;                            // one source of few brought to its cell
-constexpr double outer_group = 150e-9;                                 // one group of sources
-constexpr double outer_table = 0.7e-9;                                 // one value of a row
-constexpr double outer_step = 0.08e-9;                                 // one multiplication and addition of rows
-constexpr double outer_update = 0.1e-9;                                // one node loaded and stored
-constexpr double outer_row = 0.2e-9;                                   // one factor of the second axis
-constexpr double outer_value = 0.5e-9;                                 // one value of the result set to zero
+constexpr double cells_source_sort = 45e-9;  // one source brought to its cell
+constexpr double cells_target_sort = 60e-9;  // one target brought to its cell, and its result back
+constexpr double cells_pair[4] = {0.6e-9, 0.7e-9, 0.8e-9, 1.0e-9};  // one source at one target, by dimension
+constexpr double cells_derivative_factor = 3;                       // the same with derivatives or several columns
+constexpr double cells_lane_loss = 4;                               // pairs lost to vectors that are not full
+constexpr double cells_line = 15e-9;                                // one line of cells looked at
+constexpr double cells_copy = 0.1e-9;                               // one number of a source brought near
+constexpr double outer_source_sort = 20e-9;                         // one source of few brought to its cell
+constexpr double outer_group = 150e-9;                              // one group of sources
+constexpr double outer_table = 0.7e-9;                              // one value of a row
+constexpr double outer_step = 0.08e-9;                              // one multiplication and addition of rows
+constexpr double outer_update = 0.1e-9;                             // one node loaded and stored
+constexpr double outer_row = 0.2e-9;                                // one factor of the second axis
+constexpr double outer_value = 0.5e-9;                              // one value of the result set to zero
 
 // chebyshev, with bench_chebyshev
-constexpr double chebyshev_sort = 20e-9;     // one source or target brought to its box
-constexpr double chebyshev_spread = 5e-9;    // the same more, for every tenfold of boxes above 100
-constexpr double chebyshev_basis = 0.3e-9;   // one value of a Lagrange polynomial
-constexpr double chebyshev_step = 0.06e-9;   // one multiplication and addition at a point, all lanes full
-constexpr double chebyshev_number = 1e-9;    // one moment of one box: fresh memory
-constexpr double chebyshev_value = 3e-9;     // one result brought to its place
+constexpr double chebyshev_sort = 20e-9;      // one source or target brought to its box
+constexpr double chebyshev_sort_far = 30e-9;  // the same more where the points exceed the cache
+constexpr double chebyshev_sort_cache = 3e5;  // points that it keeps
+constexpr double chebyshev_spread = 5e-9;     // the same more, for every tenfold of boxes above 100
+constexpr double chebyshev_basis = 0.3e-9;    // one value of a Lagrange polynomial
+constexpr double chebyshev_step = 0.06e-9;    // one multiplication and addition at a point, all lanes full
+constexpr double chebyshev_number = 1e-9;     // one moment of one box: fresh memory
+constexpr double chebyshev_value = 3e-9;      // one result brought to its place
 constexpr double chebyshev_product = 0.1e-9;  // one multiplication and addition between boxes, all lanes full
-constexpr double chebyshev_call = 20e-9;     // one product of matrices
-constexpr double chebyshev_link = 8e-9;      // one box in it
-constexpr double chebyshev_fetch = 0.3e-9;   // one number of it, if all boxes exceed the cache
-constexpr double chebyshev_cache = 5e5;      // numbers that the cache keeps
-constexpr double chebyshev_table = 3e-9;     // one value of the Gaussian between nodes
+constexpr double chebyshev_call = 20e-9;      // one product of matrices
+constexpr double chebyshev_link = 8e-9;       // one box in it
+constexpr double chebyshev_fetch = 0.3e-9;    // one number of it, if all boxes exceed the cache
+constexpr double chebyshev_cache = 5e5;       // numbers that the cache keeps
+constexpr double chebyshev_table = 3e-9;      // one value of the Gaussian between nodes
 
 // spread, with bench_spread
 constexpr double spread_sort = 40e-9;     // one source or target brought to its tile
@@ -57,6 +64,6 @@ constexpr double spread_gather = 0.8e-9;  // one vector of the lattice read
 constexpr double spread_node = 2e-9;      // one node of the lattice: fresh memory
 constexpr double spread_step = 0.12e-9;   // one multiplication and addition of the filter
 constexpr double spread_entry = 15e-9;    // one value of the filter
-constexpr double spread_value = 4e-9;     // one value of the result: fresh memory
+constexpr double spread_value = 0.6e-9;   // one value of the result: fresh memory
 
 }  // namespace fgtd::detail::cost

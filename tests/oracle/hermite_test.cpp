@@ -177,10 +177,10 @@ TEST(HermiteSum, FarFromTheOriginFallsBackToDirectWhereBoxesCannotBeToldApart) {
       50 * 1e-6);  // the tolerance
 }
 
-TEST(Automatic, TakesDirectForFewPointsAndHermiteForMany) {
+TEST(Automatic, TakesDirectForFewPointsAndAFastMethodForMany) {
   const auto few = naive::random_points<2>(20, 27), many = naive::random_points<2>(20000, 28);
   EXPECT_EQ(fgtd::Plan<2>(few, Eigen::MatrixXd::Ones(20, 1), 10.0).choice().method, fgtd::Method::direct);
-  EXPECT_EQ(fgtd::Plan<2>(many, Eigen::MatrixXd::Ones(20000, 1), 10.0).choice().method, fgtd::Method::hermite);
+  EXPECT_NE(fgtd::Plan<2>(many, Eigen::MatrixXd::Ones(20000, 1), 10.0).choice().method, fgtd::Method::direct);
 }
 
 }  // namespace
