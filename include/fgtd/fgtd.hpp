@@ -73,7 +73,7 @@ struct TensorGrid {
   }
 };
 
-/// How the sum is computed. `automatic` takes the smallest predicted cost whose bound meets the tolerance.
+/// How the sum is computed, see docs/fgtd.md. `automatic` takes the smallest predicted cost whose bound meets the tolerance.
 enum class Method { automatic, direct, hermite, cells, outer, chebyshev, spread };
 
 /// Every method, `automatic` first.
@@ -117,7 +117,7 @@ struct Choice {
   double tolerance = 0;         // what was asked for; 0 if parameters were given by hand
   std::optional<double> bound;  // proven error of one term, relative to |lambda| N_alpha, worst |alpha| <=
                                 // derivative_order; none for r >= 1
-  double cost = 0;     // predicted cost in pairs of `direct` (hermite: p^d N + (2n+1)^d p^d M, [Sch06, 3.5])
+  double cost = 0;     // hermite: p^d N + (2n+1)^d p^d M [Sch06, 3.5]; else in pairs of `direct`. For comparison only
   double seconds = 0;  // the same predicted in seconds on one thread
   std::size_t sources = 0;
   std::size_t targets = 0;  // that the prediction is for

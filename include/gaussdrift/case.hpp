@@ -67,7 +67,7 @@ struct TimeSpec {
 struct EvaluateSpec {
   int per_axis = 200;           // n_ge on the longest axis
   double tolerance = 1e-8;      // of the Gauss transform, relative to max |rho| at that output
-  std::string method = "auto";  // auto | direct | hermite
+  std::string method = "auto";  // auto, or a method of fgtd by name
 };
 
 struct OutputSpec {

@@ -56,7 +56,8 @@ std::ostream& operator<<(std::ostream& out, const Choice& choice) {
   if (choice.method == Method::spread)
     out << ", lattice spacing " << choice.box_side << ", window of " << choice.expansion_order << " nodes, "
         << choice.boxes << (choice.boxes == 1 ? " brick" : " bricks");
-  return out << ", cost " << choice.cost << " pairs, about " << choice.seconds << " s";
+  if (choice.method == Method::hermite) out << ", cost by (3.5) " << choice.cost;
+  return out << ", about " << choice.seconds << " s";
 }
 
 }  // namespace fgtd

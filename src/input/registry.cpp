@@ -178,7 +178,7 @@ const std::vector<Key>& keys() {
        .name = "method",
        .type = Type::choice,
        .fallback = "auto",
-       .choices = {"auto", "direct", "hermite"},
+       .choices = {"auto", "direct", "hermite", "cells", "outer", "chebyshev", "spread"},
        .meaning = "how the Gauss transform is summed; auto takes the cheapest"},
 
       {.table = "output",

@@ -50,10 +50,12 @@ std::vector<WidthGroup<d>> group_by_width(const Cutoff& cutoff) {
 }
 
 fgtd::Method method_by_name(const std::string& name) {
-  for (const fgtd::Method method : fgtd::methods())
+  std::string known;
+  for (const fgtd::Method method : fgtd::methods()) {
     if (fgtd::to_string(method) == name) return method;
-  throw InputError("evaluate.method = \"" + name +
-                   "\" is not a method of the Gauss transform; use auto, direct or hermite");
+    known += (known.empty() ? "" : ", ") + fgtd::to_string(method);
+  }
+  throw InputError("evaluate.method = \"" + name + "\" is not a method of the Gauss transform; there are " + known);
 }
 
 // Some particles where the density is probably large: those of largest weight, and a few spread over all of them.

@@ -12,7 +12,7 @@ namespace gaussdrift {
 
 struct DensityOptions {
   double tolerance = 1e-8;      // relative to max |rho| at that output
-  std::string method = "auto";  // auto | direct | hermite
+  std::string method = "auto";  // auto, or a method of fgtd by name
   int threads = 0;              // 0: all
   bool measure = true;          // compare with `direct` on a sample of the grid
 };

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "fgtd/fgtd.hpp"
 #include "input/read_case.hpp"
 #include "sim/simulation.hpp"
 
@@ -99,6 +100,15 @@ TEST(RotatingCone, ErrorFallsWithTheCutoffsOrder) {
   EXPECT_NEAR(std::log2(error("gauss2", 201) / error("gauss2", 401)), 2,
               0.1);  // eps/R = 0.2 and 0.1: the next term is (eps/R)^2 smaller
   EXPECT_NEAR(std::log2(error("gauss4", 201) / error("gauss4", 401)), 4, 0.3);
+}
+
+TEST(RotatingCone, CanBeSummedByEveryMethodOfFgtd) {
+  for (const fgtd::Method method : fgtd::methods()) {
+    const auto errors =
+        errors_of("rotating_cone", {"evaluate.method=" + fgtd::to_string(method), "particles.per_axis=100",
+                                    "time.step=0.1", "evaluate.per_axis=101", "output.times=[\"pi/2\"]"});
+    EXPECT_NEAR(errors.front().linf, 1 - 0.831819, 1e-3) << fgtd::to_string(method);  // as above
+  }
 }
 
 TEST(RotatingGap, StaysADiskWithAGap) {

@@ -84,7 +84,7 @@ error: time.step must be greater than 0, found -1
 error: unknown value "fast" for evaluate.method
   --> --set evaluate.method=fast
                             ^^^^
-   = known values: "auto", "direct", "hermite"
+   = known values: "auto", "direct", "hermite", "cells", "outer", "chebyshev", "spread"
 
 4 errors in cone.toml and --set)text");
 }
@@ -267,7 +267,7 @@ const std::vector<Wrong> wrongs = {
      "lower per_axis"},
     {"method = \"auto\"", "method = \"hermit\"", 37, "\"hermit\"",
      "unknown value \"hermit\" for evaluate.method; did you mean \"hermite\"?",
-     "known values: \"auto\", \"direct\", \"hermite\""},
+     "known values: \"auto\", \"direct\", \"hermite\", \"cells\", \"outer\", \"chebyshev\", \"spread\""},
     // output
     {"\"turn/4\", \"turn\"]", "\"turn/4\", 7]", 40, "7",
      "entry 3 of output.times is 7, after time.end = 6.283185307179586"},

@@ -63,7 +63,8 @@ TEST_P(EveryToleranceAndMethod, KeepsItsErrorRelativeToTheMaximum) {
 
 INSTANTIATE_TEST_SUITE_P(, EveryToleranceAndMethod,
                          ::testing::Combine(::testing::Values(1e-2, 1e-5, 1e-8, 1e-11),
-                                            ::testing::Values("auto", "direct", "hermite"),
+                                            ::testing::Values("auto", "direct", "hermite", "cells", "outer",
+                                                              "chebyshev", "spread"),
                                             ::testing::Values("gauss2", "gauss4")));
 
 TEST(Density, ReportsTheErrorThatCanBePromisedWhereTheToleranceCannot) {
