@@ -14,25 +14,6 @@ namespace {
 
 constexpr std::size_t piece_targets = 512;  // at least so many targets are one piece of work
 
-/// The request as the kernel reads it.
-template <int d>
-struct FlatTerms {
-  std::vector<std::size_t> first{0};
-  std::vector<int> order;
-  std::vector<double> coefficient;
-
-  explicit FlatTerms(const Request<d>& request) {
-    for (const auto& combination : request.combinations) {
-      for (const auto& part : combination) {
-        for (std::size_t l = 0; l < max_dimension; ++l)
-          order.push_back(l < d ? request.derivatives[part.derivative][l] : 0);
-        coefficient.push_back(part.factor);
-      }
-      first.push_back(coefficient.size());
-    }
-  }
-};
-
 /// The cells around a line of cells: each line of sources within reach, with the cells along it that are.
 struct NearLine {
   std::size_t cell, end;  // the next cell that may be within reach, and the end of the line

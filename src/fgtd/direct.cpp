@@ -10,30 +10,11 @@
 namespace fgtd::detail {
 namespace {
 
-/// The request as the kernel reads it.
-template <int d>
-struct Terms {
-  std::vector<std::size_t> first{0};
-  std::vector<int> order;
-  std::vector<double> coefficient;
-
-  explicit Terms(const Request<d>& request) {
-    for (const auto& combination : request.combinations) {
-      for (const auto& part : combination) {
-        for (std::size_t l = 0; l < max_dimension; ++l)
-          order.push_back(l < d ? request.derivatives[part.derivative][l] : 0);
-        coefficient.push_back(part.factor);
-      }
-      first.push_back(coefficient.size());
-    }
-  }
-};
-
 /// point(i, coordinates) writes target i.
 template <int d, class Point>
 void evaluate(const Sources<d>& sources, double sigma, const Request<d>& request, std::size_t count, int threads,
               double* values, const Point& point) {
-  const Terms<d> terms(request);
+  const FlatTerms<d> terms(request);
   const RecurrenceTable recurrence(max_derivative_order + 1);
   const std::size_t outputs = request.combinations.size() * sources.columns;
   if (outputs == 0) return;

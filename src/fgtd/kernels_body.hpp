@@ -4,6 +4,7 @@
 #include "fgtd/kernels.hpp"
 #include "fgtd/kernels_vector.hpp"
 #include "fgtd/outer_kernels.hpp"
+#include "fgtd/product_kernels.hpp"
 
 namespace fgtd::detail::FGTD_ISA {
 namespace {
@@ -154,53 +155,8 @@ void direct(const DirectJob& job) {
 // ---------------------------------------------------------------------------------------------------------------
 // product
 
-/// A block of `rows` rows and `vectors` vectors of C, the last vector of which holds `valid` numbers.
-template <int rows, int vectors>
-FGTD_INLINE void product_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d,
-                               std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
-  Vector sum[rows][vectors] = {};
-  for (std::size_t k = 0; k < depth; ++k) {
-    Vector right[vectors];
-    for (int v = 0; v < vectors; ++v) right[v] = load(d + k * d_stride + static_cast<std::size_t>(v) * lanes);
-    for (int i = 0; i < rows; ++i) {
-      const double left = b[static_cast<std::size_t>(i) * b_stride + k];
-      for (int v = 0; v < vectors; ++v) sum[i][v] += right[v] * left;
-    }
-  }
-  for (int i = 0; i < rows; ++i) {
-    double* row = c + static_cast<std::size_t>(i) * c_stride;
-    for (int v = 0; v < vectors; ++v) {
-      double* at = row + static_cast<std::size_t>(v) * lanes;
-      if (v + 1 < vectors || valid == lanes) {
-        store(at, load(at) + sum[i][v]);
-      } else {
-        for (std::size_t x = 0; x < valid; ++x) at[x] += sum[i][v][x];
-      }
-    }
-  }
-}
-
-template <int vectors>
-FGTD_INLINE void product_columns(const ProductJob& job, std::size_t x, std::size_t valid) {
-  std::size_t i = 0;
-  for (; i + 4 <= job.rows; i += 4)
-    product_block<4, vectors>(job.depth, job.b + i * job.b_stride, job.b_stride, job.d + x, job.d_stride,
-                              job.c + i * job.c_stride + x, job.c_stride, valid);
-  for (; i < job.rows; ++i)
-    product_block<1, vectors>(job.depth, job.b + i * job.b_stride, job.b_stride, job.d + x, job.d_stride,
-                              job.c + i * job.c_stride + x, job.c_stride, valid);
-}
-
 void product(const ProductJob& job) {
-  std::size_t x = 0;
-  for (; x + 3 * lanes <= job.width; x += 3 * lanes) product_columns<3>(job, x, lanes);
-  const std::size_t rest = job.width - x;
-  if (rest == 0) return;
-  const std::size_t vectors = (rest + lanes - 1) / lanes;
-  const std::size_t valid = rest - (vectors - 1) * lanes;
-  if (vectors == 1) product_columns<1>(job, x, valid);
-  if (vectors == 2) product_columns<2>(job, x, valid);
-  if (vectors == 3) product_columns<3>(job, x, valid);
+  multiply_add(job.rows, job.depth, job.width, job.b, job.b_stride, job.d, job.d_stride, job.c, job.c_stride);
 }
 
 // ---------------------------------------------------------------------------------------------------------------

@@ -5,63 +5,10 @@
 #include "fgtd/cells_job.hpp"
 #include "fgtd/cells_kernels.hpp"
 #include "fgtd/kernels_vector.hpp"
+#include "fgtd/product_kernels.hpp"
 
 namespace fgtd::detail::FGTD_ISA {
 namespace {
-
-/// C += B D as in `product`, a block of `rows` rows and `vectors` vectors, the last of which holds `valid` numbers.
-template <int rows, int vectors>
-FGTD_INLINE void outer_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d,
-                             std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
-  Vector sum[rows][vectors] = {};
-  for (std::size_t k = 0; k < depth; ++k) {
-    Vector right[vectors];
-    for (int v = 0; v < vectors; ++v) right[v] = load(d + k * d_stride + static_cast<std::size_t>(v) * lanes);
-    for (int i = 0; i < rows; ++i) {
-      const double left = b[static_cast<std::size_t>(i) * b_stride + k];
-      for (int v = 0; v < vectors; ++v) sum[i][v] += right[v] * left;
-    }
-  }
-  for (int i = 0; i < rows; ++i) {
-    double* row = c + static_cast<std::size_t>(i) * c_stride;
-    for (int v = 0; v < vectors; ++v) {
-      double* at = row + static_cast<std::size_t>(v) * lanes;
-      if (v + 1 < vectors || valid == lanes) {
-        store(at, load(at) + sum[i][v]);
-      } else {
-        for (std::size_t x = 0; x < valid; ++x) at[x] += sum[i][v][x];
-      }
-    }
-  }
-}
-
-template <int vectors>
-FGTD_INLINE void outer_columns(std::size_t rows, std::size_t depth, const double* b, std::size_t b_stride,
-                               const double* d, std::size_t d_stride, double* c, std::size_t c_stride,
-                               std::size_t valid) {
-  std::size_t i = 0;
-  for (; i + 4 <= rows; i += 4)
-    outer_block<4, vectors>(depth, b + i * b_stride, b_stride, d, d_stride, c + i * c_stride, c_stride, valid);
-  b += i * b_stride;
-  c += i * c_stride;
-  if (rows - i == 3) outer_block<3, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
-  if (rows - i == 2) outer_block<2, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
-  if (rows - i == 1) outer_block<1, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
-}
-
-FGTD_INLINE void outer_product(std::size_t rows, std::size_t depth, std::size_t width, const double* b,
-                               std::size_t b_stride, const double* d, std::size_t d_stride, double* c,
-                               std::size_t c_stride) {
-  std::size_t x = 0;
-  for (; x + 3 * lanes <= width; x += 3 * lanes)
-    outer_columns<3>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, lanes);
-  const std::size_t rest = width - x;
-  if (rest == 0) return;
-  const std::size_t vectors = (rest + lanes - 1) / lanes, valid = rest - (vectors - 1) * lanes;
-  if (vectors == 1) outer_columns<1>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
-  if (vectors == 2) outer_columns<2>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
-  if (vectors == 3) outer_columns<3>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
-}
 
 /// rows[n stride] = h~_n(t), n = 0 .. highest.
 template <int degree>
@@ -167,7 +114,7 @@ void outer_at(const OuterJob& job) {
                   store(at, fresh ? value : load(at) + value);
                 }
             }
-            outer_product(rows, sources, to[0] - from[0], left, depth,
+            multiply_add(rows, sources, to[0] - from[0], left, depth,
                           first + static_cast<std::size_t>(job.bundle_order[bundle]) * plane + from[0], width, here,
                           d > 1 ? job.step[1] : 0);
           }

@@ -28,6 +28,26 @@ struct Request {
 template <int d>
 Request<d> make_request(const std::vector<Combination<d>>& combinations, double sigma, int derivative_order);
 
+/// The request as the kernels of single pairs read it: terms first[q] .. first[q+1] belong to combination q, each with
+/// max_dimension orders and a factor.
+template <int d>
+struct FlatTerms {
+  std::vector<std::size_t> first{0};
+  std::vector<int> order;
+  std::vector<double> coefficient;
+
+  explicit FlatTerms(const Request<d>& request) {
+    for (const auto& combination : request.combinations) {
+      for (const auto& part : combination) {
+        for (std::size_t l = 0; l < max_dimension; ++l)
+          order.push_back(l < d ? request.derivatives[part.derivative][l] : 0);
+        coefficient.push_back(part.factor);
+      }
+      first.push_back(coefficient.size());
+    }
+  }
+};
+
 /// The factors sqrt(2/(n+1)) and sqrt(n/(n+1)) of the recurrence, for n < orders.
 class RecurrenceTable {
  public:
