@@ -50,8 +50,8 @@ std::unique_ptr<InitialDensity> make_density(const Case& description) {
       parts.push_back(
           std::make_unique<WrittenDensity>(written->text, description.domain.dimension, description.params));
     else if (const auto* shape = std::get_if<ShapeDensity>(&spec))
-      parts.push_back(
-          std::make_unique<RadialDensity>(profile_of(shape->shape), shape->center, shape->radius, shape->height));
+      parts.push_back(std::make_unique<RadialDensity>(profile_of(shape->shape), description.domain.dimension,
+                                                      shape->center, shape->radius, shape->height));
   }
   if (parts.size() == 1) return std::move(parts.front());
   return std::make_unique<SumDensity>(std::move(parts));

@@ -1,0 +1,46 @@
+// Solutions to nearly full precision: the explicit Runge-Kutta method of order 8 of Dormand and Prince with a step that
+// follows its error estimates of orders 5 and 3 [HNW93, II.5 and II.10]. method.md, section 7.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "time/tableau.hpp"
+
+namespace gaussdrift::time {
+
+/// Order 8, 12 stages. Not among tableaux(): it is for references, not for the steps of a run.
+const Tableau& dormand_prince_8();
+
+/// What one component of the state asks of a step.
+struct StepBound {
+  double absolute = 1e-12;  // the estimated error of a step is at most absolute + relative |y|
+  double relative = 0;
+  double largest_move = 0;  // a step is not longer than this over |dy/dt|; 0: any
+};
+
+struct AdaptiveOptions {
+  std::vector<StepBound> components;
+  double longest_step = 0;           // 0: any
+  std::size_t most_steps = 100'000;  // taken or rejected
+};
+
+struct AdaptiveResult {
+  bool reached = false;  // the end; else `time` is where it went no further and `state` what it was there
+  double time = 0;
+  std::size_t steps = 0, rejected = 0;
+  std::string trouble;  // empty if reached
+};
+
+/// k[c * points + i] = dy_c/dt of point i at (t, y); must overwrite k. Not finite is allowed: such a step is tried
+/// again with a shorter one.
+using BlockRate = std::function<void(double t, const double* y, double* k)>;
+
+/// Carries `points` independent points with components.size() numbers each, state[c * points + i], from `begin` to
+/// `end` (either may be the later one). All take the same steps, short enough for the one that needs the shortest.
+AdaptiveResult integrate_adaptively(const BlockRate& rate, double begin, double end, std::size_t points,
+                                    const AdaptiveOptions& options, double* state);
+
+}  // namespace gaussdrift::time
