@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct DensityGrid {
   std::vector<double> rho;
 };
 
+/// Norms of rho_eps^h - rho on the grid, each divided by that of the exact rho at the same time; NaN where that is 0.
+struct ErrorNorms {
+  double l1 = 0, l2 = 0, linf = 0;
+};
+
 /// Numbers of one output, a row of series.csv.
 struct FrameNumbers {
   double mass = 0;     // sum_j alpha_j, the exact integral of rho_eps^h over all space
@@ -25,8 +31,10 @@ struct FrameNumbers {
   Vector centroid{};  // sum_j alpha_j X_j / mass
   double transform_error =
       0;  // of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|
-  double transform_tolerance = 0;  // per-term tolerance that was asked of fgtd
-  double evaluate_seconds = 0;     // preparing and evaluating the transform
+  double transform_tolerance = 0;   // per-term tolerance that was asked of fgtd
+  double evaluate_seconds = 0;      // preparing and evaluating the transform
+  std::optional<ErrorNorms> error;  // only with a reference
+  std::size_t untraced = 0;         // grid points where the reference is not known; the norms leave them out
 };
 
 struct Frame {
@@ -36,6 +44,8 @@ struct Frame {
   const std::vector<double>* velocity =
       nullptr;  // u(X_j, t) [j][dimension]; only if particle files are written, else null
   const DensityGrid* density = nullptr;
+  const std::vector<double>* exact = nullptr;  // rho at the points of the density, NaN where not known; null without
+                                               // a reference
   FrameNumbers numbers;
 };
 

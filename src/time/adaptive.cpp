@@ -67,6 +67,7 @@ class Integration {
     double h = std::abs(end - begin) / 16;  // a first guess; the estimates correct it
     while (result.time != end) {
       if (result.steps + result.rejected >= options_.most_steps) {
+        result.exhausted = true;
         result.trouble = "too many steps";
         return result;
       }
@@ -142,22 +143,28 @@ class Integration {
   }
 
   // |e_5|^2 / sqrt(|e_5|^2 + |e_3|^2 / 100) at each point, its components measured by what is allowed [HNW93, II.10].
-  double estimate(const Tableau& rk, double h) const {
+  double estimate(const Tableau& rk, double h) {
+    std::vector<double>&e5 = stage_, &e3 = next_rate_;  // free between the stages and the rate at the end
+    std::fill(e5.begin(), e5.end(), 0.0);
+    std::fill(e3.begin(), e3.end(), 0.0);
+    for (std::size_t s = 0; s < stages; ++s) {
+      const double factor_5 = h * error_5[s], factor_3 = h * (rk.weights[s] - weights_3[s]);
+      if (factor_5 == 0 && factor_3 == 0) continue;
+      const double* k = k_[s].data();
+      for (std::size_t i = 0; i < length_; ++i) {
+        e5[i] += factor_5 * k[i];
+        e3[i] += factor_3 * k[i];
+      }
+    }
     double worst = 0;
     for (std::size_t i = 0; i < points_; ++i) {
       double square_5 = 0, square_3 = 0;
       for (std::size_t c = 0; c < options_.components.size(); ++c) {
         const std::size_t at = c * points_ + i;
-        double e5 = 0, e3 = 0;
-        for (std::size_t s = 0; s < stages; ++s) {
-          const double k = k_[s][at];
-          e5 += error_5[s] * k;
-          e3 += (rk.weights[s] - weights_3[s]) * k;
-        }
         const StepBound& bound = options_.components[c];
         const double allowed = bound.absolute + bound.relative * std::max(std::abs(y_[at]), std::abs(next_[at]));
-        square_5 += (h * e5 / allowed) * (h * e5 / allowed);
-        square_3 += (h * e3 / allowed) * (h * e3 / allowed);
+        square_5 += (e5[at] / allowed) * (e5[at] / allowed);
+        square_3 += (e3[at] / allowed) * (e3[at] / allowed);
       }
       const double whole = square_5 + 0.01 * square_3;
       const double error = whole > 0 ? square_5 / std::sqrt(whole) : 0;

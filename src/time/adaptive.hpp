@@ -31,7 +31,8 @@ struct AdaptiveResult {
   bool reached = false;  // the end; else `time` is where it went no further and `state` what it was there
   double time = 0;
   std::size_t steps = 0, rejected = 0;
-  std::string trouble;  // empty if reached
+  bool exhausted = false;  // too many steps, whatever the reason
+  std::string trouble;     // empty if reached
 };
 
 /// k[c * points + i] = dy_c/dt of point i at (t, y); must overwrite k. Not finite is allowed: such a step is tried

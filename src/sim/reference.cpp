@@ -1,0 +1,235 @@
+#include "sim/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.hpp"
+#include "time/adaptive.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t block_length =
+    256;  // points that take the same steps; 13 rates of them fit the second-level cache
+
+/// Coordinates of the lattice points first .. first + count - 1, axis[k * count + i].
+void fill_coordinates(const Lattice& lattice, std::size_t first, std::size_t count, double* axis) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t rest = first + i;
+    for (int k = 0; k < lattice.dimension; ++k) {
+      axis[static_cast<std::size_t>(k) * count + i] = lattice.coordinate(k, rest % lattice.points[k]);
+      rest /= lattice.points[k];
+    }
+  }
+}
+
+PointsView view_of(int dimension, std::size_t count, const double* axis) {
+  PointsView view{dimension, count, {}};
+  for (int k = 0; k < dimension; ++k) view.axis[k] = axis + static_cast<std::size_t>(k) * count;
+  return view;
+}
+
+class Characteristics : public Reference {
+ public:
+  Characteristics(const VelocityField& velocity, const InitialDensity& density, ScalarRate growth,
+                  const Lattice& lattice, const CharacteristicsOptions& options)
+      : velocity_(velocity),
+        density_(density),
+        growth_(std::move(growth)),
+        lattice_(lattice),
+        options_(options),
+        components_(static_cast<std::size_t>(lattice.dimension) + (growth_ ? 1 : 0)) {
+    double longest = 0;
+    for (int k = 0; k < lattice.dimension; ++k)
+      longest = std::max(longest, lattice.spacing * static_cast<double>(lattice.points[k] - 1));
+    // Coordinates far from the origin are rounded by more than the tolerance. A quarter of the domain at a time, so
+    // that no step can fly over what is there.
+    const time::StepBound position{options.tolerance * longest, 4 * std::numeric_limits<double>::epsilon(),
+                                   longest / 4};
+    bounds_.components.assign(static_cast<std::size_t>(lattice.dimension), position);
+    if (growth_) bounds_.components.push_back({options.tolerance, options.tolerance, 0});
+    if (!options.steady) bounds_.longest_step = options.end / 32;
+  }
+
+  ReferenceReport evaluate(double time, std::vector<double>& rho) override {
+    const std::size_t points = lattice_.size(), blocks = (points + block_length - 1) / block_length;
+    rho.assign(points, 0.0);
+    if (options_.steady && kept_.empty()) kept_.resize(blocks);
+    std::vector<ReferenceReport> reports(blocks);
+    base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
+      const std::size_t first = b * block_length, count = std::min(block_length, points - first);
+      Block block = start(b, first, count);
+      // In a steady flow X(0) of x at t is that of X(t_before - t) at t_before.
+      const double from = options_.steady ? time - kept_until_ : time;
+      trace(block.state, count, from, reports[b]);
+      values(block, count, rho.data() + first);
+      if (reports[b].untraced > 0) {
+        const auto lost = std::find_if(rho.begin() + static_cast<std::ptrdiff_t>(first), rho.end(),
+                                       [](double value) { return std::isnan(value); });
+        reports[b].first_untraced = place(static_cast<std::size_t>(lost - rho.begin()));
+      }
+      if (options_.steady) kept_[b] = std::move(block);
+    });
+    if (options_.steady) kept_until_ = time;
+    ReferenceReport all;
+    for (const ReferenceReport& report : reports) {
+      if (all.untraced == 0 && report.untraced > 0)
+        all = report;
+      else
+        all.untraced += report.untraced;
+    }
+    return all;
+  }
+
+ private:
+  struct Block {
+    std::vector<double> state;  // [component][point]: the foot so far, and the exponent
+  };
+
+  Block start(std::size_t b, std::size_t first, std::size_t count) {
+    if (options_.steady && !kept_[b].state.empty()) return std::move(kept_[b]);
+    Block block;
+    block.state.assign(components_ * count, 0.0);
+    fill_coordinates(lattice_, first, count, block.state.data());
+    return block;
+  }
+
+  // Carries the points from `from` back to 0. Those that do not arrive become NaN; where one of many does not, the
+  // others are found by halves.
+  void trace(std::vector<double>& state, std::size_t count, double from, ReferenceReport& report) const {
+    const std::vector<double> begun = state;
+    const auto rate = [&](double t, const double* y, double* k) {
+      std::fill_n(k, components_ * count, 0.0);
+      const PointsView x = view_of(lattice_.dimension, count, y);
+      VectorsView u{lattice_.dimension, count, {}};
+      for (int axis = 0; axis < lattice_.dimension; ++axis) u.axis[axis] = k + static_cast<std::size_t>(axis) * count;
+      velocity_.add(t, x, u);
+      if (growth_) growth_(t, x, k + static_cast<std::size_t>(lattice_.dimension) * count);
+    };
+    if (count > 1 && std::any_of(begun.begin(), begun.end(), [](double value) { return std::isnan(value); }))
+      return trace_halves(state, begun, count, from, report);  // lost at an earlier output
+    const time::AdaptiveResult result = time::integrate_adaptively(rate, from, 0, count, bounds_, state.data());
+    if (result.reached) return;
+    // One point can keep the others from arriving; many steps are a property of all of them.
+    if (count > 1 && !result.exhausted) return trace_halves(state, begun, count, from, report);
+    state.assign(state.size(), nan);
+    if (report.untraced == 0) report.trouble = result.trouble;
+    report.untraced += count;
+  }
+
+  void trace_halves(std::vector<double>& state, const std::vector<double>& begun, std::size_t count, double from,
+                    ReferenceReport& report) const {
+    for (const auto& [first, length] : {std::pair{std::size_t{0}, count / 2}, {count / 2, count - count / 2}}) {
+      std::vector<double> part(components_ * length);
+      for (std::size_t c = 0; c < components_; ++c)
+        std::copy_n(begun.data() + c * count + first, length, part.data() + c * length);
+      trace(part, length, from, report);
+      for (std::size_t c = 0; c < components_; ++c)
+        std::copy_n(part.data() + c * length, length, state.data() + c * count + first);
+    }
+  }
+
+  void values(const Block& block, std::size_t count, double* rho) const {
+    density_.add(view_of(lattice_.dimension, count, block.state.data()), rho);
+    const double* exponent = block.state.data() + static_cast<std::size_t>(lattice_.dimension) * count;
+    for (std::size_t i = 0; i < count; ++i) {
+      // Shapes answer a NaN with 0: comparisons with it are false.
+      if (std::isnan(block.state[i]))
+        rho[i] = nan;
+      else if (growth_ && rho[i] != 0)
+        rho[i] *= std::exp(exponent[i]);
+    }
+  }
+
+  Vector place(std::size_t index) const {
+    Vector x{};
+    fill_coordinates(lattice_, index, 1, x.data());
+    return x;
+  }
+
+  const VelocityField& velocity_;
+  const InitialDensity& density_;
+  const ScalarRate growth_;
+  const Lattice lattice_;
+  const CharacteristicsOptions options_;
+  const std::size_t components_;
+  time::AdaptiveOptions bounds_;
+  std::vector<Block> kept_;  // of the output before; only in a steady flow
+  double kept_until_ = 0;
+};
+
+class Formula : public Reference {
+ public:
+  Formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params, const Lattice& lattice)
+      : expression_(rho,
+                    lattice.dimension == 3 ? std::vector<std::string>{"x", "y", "z", "t"}
+                                           : std::vector<std::string>{"x", "y", "t"},
+                    params),
+        lattice_(lattice) {}
+
+  ReferenceReport evaluate(double time, std::vector<double>& rho) override {
+    rho.assign(lattice_.size(), 0.0);
+    ReferenceReport report;
+    const std::vector<double> times(block_length, time);
+    std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * block_length);
+    for (std::size_t first = 0; first < rho.size(); first += block_length) {
+      const std::size_t count = std::min(block_length, rho.size() - first);
+      fill_coordinates(lattice_, first, count, coordinates.data());
+      std::array<const double*, max_dimension + 1> arguments{};
+      for (int k = 0; k < lattice_.dimension; ++k)
+        arguments[static_cast<std::size_t>(k)] = coordinates.data() + static_cast<std::size_t>(k) * count;
+      arguments[static_cast<std::size_t>(lattice_.dimension)] = times.data();
+      expression_.evaluate(arguments.data(), count, rho.data() + first);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (std::isfinite(rho[first + i])) continue;
+        rho[first + i] = nan;
+        if (report.untraced++ > 0) continue;
+        fill_coordinates(lattice_, first + i, 1, report.first_untraced.data());
+        report.trouble = "the expression is not finite";
+      }
+    }
+    return report;
+  }
+
+ private:
+  Expression expression_;
+  Lattice lattice_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reference> characteristics(const VelocityField& velocity, const InitialDensity& density,
+                                           ScalarRate growth, const Lattice& lattice,
+                                           const CharacteristicsOptions& options) {
+  return std::make_unique<Characteristics>(velocity, density, std::move(growth), lattice, options);
+}
+
+std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params,
+                                   const Lattice& lattice) {
+  return std::make_unique<Formula>(rho, params, lattice);
+}
+
+ErrorNorms compare(const std::vector<double>& rho, const std::vector<double>& exact) {
+  double largest_error = 0, largest = 0;
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    if (std::isnan(exact[i])) continue;
+    largest_error = std::max(largest_error, std::abs(rho[i] - exact[i]));
+    largest = std::max(largest, std::abs(exact[i]));
+  }
+  if (!(largest > 0)) return {nan, nan, nan};
+  double error_1 = 0, error_2 = 0, norm_1 = 0, norm_2 = 0;  // of values divided by the largest: squares do not overflow
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    if (std::isnan(exact[i])) continue;
+    const double error = std::abs(rho[i] - exact[i]) / largest, size = std::abs(exact[i]) / largest;
+    error_1 += error, error_2 += error * error;
+    norm_1 += size, norm_2 += size * size;
+  }
+  return {error_1 / norm_1, std::sqrt(error_2 / norm_2), largest_error / largest};
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,60 @@
+// The exact density of a scene, to compare rho_eps^h with: by characteristics, or by a formula. method.md, section 7.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/lattice.hpp"
+#include "expression/expression.hpp"
+#include "field/density.hpp"
+#include "field/velocity.hpp"
+#include "sim/frame.hpp"
+
+namespace gaussdrift {
+
+/// What was done for one output.
+struct ReferenceReport {
+  std::size_t untraced = 0;  // points whose value is not known: NaN in the result
+  Vector first_untraced{};   // one of them
+  std::string trouble;       // and why
+};
+
+class Reference {
+ public:
+  virtual ~Reference() = default;
+  /// rho[i] = rho(x_i, time) on the lattice; NaN where it is not known, which the report counts. Times ascend from call
+  /// to call.
+  virtual ReferenceReport evaluate(double time, std::vector<double>& rho) = 0;
+};
+
+/// values[i] += g(x_i, t).
+using ScalarRate = std::function<void(double t, const PointsView& x, double* values)>;
+
+struct CharacteristicsOptions {
+  double tolerance = 1e-12;  // of a step: of the foot relative to the longest side of the lattice, and of the exponent
+  bool steady = false;       // u and g do not depend on t: each output goes on from the feet of the one before
+  double end = 0;            // of the run; without `steady` no step is longer than a 32nd of it
+  int threads = 0;
+};
+
+/// rho(x, t) = rho_0(X(0)) exp(-int_0^t g(X(s), s) ds),  X' = u(X, s),  X(t) = x,  g = div u + u_0, traced backwards
+/// from every point of the lattice. Values do not depend on the number of threads. The fields must outlive it. growth:
+/// g; empty where it is 0.
+std::unique_ptr<Reference> characteristics(const VelocityField& velocity, const InitialDensity& density,
+                                           ScalarRate growth, const Lattice& lattice,
+                                           const CharacteristicsOptions& options);
+
+/// rho as an expression in x, y, (z,) t and the params. Throws ExpressionError.
+std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params,
+                                   const Lattice& lattice);
+
+/// Norms of rho - exact over the lattice points where exact is a number, each divided by that of exact; NaN where exact
+/// is 0 everywhere. Sums in the order of the points.
+ErrorNorms compare(const std::vector<double>& rho, const std::vector<double>& exact);
+
+}  // namespace gaussdrift

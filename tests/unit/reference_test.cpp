@@ -1,0 +1,215 @@
+// The exact density by characteristics, against closed forms.
+#include "sim/reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+namespace gaussdrift {
+namespace {
+
+using std::numbers::pi;
+
+Lattice lattice(int per_axis, int dimension = 2, double half = 1) {
+  return make_lattice(dimension, {-half, -half, -half}, {half, half, half}, per_axis);
+}
+
+/// rho at the lattice points from a formula.
+template <class Formula>
+std::vector<double> sampled(const Lattice& at, const Formula& rho) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < at.points[2]; ++k)
+    for (std::size_t j = 0; j < at.points[1]; ++j)
+      for (std::size_t i = 0; i < at.points[0]; ++i)
+        values.push_back(rho(at.coordinate(0, i), at.coordinate(1, j), at.dimension == 3 ? at.coordinate(2, k) : 0));
+  return values;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+WrittenDensity written(const std::string& text, int dimension = 2) { return {text, dimension, {}}; }
+
+const std::string hill = "exp(-8*((x-0.3)^2+y^2))";
+double hill_at(double x, double y) { return std::exp(-8 * ((x - 0.3) * (x - 0.3) + y * y)); }
+
+TEST(Characteristics, TurnTheDensityBackInASteadyRotation) {
+  const ExpressionField rotation({"-y", "x"}, {});
+  const auto density = written(hill);
+  const Lattice grid = lattice(23);
+  for (const bool steady : {true, false}) {
+    const auto reference = characteristics(rotation, density, {}, grid, {.steady = steady, .end = 40});
+    std::vector<double> rho;
+    for (const double t : {0., 1.3, 1.4, 2 * pi, 40.}) {
+      const ReferenceReport report = reference->evaluate(t, rho);
+      EXPECT_EQ(report.untraced, 0u);
+      const auto exact = sampled(grid, [&](double x, double y, double) {
+        return hill_at(x * std::cos(t) + y * std::sin(t), -x * std::sin(t) + y * std::cos(t));
+      });
+      // Steps of at most 1e-12 of the side 2, about 5 a time unit, the estimate being far above the error
+      EXPECT_LT(largest_difference(rho, exact), 1e-12 * (1 + 2 * t)) << t << (steady ? " steady" : "");
+    }
+  }
+}
+
+TEST(Characteristics, ComeBackInTheReversedSwirl) {
+  const ExpressionField swirl({"sin(pi*x)^2*sin(2*pi*y)*cos(pi*t/8)", "-sin(pi*y)^2*sin(2*pi*x)*cos(pi*t/8)"}, {});
+  const auto density = written("exp(-30*((x-0.5)^2+(y-0.75)^2))");
+  const Lattice grid = make_lattice(2, {}, {1, 1, 0}, 21);
+  std::vector<double> start, back, half;
+  const auto reference = characteristics(swirl, density, {}, grid, {.end = 8});
+  reference->evaluate(0, start);
+  reference->evaluate(4, half);
+  reference->evaluate(8, back);
+  EXPECT_GT(largest_difference(start, half), 0.5);
+  EXPECT_LT(largest_difference(start, back), 1e-9);  // 1e-12 a step, stretched by up to 100 on the way and back
+}
+
+TEST(Characteristics, ThinAndThickenWhereTheFlowDiverges) {
+  // u = x: X(0) = x e^-t, div u = d.
+  for (const int dimension : {2, 3}) {
+    const ExpressionField outwards(
+        dimension == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"}, {});
+    const auto density = written(dimension == 2 ? "exp(-8*(x^2+y^2))" : "exp(-8*(x^2+y^2+z^2))", dimension);
+    const Lattice grid = lattice(9, dimension);
+    const ScalarRate divergence = [&](double, const PointsView& x, double* values) {
+      for (std::size_t i = 0; i < x.count; ++i) values[i] += dimension;
+    };
+    for (const bool steady : {true, false}) {
+      const auto reference = characteristics(outwards, density, divergence, grid, {.steady = steady, .end = 2});
+      std::vector<double> rho;
+      for (const double t : {0.7, 2.}) {
+        reference->evaluate(t, rho);
+        const auto exact = sampled(grid, [&](double x, double y, double z) {
+          return std::exp(-8 * (x * x + y * y + z * z) * std::exp(-2 * t)) * std::exp(-dimension * t);
+        });
+        EXPECT_LT(largest_difference(rho, exact), 1e-11) << dimension << "D, t = " << t;
+      }
+    }
+  }
+}
+
+TEST(Characteristics, FollowAGrowthThatDependsOnPlaceAndTime) {
+  // u = (1, 0), g = x t:  int_0^t (x - (t - s)) s ds = x t^2/2 - t^3/6.
+  const ExpressionField wind({"1", "0"}, {});
+  const auto density = written(hill);
+  const Lattice grid = lattice(15);
+  const ScalarRate growth = [](double t, const PointsView& x, double* values) {
+    for (std::size_t i = 0; i < x.count; ++i) values[i] += x.axis[0][i] * t;
+  };
+  const auto reference = characteristics(wind, density, growth, grid, {.end = 1.5});
+  std::vector<double> rho;
+  reference->evaluate(1.5, rho);
+  const double t = 1.5;
+  const auto exact = sampled(
+      grid, [&](double x, double y, double) { return hill_at(x - t, y) * std::exp(-(x * t * t / 2 - t * t * t / 6)); });
+  EXPECT_LT(largest_difference(rho, exact), 1e-11);
+}
+
+TEST(Characteristics, HoldAVastGrowthWithoutOverflowWhereThereIsNothing) {
+  const ExpressionField rest({"0", "0"}, {});
+  const RadialDensity disk(RadialDensity::Profile::disk, 2, {}, 0.5, 1);
+  const ScalarRate growth = [](double, const PointsView& x, double* values) {
+    for (std::size_t i = 0; i < x.count; ++i) values[i] -= 1e3;
+  };
+  const Lattice grid = lattice(5);
+  const auto reference = characteristics(rest, disk, growth, grid, {.steady = true, .end = 1});
+  std::vector<double> rho;
+  reference->evaluate(0.5, rho);
+  EXPECT_NEAR(rho[12] / std::exp(500.0), 1, 1e-9);  // 1e-12 of the exponent 500
+  EXPECT_EQ(rho[0], 0);
+  reference->evaluate(1, rho);  // e^1000 is more than a double holds
+  EXPECT_EQ(rho[0], 0) << "0 times infinity";
+}
+
+TEST(Characteristics, CountThePointsThatHaveNoPast) {
+  // u = 1/x: x^2 = x_0^2 + 2 t. What is within sqrt(2 t) of the line x = 0 came out of it later than 0.
+  const ExpressionField source({"1/x", "0"}, {});
+  const auto density = written("1 + 0*x");
+  const Lattice grid = make_lattice(2, {-1, -0.1, 0}, {1, 0.1, 0}, 41);
+  const double t = 0.1;
+  for (const bool steady : {true, false}) {
+    const auto reference = characteristics(source, density, {}, grid, {.steady = steady, .end = 1});
+    std::vector<double> rho;
+    for (int twice = 0; twice < 2; ++twice) {
+      const ReferenceReport report = reference->evaluate(twice == 0 ? t : 2 * t, rho);
+      std::size_t expected = 0;
+      for (std::size_t i = 0; i < grid.size(); ++i) {
+        const double x = grid.coordinate(0, i % grid.points[0]);
+        const bool lost = x * x < 2 * (twice == 0 ? t : 2 * t);
+        expected += lost;
+        EXPECT_EQ(std::isnan(rho[i]), lost) << x;
+      }
+      EXPECT_EQ(report.untraced, expected);
+      EXPECT_FALSE(report.trouble.empty());
+      EXPECT_LT(std::abs(report.first_untraced[0]), std::sqrt(0.4));
+    }
+  }
+}
+
+class CountingField : public VelocityField {
+ public:
+  void add(double t, const PointsView& x, const VectorsView& u) const override {
+    calls += x.count;
+    rotation_.add(t, x, u);
+  }
+  std::string describe() const override { return "counted"; }
+  mutable std::atomic<std::size_t> calls{0};
+
+ private:
+  ExpressionField rotation_{{"-y", "x"}, {}};
+};
+
+TEST(Characteristics, GoOnFromTheirFeetWhereTheFlowIsSteady) {
+  const auto density = written(hill);
+  const auto evaluations = [&](bool steady, int outputs) {
+    const CountingField field;
+    const auto reference = characteristics(field, density, {}, lattice(10), {.steady = steady, .end = 20});
+    std::vector<double> rho;
+    for (int k = 1; k <= outputs; ++k) reference->evaluate(20. * k / outputs, rho);
+    return static_cast<double>(field.calls);
+  };
+  EXPECT_LT(evaluations(true, 10), 2 * evaluations(true, 1)) << "linear in the end time";
+  EXPECT_GT(evaluations(false, 10), 4 * evaluations(false, 1));
+}
+
+TEST(Characteristics, AreTheSameBitsForAnyThreads) {
+  const ExpressionField swirl({"sin(pi*x)^2*sin(2*pi*y)*cos(t)", "-sin(pi*y)^2*sin(2*pi*x)*cos(t)"}, {});
+  const auto density = written(hill);
+  std::vector<double> one, several;
+  characteristics(swirl, density, {}, lattice(40), {.end = 1, .threads = 1})->evaluate(1, one);
+  for (const int threads : {2, 4}) {
+    characteristics(swirl, density, {}, lattice(40), {.end = 1, .threads = threads})->evaluate(1, several);
+    EXPECT_EQ(one, several);
+  }
+}
+
+TEST(Formula, IsTheExpressionAtTheLatticePoints) {
+  const Lattice grid = lattice(20, 3);
+  const auto reference = formula("x + 10*y - z*t/a", {{"a", 2}}, grid);
+  std::vector<double> rho;
+  EXPECT_EQ(reference->evaluate(3, rho).untraced, 0u);
+  EXPECT_EQ(rho, sampled(grid, [](double x, double y, double z) { return x + 10 * y - z * 3 / 2; }));
+  const ReferenceReport report = formula("1/(x + 1)", {}, lattice(3))->evaluate(0, rho);
+  EXPECT_EQ(report.untraced, 3u);
+  EXPECT_EQ(report.first_untraced[0], -1);
+  EXPECT_TRUE(std::isnan(rho[0]));
+}
+
+TEST(Compare, DividesEachNormByThatOfTheExactDensity) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const ErrorNorms error = compare({1, 2, 3, 7}, {1, 4, 0, nan});
+  EXPECT_DOUBLE_EQ(error.l1, 5. / 5);
+  EXPECT_DOUBLE_EQ(error.l2, std::sqrt(13. / 17));
+  EXPECT_DOUBLE_EQ(error.linf, 3. / 4);
+  EXPECT_TRUE(std::isnan(compare({1, 2}, {0, 0}).l1)) << "nothing to compare with";
+  EXPECT_DOUBLE_EQ(compare({3e200, 0}, {2e200, 0}).l2, 0.5) << "squares beyond the largest number";
+}
+
+}  // namespace
+}  // namespace gaussdrift
