@@ -1,4 +1,4 @@
-// What the kernels of `chebyshev` are given (chebyshev_kernels.hpp). Coordinates within a box are local: -1 on its
+// What the kernels of `chebyshev` are given (chebyshev_kernels.cpp). Coordinates within a box are local: -1 on its
 // lower face, 1 on its upper.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The inner loops: plain loops over raw pointers, compiled once for every instruction set (kernels_body.hpp) and picked
+// The inner loops: plain loops over raw pointers, compiled once for every instruction set (*_kernels.cpp) and picked
 // at run time, so that one binary runs everywhere and is fast where it can be.
 #pragma once
 

@@ -1,7 +1,7 @@
-// Vectors of FGTD_LANES doubles in namespace FGTD_ISA, for the kernels of all methods. Included only by kernels_*.cpp,
-// through kernels_body.hpp: an inline function that others include too would be compiled with instructions that the
-// processor may lack, and the linker could take that copy for everybody. For the same reason kernels use raw pointers and
-// loops and nothing of the standard library.
+// Vectors of FGTD_LANES doubles in namespace FGTD_ISA, for the kernels of all methods. Included only by *_kernels.cpp,
+// which are compiled once for every instruction set: an inline function that others include too would be compiled with
+// instructions that the processor may lack, and the linker could take that copy for everybody. For the same reason
+// kernels use raw pointers and loops and nothing of the standard library, and their helpers have internal linkage.
 #pragma once
 
 #include <cstddef>

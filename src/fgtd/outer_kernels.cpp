@@ -1,20 +1,34 @@
 // The kernel of `outer`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as matrices;
 // see kernels_vector.hpp for what may stand here.
-#pragma once
-
 #include "fgtd/cells_job.hpp"
-#include "fgtd/cells_kernels.hpp"
+#include "fgtd/kernels_power.hpp"
+#include "fgtd/kernels_product.hpp"
+#include "fgtd/kernels_set.hpp"
 #include "fgtd/kernels_vector.hpp"
-#include "fgtd/product_kernels.hpp"
 
 namespace fgtd::detail::FGTD_ISA {
 namespace {
 
+/// exp(-t^2) by a polynomial of one of the degrees of `exponentials`.
+FGTD_INLINE Vector gaussian(Vector t, int degree) {
+  const Vector s = t * t * log2_e;
+  switch (degree) {
+    case 4:
+      return power_of_half<4>(s, 1000.0);
+    case 6:
+      return power_of_half<6>(s, 1000.0);
+    case 8:
+      return power_of_half<8>(s, 1000.0);
+    default:
+      return power_of_half<11>(s, 1000.0);
+  }
+}
+
 /// rows[n stride] = h~_n(t), n = 0 .. highest.
-template <int degree>
-FGTD_INLINE void hermite_rows(Vector t, int highest, const Recurrence& recurrence, double* rows, std::size_t stride) {
+FGTD_INLINE void hermite_rows(Vector t, int degree, int highest, const Recurrence& recurrence, double* rows,
+                              std::size_t stride) {
   t = clamp(t, 27.0);
-  Vector previous{}, current = power_of_half<degree>(t * t * log2_e, 1000.0);
+  Vector previous{}, current = gaussian(t, degree);
   store(rows, current);
   for (int n = 0; n < highest; ++n) {
     const Vector next = t * recurrence.up[n] * current - previous * recurrence.back[n];
@@ -27,8 +41,8 @@ FGTD_INLINE void hermite_rows(Vector t, int highest, const Recurrence& recurrenc
 
 constexpr std::size_t up_to_lanes(std::size_t n) { return (n + lanes - 1) / lanes * lanes; }
 
-template <int d, int degree>
-void outer_at(const OuterJob& job) {
+template <int d>
+void outer_in(const OuterJob& job) {
   const std::size_t sources = job.sources, depth = up_to_lanes(sources);
   double* free = job.scratch;
   const auto take = [&free](std::size_t size) {
@@ -44,8 +58,8 @@ void outer_at(const OuterJob& job) {
   double* first = take(plane * static_cast<std::size_t>(job.highest[0] + 1));
   for (std::size_t p = 0; p < sources; ++p)
     for (std::size_t i = 0; i < width; i += lanes)
-      hermite_rows<degree>((load(node + i) - job.position[p]) * job.root_sigma, job.highest[0], job.recurrence,
-                           first + p * width + i, plane);
+      hermite_rows((load(node + i) - job.position[p]) * job.root_sigma, job.degree, job.highest[0], job.recurrence,
+                   first + p * width + i, plane);
 
   // upper[l][n][node][p]: of the other axes; vectors run over sources, padded by repeating the last.
   double* upper[d];
@@ -57,8 +71,8 @@ void outer_at(const OuterJob& job) {
     upper[l] = take(table * static_cast<std::size_t>(job.highest[l] + 1));
     for (std::size_t i = 0; i < job.nodes[l]; ++i)
       for (std::size_t p = 0; p < depth; p += lanes)
-        hermite_rows<degree>((job.node[l][i] - load(x + p)) * job.root_sigma, job.highest[l], job.recurrence,
-                             upper[l] + i * depth + p, table);
+        hermite_rows((job.node[l][i] - load(x + p)) * job.root_sigma, job.degree, job.highest[l], job.recurrence,
+                     upper[l] + i * depth + p, table);
   }
 
   double* weight = take(depth);
@@ -115,26 +129,14 @@ void outer_at(const OuterJob& job) {
                 }
             }
             multiply_add(rows, sources, to[0] - from[0], left, depth,
-                          first + static_cast<std::size_t>(job.bundle_order[bundle]) * plane + from[0], width, here,
-                          d > 1 ? job.step[1] : 0);
+                         first + static_cast<std::size_t>(job.bundle_order[bundle]) * plane + from[0], width, here,
+                         d > 1 ? job.step[1] : 0);
           }
         }
     }
 }
 
-template <int d>
-void outer_in(const OuterJob& job) {
-  switch (job.degree) {
-    case 4:
-      return outer_at<d, 4>(job);
-    case 6:
-      return outer_at<d, 6>(job);
-    case 8:
-      return outer_at<d, 8>(job);
-    default:
-      return outer_at<d, 11>(job);
-  }
-}
+}  // namespace
 
 void outer(const OuterJob& job) {
   switch (job.dimension) {
@@ -149,5 +151,4 @@ void outer(const OuterJob& job) {
   }
 }
 
-}  // namespace
 }  // namespace fgtd::detail::FGTD_ISA

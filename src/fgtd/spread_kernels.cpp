@@ -1,4 +1,9 @@
-// The kernels of `spread`: particles to a lattice and back. Included by kernels_body.hpp inside its namespace.
+// The kernels of `spread`: particles to a lattice and back; see kernels_vector.hpp for what may stand here.
+#include "fgtd/kernels_set.hpp"
+#include "fgtd/kernels_vector.hpp"
+
+namespace fgtd::detail::FGTD_ISA {
+namespace {
 
 /// Places a point on the lattice: the first of its w nodes along each axis, found as an offset, and phi at
 /// all of them.
@@ -104,6 +109,8 @@ void spread_vectors(const SpreadJob& job) {
   }
 }
 
+}  // namespace
+
 void spread(const SpreadJob& job) {
   switch (job.dimension) {
     case 1:
@@ -116,3 +123,5 @@ void spread(const SpreadJob& job) {
       return spread_vectors<4, 1>(job);
   }
 }
+
+}  // namespace fgtd::detail::FGTD_ISA

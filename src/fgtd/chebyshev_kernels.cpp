@@ -1,7 +1,11 @@
-// The kernels of `chebyshev` (jobs: chebyshev_jobs.hpp). Included only by kernels_body.hpp, inside its namespaces and
-// after contract().
+// The kernels of `chebyshev` (jobs: chebyshev_jobs.hpp); see kernels_vector.hpp for what may stand here.
+#include "fgtd/chebyshev_jobs.hpp"
+#include "fgtd/kernels_contract.hpp"
+#include "fgtd/kernels_set.hpp"
+#include "fgtd/kernels_vector.hpp"
 
-namespace chebyshev {
+namespace fgtd::detail::FGTD_ISA {
+namespace {
 
 // ---------------------------------------------------------------------------------------------------------------
 // locate
@@ -31,6 +35,8 @@ FGTD_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, do
   store(local, clamp(rest * (2 * job.inverse_side) - 1.0, 1.0));
 }
 
+}  // namespace
+
 void locate(const LocateJob& job) {
   std::size_t j = 0;
   for (; j + lanes <= job.count; j += lanes) {
@@ -52,6 +58,8 @@ void locate(const LocateJob& job) {
     if (job.local != nullptr) job.local[j + v] = local[v];
   }
 }
+
+namespace {
 
 // ---------------------------------------------------------------------------------------------------------------
 // chain
@@ -109,6 +117,8 @@ FGTD_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t v
   }
 }
 
+}  // namespace
+
 void chain(const ChainJob& job) {
   std::size_t x = 0;
   for (; x + 3 * lanes <= job.width; x += 3 * lanes) chain_columns<3>(job, x, lanes);
@@ -120,6 +130,8 @@ void chain(const ChainJob& job) {
   if (vectors == 2) chain_columns<2>(job, x, valid);
   if (vectors == 3) chain_columns<3>(job, x, valid);
 }
+
+namespace {
 
 // ---------------------------------------------------------------------------------------------------------------
 // moments and interpolate
@@ -226,6 +238,8 @@ void moments_in(const MomentsJob& job) {
          .add = true});
 }
 
+}  // namespace
+
 void moments(const MomentsJob& job) {
   switch (job.dimension) {
     case 1:
@@ -238,6 +252,8 @@ void moments(const MomentsJob& job) {
       return moments_in<4>(job);
   }
 }
+
+namespace {
 
 template <int d, int vectors>
 FGTD_INLINE void interpolate_at(const InterpolateJob& job, std::size_t first, std::size_t size) {
@@ -276,6 +292,8 @@ void interpolate_in(const InterpolateJob& job) {
   }
 }
 
+}  // namespace
+
 void interpolate(const InterpolateJob& job) {
   switch (job.dimension) {
     case 1:
@@ -289,4 +307,4 @@ void interpolate(const InterpolateJob& job) {
   }
 }
 
-}  // namespace chebyshev
+}  // namespace fgtd::detail::FGTD_ISA

@@ -1,5 +1,5 @@
-// Small products of matrices in registers: the inner loop of `hermite`, `outer` and the filters of `spread`. Included as
-// kernels_vector.hpp is.
+// Small products of matrices in registers: the inner loop of `hermite`, `outer` and the filters of `spread`. Included
+// as kernels_vector.hpp is.
 #pragma once
 
 #include "fgtd/kernels_vector.hpp"
@@ -10,7 +10,7 @@ namespace {
 /// A block of `rows` rows and `vectors` vectors of C, the last vector of which holds `valid` numbers.
 template <int rows, int vectors>
 FGTD_INLINE void product_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d,
-                             std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
+                               std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
   Vector sum[rows][vectors] = {};
   for (std::size_t k = 0; k < depth; ++k) {
     Vector right[vectors];
@@ -35,8 +35,8 @@ FGTD_INLINE void product_block(std::size_t depth, const double* b, std::size_t b
 
 template <int vectors>
 FGTD_INLINE void product_columns(std::size_t rows, std::size_t depth, const double* b, std::size_t b_stride,
-                               const double* d, std::size_t d_stride, double* c, std::size_t c_stride,
-                               std::size_t valid) {
+                                 const double* d, std::size_t d_stride, double* c, std::size_t c_stride,
+                                 std::size_t valid) {
   std::size_t i = 0;
   for (; i + 4 <= rows; i += 4)
     product_block<4, vectors>(depth, b + i * b_stride, b_stride, d, d_stride, c + i * c_stride, c_stride, valid);
@@ -49,8 +49,8 @@ FGTD_INLINE void product_columns(std::size_t rows, std::size_t depth, const doub
 
 /// C(rows x width) += B(rows x depth) D(depth x width), all row-major; see ProductJob for what must be readable.
 FGTD_INLINE void multiply_add(std::size_t rows, std::size_t depth, std::size_t width, const double* b,
-                               std::size_t b_stride, const double* d, std::size_t d_stride, double* c,
-                               std::size_t c_stride) {
+                              std::size_t b_stride, const double* d, std::size_t d_stride, double* c,
+                              std::size_t c_stride) {
   std::size_t x = 0;
   for (; x + 3 * lanes <= width; x += 3 * lanes)
     product_columns<3>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, lanes);

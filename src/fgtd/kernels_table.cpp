@@ -1,0 +1,11 @@
+// All kernels of one instruction set.
+#include "fgtd/kernels_set.hpp"
+
+namespace fgtd::detail::FGTD_ISA {
+
+#define FGTD_TEXT_OF(x) #x
+#define FGTD_TEXT(x) FGTD_TEXT_OF(x)
+const Kernels kernels = {FGTD_TEXT(FGTD_ISA), direct, product, expansion, table, spread, cells, outer, locate, moments,
+                         interpolate,         chain};
+
+}  // namespace fgtd::detail::FGTD_ISA
