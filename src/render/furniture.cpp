@@ -11,7 +11,14 @@ Scale::Scale(const Canvas& canvas) : unit_(std::min(canvas.width() / 1280., canv
 
 int Scale::font(int size) const { return std::max(6, static_cast<int>(std::lround(unit_ * size))); }
 
-void draw_heading(Canvas& canvas, const PictureOptions& options, const HeightField& field) {
+Axis short_axis(const std::string& name, double min, double max, int intervals) {
+  Axis axis(name, min, max, intervals);
+  for (int finer = intervals + 1; axis.ticks.list.size() < 2 && finer <= intervals + 8; ++finer)
+    axis = Axis(name, min, max, finer);
+  return axis;
+}
+
+void draw_heading(Canvas& canvas, const PictureOptions& options, const ValueFacts& facts) {
   const Scale scale(canvas);
   const double left = scale(48), right = canvas.width() - scale(48), top = canvas.height() - scale(34);
 
@@ -34,11 +41,11 @@ void draw_heading(Canvas& canvas, const PictureOptions& options, const HeightFie
   canvas.text({left, top}, title, {.size = size, .across = Across::left, .along = Along::top});
 
   const Colour quiet{105, 105, 105};
-  std::string extremes = fmt::format("min {}   max {}", number(field.minimum, 5), number(field.maximum, 5));
+  std::string extremes = fmt::format("min {}   max {}", number(facts.minimum, 5), number(facts.maximum, 5));
   canvas.text({right, top - scale(36)}, extremes,
               {.size = scale.font(17), .across = Across::right, .along = Along::top, .colour = quiet});
-  if (field.not_finite > 0)
-    canvas.text({left, top - scale(38)}, fmt::format("{} values are not finite", field.not_finite),
+  if (facts.not_finite > 0)
+    canvas.text({left, top - scale(38)}, fmt::format("{} values are not finite", facts.not_finite),
                 {.size = scale.font(17), .across = Across::left, .along = Along::top, .colour = not_a_number});
 }
 
@@ -68,14 +75,14 @@ void draw_axes(Canvas& canvas, const Rectangle& panel, const Axis& across, const
 }
 
 void draw_colour_bar(Canvas& canvas, const Rectangle& bar, bool upwards, const Axis& axis,
-                     const std::vector<double>& marks) {
+                     const std::vector<double>& marks, Colour (*map)(double)) {
   const Scale scale(canvas);
   const int columns = static_cast<int>(std::lround(bar.width)), rows = static_cast<int>(std::lround(bar.height));
   const int length = upwards ? rows : columns;
   std::vector<Colour> colours;
   colours.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) colours.push_back(viridis(((upwards ? j : i) + 0.5) / length));
+    for (int i = 0; i < columns; ++i) colours.push_back(map(((upwards ? j : i) + 0.5) / length));
   canvas.image(static_cast<int>(std::lround(bar.x)), static_cast<int>(std::lround(bar.y)), columns, rows, colours);
 
   const double tick = scale(6), gap = scale(6);

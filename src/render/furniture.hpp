@@ -34,14 +34,17 @@ struct Axis {
   std::string title() const { return ticks.title(name); }
 };
 
+/// An axis with at least two ticks if the numbers allow it: short sides get finer ones.
+Axis short_axis(const std::string& name, double min, double max, int intervals);
+
 /// Title, time, and the extremes of the density, which colours alone do not tell.
-void draw_heading(Canvas& canvas, const PictureOptions& options, const HeightField& field);
+void draw_heading(Canvas& canvas, const PictureOptions& options, const ValueFacts& facts);
 
 /// Axes with numbers along the lower and left side of a plane panel.
 void draw_axes(Canvas& canvas, const Rectangle& panel, const Axis& across, const Axis& upwards);
 
-/// `marks`: positions at which lines are drawn across the bar.
+/// `marks`: positions at which lines are drawn across the bar. `map`: the colours.
 void draw_colour_bar(Canvas& canvas, const Rectangle& bar, bool upwards, const Axis& axis,
-                     const std::vector<double>& marks);
+                     const std::vector<double>& marks, Colour (*map)(double) = viridis);
 
 }  // namespace gaussdrift::render

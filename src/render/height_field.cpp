@@ -29,6 +29,12 @@ std::vector<Between> places(std::size_t from, std::size_t to) {
 
 }  // namespace
 
+float drawn_position(const ColourRange& range, double value) {
+  constexpr double far = 1e6;  // outside the range so far that it does not matter how far
+  return std::isfinite(value) ? static_cast<float>(std::clamp(range.position(value), -far, far))
+                              : std::numeric_limits<float>::quiet_NaN();
+}
+
 HeightField resample(const HeightField& field, std::size_t nx, std::size_t ny) {
   if (nx == field.nx && ny == field.ny) return field;
   HeightField thin = field;
@@ -49,45 +55,52 @@ HeightField resample(const HeightField& field, std::size_t nx, std::size_t ny) {
   return thin;
 }
 
-HeightField make_height_field(const DensityGrid& density, const ColourRange& range, std::size_t most) {
-  const Lattice& lattice = density.lattice;
-  if (lattice.dimension != 2)
-    throw Error(ExitCode::internal, fmt::format("pictures show densities in 2 dimensions, not {}", lattice.dimension));
-  const std::size_t nx = lattice.points[0], ny = lattice.points[1];
-  if (nx * ny == 0 || density.rho.size() != nx * ny)
-    throw Error(ExitCode::internal, fmt::format("density has {} values on {} x {} points", density.rho.size(), nx, ny));
+ValueFacts facts_of(const std::vector<double>& values) {
+  ValueFacts facts{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0};
+  for (const double value : values) {
+    if (!std::isfinite(value)) {
+      ++facts.not_finite;
+      continue;
+    }
+    facts.minimum = std::min(facts.minimum, value);
+    facts.maximum = std::max(facts.maximum, value);
+  }
+  if (facts.not_finite == values.size()) facts.minimum = facts.maximum = 0;
+  return facts;
+}
+
+HeightField make_height_field(const Plane& plane, const ColourRange& range) {
+  const std::size_t nx = plane.nx, ny = plane.ny;
+  if (nx * ny == 0 || plane.value.size() != nx * ny)
+    throw Error(ExitCode::internal, fmt::format("density has {} values on {} x {} points", plane.value.size(), nx, ny));
 
   HeightField field;
+  static_cast<ValueFacts&>(field) = facts_of(plane.value);
   field.nx = std::max<std::size_t>(nx, 2);  // an axis with one point is drawn one spacing wide
   field.ny = std::max<std::size_t>(ny, 2);
   const double steps_x = static_cast<double>(field.nx - 1), steps_y = static_cast<double>(field.ny - 1);
   field.width = steps_x / std::max(steps_x, steps_y);
   field.depth = steps_y / std::max(steps_x, steps_y);
-  field.length = std::max(steps_x, steps_y) * lattice.spacing;
-  field.x_min = lattice.origin[0] - (nx == 1 ? 0.5 * lattice.spacing : 0);
-  field.y_min = lattice.origin[1] - (ny == 1 ? 0.5 * lattice.spacing : 0);
-
-  field.minimum = std::numeric_limits<double>::infinity();
-  field.maximum = -field.minimum;
-  for (const double value : density.rho) {
-    if (!std::isfinite(value)) {
-      ++field.not_finite;
-      continue;
-    }
-    field.minimum = std::min(field.minimum, value);
-    field.maximum = std::max(field.maximum, value);
-  }
-  if (field.not_finite == density.rho.size()) field.minimum = field.maximum = 0;
+  field.length = std::max(steps_x, steps_y) * plane.spacing;
+  field.x_min = plane.x_min - (nx == 1 ? 0.5 * plane.spacing : 0);
+  field.y_min = plane.y_min - (ny == 1 ? 0.5 * plane.spacing : 0);
 
   field.value.resize(field.nx * field.ny);
-  constexpr double far = 1e6;  // outside the range so far that it does not matter how far
   for (std::size_t j = 0; j < field.ny; ++j)
-    for (std::size_t i = 0; i < field.nx; ++i) {
-      const double value = density.rho[std::min(j, ny - 1) * nx + std::min(i, nx - 1)];
-      field.value[j * field.nx + i] = std::isfinite(value)
-                                          ? static_cast<float>(std::clamp(range.position(value), -far, far))
-                                          : std::numeric_limits<float>::quiet_NaN();
-    }
+    for (std::size_t i = 0; i < field.nx; ++i)
+      field.value[j * field.nx + i] =
+          drawn_position(range, plane.value[std::min(j, ny - 1) * nx + std::min(i, nx - 1)]);
+  return field;
+}
+
+HeightField make_height_field(const DensityGrid& density, const ColourRange& range, std::size_t most) {
+  const Lattice& lattice = density.lattice;
+  if (lattice.dimension != 2)
+    throw Error(ExitCode::internal,
+                fmt::format("this style shows densities in 2 dimensions, not {}", lattice.dimension));
+  const HeightField field = make_height_field(
+      Plane{lattice.points[0], lattice.points[1], lattice.origin[0], lattice.origin[1], lattice.spacing, density.rho},
+      range);
   return resample(field, std::min(field.nx, most), std::min(field.ny, most));
 }
 

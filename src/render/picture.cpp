@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <tuple>
 
 #include "base/error.hpp"
 #include "render/osmesa_window.hpp"
@@ -16,14 +18,44 @@ namespace {
 /// More points than these a picture of 1280 pixels does not show; a surface costs time for each.
 constexpr std::size_t most_surface = 300, most_plane = 1000;
 
-ColourRange colour_range(const DensityGrid& density, const PictureOptions& options) {
-  if (std::isfinite(options.range_min) && std::isfinite(options.range_max) && options.range_min < options.range_max)
-    return {options.range_min, options.range_max};
+ColourRange colour_range(Style style, const DensityGrid& density, const PictureOptions& options) {
+  ColourRange range;
+  if (style == Style::error) range.map = blue_white_red;
+  range.min = options.range_min, range.max = options.range_max;
+  if (std::isfinite(range.min) && std::isfinite(range.max) && range.min < range.max) return range;
   double minimum = 0, maximum = 0;
   for (const double value : density.rho)
     if (std::isfinite(value)) minimum = std::min(minimum, value), maximum = std::max(maximum, value);
-  const auto [min, max] = rounded_range(minimum, maximum);
-  return {min, max};
+  std::tie(range.min, range.max) =
+      style == Style::error ? symmetric_range(minimum, maximum) : rounded_range(minimum, maximum);
+  return range;
+}
+
+/// The density of a style that shows planes; empty for others.
+HeightField field_for(Style style, const DensityGrid& density, const ColourRange& range) {
+  const bool plane = shows(style, 2) && (style != Style::error || density.lattice.dimension == 2);
+  return plane ? make_height_field(density, range, style == Style::surface ? most_surface : most_plane) : HeightField{};
+}
+
+void draw_on(Canvas& canvas, Style style, const DensityGrid& density, const HeightField& field,
+             const ColourRange& range, const PictureOptions& options) {
+  switch (style) {
+    case Style::surface:
+      return draw_surface(canvas, field, range, options);
+    case Style::contour:
+      return draw_contour(canvas, field, range, options);
+    case Style::heatmap:
+      return draw_heatmap(canvas, field, range, options);
+    case Style::slices:
+      return draw_slices(canvas, density, range, options);
+    case Style::projection:
+      return draw_projection(canvas, density, range, options);
+    case Style::isosurface:
+      return draw_isosurface(canvas, density, range, options);
+    case Style::error:
+      return density.lattice.dimension == 2 ? draw_heatmap(canvas, field, range, options)
+                                            : draw_slices(canvas, density, range, options);
+  }
 }
 
 }  // namespace
@@ -38,22 +70,12 @@ void draw(Style style, const DensityGrid& density, const PictureOptions& options
   static std::mutex one_at_a_time;  // VTK and GLEW share their state between all windows
   const std::lock_guard lock(one_at_a_time);
 
-  const ColourRange range = colour_range(density, options);
-  const HeightField field = make_height_field(density, range, style == Style::surface ? most_surface : most_plane);
+  const ColourRange range = colour_range(style, density, options);
+  const HeightField field = field_for(style, density, range);  // VTK looks into it until the picture is finished
   std::string bytes;
   {
     Canvas canvas(options.width, options.height);
-    switch (style) {
-      case Style::surface:
-        draw_surface(canvas, field, range, options);
-        break;
-      case Style::contour:
-        draw_contour(canvas, field, range, options);
-        break;
-      case Style::heatmap:
-        draw_heatmap(canvas, field, range, options);
-        break;
-    }
+    draw_on(canvas, style, density, field, range, options);
     bytes = canvas.png();
   }
   write::write_text(png, bytes);

@@ -123,7 +123,7 @@ void draw_heatmap(Canvas& canvas, const HeightField& field, const ColourRange& r
 
   const HeightField pixels = resample(field, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows));
   std::vector<Colour> colours(pixels.value.size());
-  std::transform(pixels.value.begin(), pixels.value.end(), colours.begin(), [](float s) { return viridis(s); });
+  std::transform(pixels.value.begin(), pixels.value.end(), colours.begin(), range.map);
   canvas.image(static_cast<int>(panel.x), static_cast<int>(panel.y), columns, rows, colours);
 
   const Rectangle whole{0, 0, field.width, field.depth};
@@ -131,7 +131,7 @@ void draw_heatmap(Canvas& canvas, const HeightField& field, const ColourRange& r
   const double bar_height = std::clamp(panel.height, room.height / 2, room.height) - scale(50);
   const Rectangle bar{panel.right() + scale(44), panel.y + (panel.height - bar_height - scale(50)) / 2, scale(26),
                       bar_height};
-  draw_colour_bar(canvas, bar, true, {options.quantity, range.min, range.max, 6}, {});
+  draw_colour_bar(canvas, bar, true, {options.quantity, range.min, range.max, 6}, {}, range.map);
   draw_heading(canvas, options, field);
 }
 

@@ -1,0 +1,193 @@
+// Surfaces of equal density in perspective: a solid one inside others that can be seen through.
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkFlyingEdges3D.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "render/furniture.hpp"
+#include "render/scene.hpp"
+#include "render/solid.hpp"
+#include "render/styles.hpp"
+
+namespace gaussdrift::render {
+namespace {
+
+/// More points an axis than these a picture of 1280 pixels does not show; a surface costs time for each.
+constexpr std::size_t most_points = 160;
+
+struct Level {
+  double value;    // density
+  double opacity;  // 1: solid
+};
+
+/// The density in the scene's box, whose longest side is 1; places that are not finite count as 0. An axis with one
+/// point is drawn one spacing wide.
+vtkNew<vtkImageData> image_of(const DensityGrid& density, double longest) {
+  const auto& points = density.lattice.points;
+  std::array<std::size_t, 3> drawn{};
+  for (std::size_t k = 0; k < 3; ++k) drawn[k] = std::max<std::size_t>(points[k], 2);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(static_cast<int>(drawn[0]), static_cast<int>(drawn[1]), static_cast<int>(drawn[2]));
+  const double step = density.lattice.spacing / longest;
+  image->SetSpacing(step, step, step);
+  image->AllocateScalars(VTK_FLOAT, 1);
+  auto* to = static_cast<float*>(image->GetScalarPointer());
+  for (std::size_t k = 0; k < drawn[2]; ++k)
+    for (std::size_t j = 0; j < drawn[1]; ++j)
+      for (std::size_t i = 0; i < drawn[0]; ++i) {
+        const std::size_t row = std::min(j, points[1] - 1) + points[1] * std::min(k, points[2] - 1);
+        const double value = density.rho[std::min(i, points[0] - 1) + points[0] * row];
+        *to++ = std::isfinite(value) ? static_cast<float>(value) : 0;
+      }
+  return image;
+}
+
+/// Triangles of all levels in one list, those behind first, so that what is in front covers what is behind.
+class Surfaces {
+ public:
+  Surfaces() {
+    colours_->SetNumberOfComponents(4);
+    normals_->SetNumberOfComponents(3);
+    normals_->SetName("Normals");
+    points_->SetDataTypeToFloat();
+  }
+
+  void add(vtkImageData* image, const Level& level, const Colour& colour) {
+    vtkNew<vtkFlyingEdges3D> contour;
+    contour->SetInputData(image);
+    contour->SetValue(0, level.value);
+    contour->ComputeScalarsOff();
+    contour->ComputeNormalsOn();
+    contour->Update();
+    vtkPolyData* surface = contour->GetOutput();
+    const vtkIdType first = points_->GetNumberOfPoints();
+    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i) {
+      points_->InsertNextPoint(surface->GetPoint(i));
+      normals_->InsertNextTuple(surface->GetPointData()->GetNormals()->GetTuple(i));
+      colours_->InsertNextTuple4(colour[0], colour[1], colour[2], std::lround(255 * level.opacity));
+    }
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    vtkCellArray* cells = surface->GetPolys();
+    for (cells->InitTraversal(); cells->GetNextCell(count, ids);)
+      triangles_.push_back({first + ids[0], first + ids[1], first + ids[2]});
+  }
+
+  bool empty() const { return triangles_.empty(); }
+
+  void show(vtkRenderer* scene, const View& view, bool translucent) {
+    std::vector<float> depth(triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      Place centre{};
+      for (const vtkIdType corner : triangles_[t]) {
+        double p[3];
+        points_->GetPoint(corner, p);
+        for (std::size_t k = 0; k < 3; ++k) centre[k] += p[k] / 3;
+      }
+      depth[t] = static_cast<float>(view.depth(centre));
+    }
+    std::vector<std::size_t> order(triangles_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] > depth[b]; });
+    vtkNew<vtkCellArray> cells;
+    for (const std::size_t t : order) cells->InsertNextCell(3, triangles_[t].data());
+
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points_);
+    data->SetPolys(cells);
+    data->GetPointData()->SetNormals(normals_);
+    data->GetPointData()->SetScalars(colours_);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(data);
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    if (translucent) actor->ForceTranslucentOn();
+    actor->GetProperty()->SetAmbient(0.45);
+    actor->GetProperty()->SetDiffuse(translucent ? 0.75 : 0.6);
+    actor->GetProperty()->SetSpecular(0.15);
+    actor->GetProperty()->SetSpecularPower(25);
+    scene->AddActor(actor);
+  }
+
+ private:
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkFloatArray> normals_;
+  vtkNew<vtkUnsignedCharArray> colours_;
+  std::vector<std::array<vtkIdType, 3>> triangles_;
+};
+
+/// On either side of 0 as far as the range reaches: a solid one at 3/4 of the largest density, others outside.
+std::vector<Level> levels_of(const ColourRange& range) {
+  std::vector<Level> levels;
+  for (const double end : {range.min, range.max}) {
+    const bool outwards = end == range.max ? end > 0 : end < 0;
+    if (!outwards) continue;
+    for (const auto& [part, opacity] : {std::pair{0.15, 0.2}, {0.45, 0.35}, {0.75, 1.}})
+      if (const double value = part * end; value > range.min && value < range.max) levels.push_back({value, opacity});
+  }
+  return levels;
+}
+
+}  // namespace
+
+void draw_isosurface(Canvas& canvas, const DensityGrid& full, const ColourRange& range, const PictureOptions& options) {
+  check_solid(full);
+  const Scale scale(canvas);
+  const DensityGrid density = thinned(full, most_points);
+  const Lattice& lattice = density.lattice;
+  Place box{};
+  double longest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    box[axis] = lattice.spacing * static_cast<double>(std::max<std::size_t>(lattice.points[axis], 2) - 1);
+    longest = std::max(longest, box[axis]);
+  }
+  for (double& side : box) side /= longest;
+  const auto axis = [&](int k) {
+    const double side = box[static_cast<std::size_t>(k)], from = lattice.origin[k];
+    return short_axis(std::string(1, "xyz"[k]), from, from + side * longest, side > 0.4 ? 5 : 2);
+  };
+  const Axis x = axis(0), y = axis(1), z = axis(2);
+
+  const double right = scale(160) + Canvas::text_width(y.title(), scale.font(21));
+  const View view(canvas, box,
+                  {scale(128), scale(96), canvas.width() - scale(128) - right, canvas.height() - scale(96 + 130)});
+  vtkRenderer* scene = canvas.scene();
+  add_walls(scene, box, x, y, z, true);
+  const auto image = image_of(density, longest);
+  Surfaces solid, clear;
+  std::vector<double> marks;
+  for (const Level& level : levels_of(range)) {
+    (level.opacity < 1 ? clear : solid).add(image, level, range.colour(level.value));
+    marks.push_back(level.value);
+  }
+  if (!solid.empty()) solid.show(scene, view, false);
+  if (!clear.empty()) clear.show(scene, view, true);
+  add_light(scene);
+  scene->ResetCameraClippingRange();
+
+  draw_edges(canvas, view, box, x, y, z);
+  if (solid.empty() && clear.empty())
+    canvas.text({(canvas.width() - right + scale(128)) / 2, scale(400)}, "no surface: the density is below all levels",
+                {.size = scale.font(18), .colour = grey});
+  draw_colour_bar(canvas, {canvas.width() - scale(134), scale(250), scale(26), scale(460)}, true,
+                  {options.quantity, range.min, range.max, 6}, marks, range.map);
+  draw_heading(canvas, options, facts_of(full.rho));
+}
+
+}  // namespace gaussdrift::render

@@ -1,0 +1,180 @@
+#include "render/scene.hpp"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkLight.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gaussdrift::render {
+
+vtkNew<vtkPolyData> polylines(const std::vector<std::vector<Place>>& lines) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& line : lines) {
+    cells->InsertNextCell(static_cast<int>(line.size()));
+    for (const Place& p : line) cells->InsertCellPoint(points->InsertNextPoint(p.data()));
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  return data;
+}
+
+View::View(Canvas& canvas, const Place& box, const Rectangle& room)
+    : canvas_(canvas), camera_(canvas.scene()->GetActiveCamera()) {
+  constexpr double azimuth = -62 * std::numbers::pi / 180, elevation = 31 * std::numbers::pi / 180;
+  const Place centre{box[0] / 2, box[1] / 2, box[2] / 2};
+  camera_->SetViewAngle(20);
+  camera_->SetViewUp(0, 0, 1);
+  camera_->SetFocalPoint(centre.data());
+  double distance = 4;
+  for (int round = 0; round < 8; ++round) {
+    camera_->SetPosition(centre[0] + distance * std::cos(elevation) * std::cos(azimuth),
+                         centre[1] + distance * std::cos(elevation) * std::sin(azimuth),
+                         centre[2] + distance * std::sin(elevation));
+    const Rectangle seen = extent(box);
+    distance *= std::max(seen.width / room.width, seen.height / room.height);
+  }
+  const Rectangle seen = extent(box);
+  camera_->SetWindowCenter(2 * (seen.x + seen.width / 2 - room.x - room.width / 2) / canvas.width(),
+                           2 * (seen.y + seen.height / 2 - room.y - room.height / 2) / canvas.height());
+}
+
+Point View::pixel(const Place& place) const {
+  vtkMatrix4x4* projection =
+      camera_->GetCompositeProjectionTransformMatrix(static_cast<double>(canvas_.width()) / canvas_.height(), -1, 1);
+  const double from[4] = {place[0], place[1], place[2], 1};
+  double to[4];
+  projection->MultiplyPoint(from, to);
+  return {(to[0] / to[3] + 1) / 2 * canvas_.width(), (to[1] / to[3] + 1) / 2 * canvas_.height()};
+}
+
+double View::depth(const Place& place) const {
+  double position[3], direction[3];
+  camera_->GetPosition(position);
+  camera_->GetDirectionOfProjection(direction);
+  double distance = 0;
+  for (int k = 0; k < 3; ++k) distance += (place[static_cast<std::size_t>(k)] - position[k]) * direction[k];
+  return distance;
+}
+
+Rectangle View::extent(const Place& box) const {
+  Point low{1e30, 1e30}, high{-1e30, -1e30};
+  for (int corner = 0; corner < 8; ++corner) {
+    const Point p = pixel({corner & 1 ? box[0] : 0, corner & 2 ? box[1] : 0, corner & 4 ? box[2] : 0});
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+void set_colour(vtkActor* actor, const Colour& colour) {
+  actor->GetProperty()->SetColor(colour[0] / 255., colour[1] / 255., colour[2] / 255.);
+}
+
+void add_lines(vtkRenderer* scene, const std::vector<std::vector<Place>>& lines, const Colour& colour, double width) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(polylines(lines));
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  set_colour(actor, colour);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  scene->AddActor(actor);
+}
+
+void add_light(vtkRenderer* scene) {
+  scene->AutomaticLightCreationOff();
+  vtkNew<vtkLight> light;
+  light->SetLightTypeToCameraLight();
+  light->SetPosition(-0.6, 0.7, 1);
+  scene->AddLight(light);
+}
+
+void add_walls(vtkRenderer* scene, const Place& box, const Axis& x, const Axis& y, const Axis& z, bool floor) {
+  const auto [w, d, height] = box;
+  std::vector<std::vector<Place>> grid, walls{{{0, 0, 0},
+                                               {0, 0, height},
+                                               {0, d, height},
+                                               {w, d, height},
+                                               {w, d, 0},
+                                               {0, d, 0},
+                                               {0, 0, 0},
+                                               {w, 0, 0},
+                                               {w, d, 0}},
+                                              {{0, d, 0}, {0, d, height}}};
+  for (const Tick& t : x.ticks.list) {
+    const double at = x.position(t.at) * w;
+    grid.push_back({{at, d, 0}, {at, d, height}});
+    if (floor) grid.push_back({{at, 0, 0}, {at, d, 0}});
+  }
+  for (const Tick& t : y.ticks.list) {
+    const double at = y.position(t.at) * d;
+    grid.push_back({{0, at, 0}, {0, at, height}});
+    if (floor) grid.push_back({{0, at, 0}, {w, at, 0}});
+  }
+  for (const Tick& t : z.ticks.list) {
+    const double level = z.position(t.at) * height;
+    grid.push_back({{0, 0, level}, {0, d, level}, {w, d, level}});
+  }
+  add_lines(scene, grid, pale_grey, 1);
+  add_lines(scene, walls, grey, 1);
+}
+
+void draw_edge(Canvas& canvas, const View& view, const Axis& axis, const Place& from, const Place& to,
+               const Place& out) {
+  const Scale scale(canvas);
+  const auto along = [&](double s) {
+    return Place{from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1]), from[2] + s * (to[2] - from[2])};
+  };
+  const auto outwards = [&](const Place& p) {  // unit vector in the picture
+    const Point here = view.pixel(p),
+                there = view.pixel({p[0] + 0.01 * out[0], p[1] + 0.01 * out[1], p[2] + 0.01 * out[2]});
+    const double length = std::hypot(there.x - here.x, there.y - here.y);
+    return Point{(there.x - here.x) / length, (there.y - here.y) / length};
+  };
+  // Numbers are centred on a point beyond the tick, as far out as half of them reaches.
+  const int size = scale.font(18), title_size = scale.font(21);
+  const auto centre = [&](const Point& at, const Point& direction, double gap, double text_width, double text_height) {
+    const double reach = gap + std::fabs(direction.x) * text_width / 2 + std::fabs(direction.y) * text_height / 2;
+    return Point{at.x + reach * direction.x, at.y + reach * direction.y};
+  };
+  std::vector<Polyline> marks;
+  double widest = 0;
+  for (const Tick& t : axis.ticks.list) {
+    const Place place = along(axis.position(t.at));
+    const Point at = view.pixel(place), direction = outwards(place);
+    const double tick = scale(8), width = Canvas::text_width(t.label, size);
+    marks.push_back({{at, {at.x + tick * direction.x, at.y + tick * direction.y}}, ink});
+    canvas.text(centre(at, direction, scale(15), width, size), t.label, {.size = size});
+    widest = std::max(widest, width);
+  }
+  canvas.lines(marks, 1.3);
+  canvas.line(view.pixel(from), view.pixel(to), ink, 1.3);
+  const Place middle = along(0.5);
+  const Point at = view.pixel(middle), direction = outwards(middle);
+  const bool upwards = std::fabs(to[2] - from[2]) > 0;
+  const double width = upwards ? title_size : Canvas::text_width(axis.title(), title_size);
+  const double beyond = scale(15 + 16) + std::fabs(direction.x) * widest + std::fabs(direction.y) * size;
+  canvas.text(centre(at, direction, beyond, width, title_size), axis.title(), {.size = title_size, .upwards = upwards});
+}
+
+void draw_edges(Canvas& canvas, const View& view, const Place& box, const Axis& x, const Axis& y, const Axis& z) {
+  const auto [w, d, height] = box;
+  draw_edge(canvas, view, x, {0, 0, 0}, {w, 0, 0}, {0, -1, 0});
+  draw_edge(canvas, view, y, {w, 0, 0}, {w, d, 0}, {1, 0, 0});
+  draw_edge(canvas, view, z, {0, 0, 0}, {0, 0, height}, {-1, 0, 0});
+}
+
+}  // namespace gaussdrift::render

@@ -1,0 +1,88 @@
+#include "render/solid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace gaussdrift::render {
+namespace {
+
+std::array<std::size_t, 3> strides(const Lattice& lattice) {
+  return {1, lattice.points[0], lattice.points[0] * lattice.points[1]};
+}
+
+Plane empty_plane(const Lattice& lattice, int across, int up) {
+  return {lattice.points[across], lattice.points[up], lattice.origin[across], lattice.origin[up], lattice.spacing, {}};
+}
+
+}  // namespace
+
+void check_solid(const DensityGrid& density) {
+  const Lattice& lattice = density.lattice;
+  if (lattice.dimension != 3)
+    throw Error(ExitCode::internal,
+                fmt::format("this style shows densities in 3 dimensions, not {}", lattice.dimension));
+  if (lattice.size() == 0 || density.rho.size() != lattice.size())
+    throw Error(ExitCode::internal, fmt::format("density has {} values on {} x {} x {} points", density.rho.size(),
+                                                lattice.points[0], lattice.points[1], lattice.points[2]));
+}
+
+std::array<std::size_t, 3> largest_point(const DensityGrid& density) {
+  const auto& points = density.lattice.points;
+  double largest = 0;
+  std::size_t at = density.rho.size();
+  for (std::size_t i = 0; i < density.rho.size(); ++i)
+    if (std::isfinite(density.rho[i]) && std::abs(density.rho[i]) > largest) largest = std::abs(density.rho[i]), at = i;
+  if (at == density.rho.size()) return {points[0] / 2, points[1] / 2, points[2] / 2};
+  return {at % points[0], at / points[0] % points[1], at / points[0] / points[1]};
+}
+
+Plane slice(const DensityGrid& density, int across, int up, std::size_t index) {
+  const auto step = strides(density.lattice);
+  const auto a = static_cast<std::size_t>(across), u = static_cast<std::size_t>(up), n = 3 - a - u;
+  Plane plane = empty_plane(density.lattice, across, up);
+  plane.value.reserve(plane.nx * plane.ny);
+  for (std::size_t j = 0; j < plane.ny; ++j)
+    for (std::size_t i = 0; i < plane.nx; ++i)
+      plane.value.push_back(density.rho[i * step[a] + j * step[u] + index * step[n]]);
+  return plane;
+}
+
+Plane projection(const DensityGrid& density, int across, int up) {
+  const auto step = strides(density.lattice);
+  const auto a = static_cast<std::size_t>(across), u = static_cast<std::size_t>(up), n = 3 - a - u;
+  Plane plane = empty_plane(density.lattice, across, up);
+  plane.value.reserve(plane.nx * plane.ny);
+  for (std::size_t j = 0; j < plane.ny; ++j)
+    for (std::size_t i = 0; i < plane.nx; ++i) {
+      double largest = density.rho[i * step[a] + j * step[u]];
+      for (std::size_t k = 1; k < density.lattice.points[n]; ++k) {
+        const double value = density.rho[i * step[a] + j * step[u] + k * step[n]];
+        if (std::isnan(largest) || std::abs(value) > std::abs(largest)) largest = value;
+      }
+      plane.value.push_back(largest);
+    }
+  return plane;
+}
+
+DensityGrid thinned(const DensityGrid& density, std::size_t most) {
+  const Lattice& full = density.lattice;
+  const std::size_t longest = std::max({full.points[0], full.points[1], full.points[2]});
+  const std::size_t every = std::max<std::size_t>(1, (longest - 1 + most - 1) / std::max<std::size_t>(1, most));
+  if (every == 1) return density;
+  DensityGrid thin{full, {}};
+  thin.lattice.spacing = full.spacing * static_cast<double>(every);
+  for (std::size_t k = 0; k < 3; ++k) thin.lattice.points[k] = (full.points[k] - 1) / every + 1;
+  const auto step = strides(full);
+  thin.rho.reserve(thin.lattice.size());
+  for (std::size_t k = 0; k < thin.lattice.points[2]; ++k)
+    for (std::size_t j = 0; j < thin.lattice.points[1]; ++j)
+      for (std::size_t i = 0; i < thin.lattice.points[0]; ++i)
+        thin.rho.push_back(density.rho[every * (i * step[0] + j * step[1] + k * step[2])]);
+  return thin;
+}
+
+}  // namespace gaussdrift::render
