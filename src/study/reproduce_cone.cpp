@@ -76,7 +76,7 @@ struct Cone {
 };
 
 Cone seed_cone(int per_axis, int threads) {
-  const RadialDensity wendland(RadialDensity::Profile::wendland, {0.5, 0, 0}, 0.25, 1);
+  const RadialDensity wendland(RadialDensity::Profile::wendland, 2, {0.5, 0, 0}, 0.25, 1);
   Cone cone;
   cone.seeding = make_lattice(2, low, high, per_axis);
   cone.particles = seed(

@@ -20,13 +20,13 @@ Particles seed_radial(const RadialDensity& density, int threads) {
 }
 
 TEST(Seeding, CarriesOnlyTheConesParticles) {
-  const Particles cone = seed_radial({RadialDensity::Profile::wendland, {0.5, 0, 0}, 0.25, 1}, 0);
+  const Particles cone = seed_radial({RadialDensity::Profile::wendland, 2, {0.5, 0, 0}, 0.25, 1}, 0);
   EXPECT_EQ(cone.size(), 4386u);  // lattice points with rho_0 > 0; the thesis says 4378
   for (const double alpha : cone.alpha) EXPECT_GT(alpha, 0);
 }
 
 TEST(Seeding, WeighsWithTheLatticeCell) {
-  const RadialDensity density(RadialDensity::Profile::gaussian, {0.1, 0.2, 0}, 0.2, 1);
+  const RadialDensity density(RadialDensity::Profile::gaussian, 2, {0.1, 0.2, 0}, 0.2, 1);
   const Particles particles = seed_radial(density, 0);
   double mass = 0;
   for (const double alpha : particles.alpha) mass += alpha;
@@ -35,7 +35,7 @@ TEST(Seeding, WeighsWithTheLatticeCell) {
 }
 
 TEST(Seeding, NumbersParticlesByLatticeIndexForAnyThreads) {
-  const RadialDensity density(RadialDensity::Profile::disk, {0.5, 0, 0}, 0.25, 1);
+  const RadialDensity density(RadialDensity::Profile::disk, 2, {0.5, 0, 0}, 0.25, 1);
   const Particles one = seed_radial(density, 1), two = seed_radial(density, 2);
   EXPECT_EQ(one.id, two.id);
   EXPECT_EQ(one.position, two.position);
