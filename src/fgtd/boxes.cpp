@@ -2,34 +2,69 @@
 #include "fgtd/boxes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace fgtd::detail {
 namespace {
 
 constexpr double far_index = 0x1p45;  // beyond every occupied box, and safe to subtract
 
-/// Stable radix sort of places by key, eleven bits at a time.
-void sort_by_key(std::vector<std::uint64_t>& key, std::vector<std::size_t>& place) {
-  constexpr int digit_bits = 11;
-  constexpr std::size_t digits = std::size_t{1} << digit_bits;
-  const std::uint64_t largest = key.empty() ? 0 : *std::max_element(key.begin(), key.end());
+/// The number of bits of a digit, so that few passes of about as many bits each sort keys up to `largest`.
+constexpr int most_digit_bits = 11;
+int digit_bits(std::uint64_t largest) {
+  const int bits = static_cast<int>(std::bit_width(largest)), passes = (bits + most_digit_bits - 1) / most_digit_bits;
+  return passes > 0 ? (bits + passes - 1) / passes : 1;
+}
+
+/// Where the keys with each digit begin, of all keys.
+using DigitStarts = std::array<std::size_t, (std::size_t{1} << most_digit_bits) + 1>;
+template <class DigitOf>
+DigitStarts digit_starts(std::size_t count, const DigitOf& digit_of) {
+  DigitStarts start{};
+  for (std::size_t i = 0; i < count; ++i) ++start[digit_of(i) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  return start;
+}
+
+/// Stable radix sort of places 0, 1, ... by key.
+std::vector<std::size_t> places_by_long_key(std::vector<std::uint64_t> key, std::uint64_t largest) {
+  std::vector<std::size_t> place(key.size()), other_place(key.size());
+  std::iota(place.begin(), place.end(), std::size_t{0});
   std::vector<std::uint64_t> other_key(key.size());
-  std::vector<std::size_t> other_place(key.size());
-  for (int shift = 0; shift < 64 && (largest >> shift) > 0; shift += digit_bits) {
-    std::array<std::size_t, digits + 1> start{};
-    for (const std::uint64_t k : key) ++start[((k >> shift) & (digits - 1)) + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
+  const int bits = digit_bits(largest);
+  for (int shift = 0; shift < 64 && (largest >> shift) > 0; shift += bits) {
+    const auto digit = [&](std::size_t i) { return (key[i] >> shift) & ((std::uint64_t{1} << bits) - 1); };
+    DigitStarts start = digit_starts(key.size(), digit);
     for (std::size_t i = 0; i < key.size(); ++i) {
-      const std::size_t to = start[(key[i] >> shift) & (digits - 1)]++;
+      const std::size_t to = start[digit(i)]++;
       other_key[to] = key[i];
       other_place[to] = place[i];
     }
     key.swap(other_key);
     place.swap(other_place);
   }
+  return place;
+}
+
+/// The same for keys and places below 2^32, which move together.
+std::vector<std::size_t> places_by_short_key(std::vector<std::uint64_t> key, std::uint64_t largest) {
+  for (std::size_t i = 0; i < key.size(); ++i) key[i] = key[i] << 32 | i;
+  std::vector<std::uint64_t> other(key.size());
+  const int bits = digit_bits(largest);
+  for (int shift = 0; shift < 32 && (largest >> shift) > 0; shift += bits) {
+    const auto digit = [&](std::size_t i) { return (key[i] >> (32 + shift)) & ((std::uint64_t{1} << bits) - 1); };
+    DigitStarts start = digit_starts(key.size(), digit);
+    for (std::size_t i = 0; i < key.size(); ++i) other[start[digit(i)]++] = key[i];
+    key.swap(other);
+  }
+  std::vector<std::size_t> place(key.size());
+  for (std::size_t i = 0; i < key.size(); ++i) place[i] = key[i] & 0xffffffff;
+  return place;
 }
 
 template <int d>
@@ -80,9 +115,7 @@ bool boxes_resolve(const std::vector<double>& position, std::size_t count, doubl
 
 template <int d>
 std::vector<std::size_t> sorted_places(const std::vector<BoxIndex<d>>& index) {
-  std::vector<std::size_t> place(index.size());
-  std::iota(place.begin(), place.end(), std::size_t{0});
-  if (index.empty()) return place;
+  if (index.empty()) return {};
 
   // A single 64-bit key if the lattice between the outermost indices has that few boxes.
   BoxIndex<d> low = index[0], high = index[0];
@@ -102,9 +135,12 @@ std::vector<std::size_t> sorted_places(const std::vector<BoxIndex<d>>& index) {
                  static_cast<std::uint64_t>(index[j][l] - low[l]);
       key[j] = number;
     }
-    sort_by_key(key, place);
-    return place;
+    const std::uint64_t largest = static_cast<std::uint64_t>(boxes) - 1;
+    const bool is_short = (largest | key.size()) >> 32 == 0;
+    return is_short ? places_by_short_key(std::move(key), largest) : places_by_long_key(std::move(key), largest);
   }
+  std::vector<std::size_t> place(index.size());
+  std::iota(place.begin(), place.end(), std::size_t{0});
   std::stable_sort(place.begin(), place.end(), [&](std::size_t a, std::size_t b) {
     return std::lexicographical_compare(index[a].rbegin(), index[a].rend(), index[b].rbegin(), index[b].rend());
   });

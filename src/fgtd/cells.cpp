@@ -2,8 +2,8 @@
 #include "fgtd/cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <memory>
 
 #include "base/parallel.hpp"
 #include "fgtd/cells_job.hpp"
@@ -12,12 +12,14 @@
 namespace fgtd::detail {
 namespace {
 
-constexpr std::size_t piece_targets = 512;  // at least so many targets are one piece of work
+constexpr std::size_t piece_targets = 512;  // one piece of work
+constexpr std::size_t group_targets = 16;   // that share runs of sources, at most
 
 /// The cells around a line of cells: each line of sources within reach, with the cells along it that are.
 struct NearLine {
-  std::size_t cell, end;  // the next cell that may be within reach, and the end of the line
-  std::int64_t reach;     // along the line, in cells
+  std::size_t from, to;  // cells within reach of the latest group, from .. to - 1
+  std::size_t end;       // of the line
+  std::int64_t reach;    // along the line, in cells
 };
 
 /// The first place in [from, end) whose index along the line is `index` or more; near `from` as a rule.
@@ -82,7 +84,7 @@ void find_lines(const Cells<d>& cells, const BoxIndex<d>& at, std::vector<NearLi
       if (squared > span * span) continue;
       std::int64_t reach = 1;
       while (reach < span && reach * reach + squared <= span * span) ++reach;
-      lines.push_back({cells.first_line[low], cells.first_line[low + 1], reach});
+      lines.push_back({cells.first_line[low], cells.first_line[low], cells.first_line[low + 1], reach});
     }
     std::size_t l = 2;
     for (; l < d; ++l) {
@@ -93,10 +95,25 @@ void find_lines(const Cells<d>& cells, const BoxIndex<d>& at, std::vector<NearLi
   }
 }
 
-/// Targets of one cell, at most cell_targets of them.
-struct Block {
-  std::size_t begin, end;
-};
+/// The number of targets from `begin` on that go together, their cells being given: those of one line while a vector of
+/// `lanes` is not full and the next widens what all of them see by less than it would see alone; further vectors full
+/// of those that hardly widen it.
+template <int d>
+std::size_t count_together(const std::vector<BoxIndex<d>>& index, std::size_t begin, std::size_t end, int span,
+                           std::size_t lanes) {
+  const BoxIndex<d>& first = index[begin];
+  const std::int64_t alone = 2 * span + 1;
+  end = std::min(end, begin + group_targets);
+  std::size_t next = begin + 1;
+  for (; next < end; ++next) {
+    const BoxIndex<d>& at = index[next];
+    for (std::size_t l = 1; l < d; ++l)
+      if (at[l] != first[l]) return next - begin;
+    const bool vector_is_full = (next - begin) % lanes == 0;
+    if (vector_is_full ? 8 * (at[0] - first[0]) > alone : at[0] - index[next - 1][0] > alone) break;
+  }
+  return next - begin;
+}
 
 template <int d>
 std::vector<BoxIndex<d>> cell_indices(const Cells<d>& cells, const double* points, std::size_t count,
@@ -135,10 +152,10 @@ void for_each_change(const std::vector<BoxIndex<d>>& index, const Open& open) {
   }
 }
 
-/// Sorts `position` ([d][count]) into cells; the result is padded to `stride` numbers an axis.
+/// Sorts `position` ([d][count]) into cells.
 template <int d>
 std::vector<double> sort_into_cells(Cells<d>& cells, const std::vector<double>& position, std::size_t count,
-                                    std::size_t stride, std::vector<std::size_t>& order) {
+                                    std::vector<std::size_t>& order) {
   for (std::size_t l = 0; l < d; ++l) {
     const double* x = position.data() + l * count;
     const auto [low, high] = std::minmax_element(x, x + count);
@@ -148,9 +165,9 @@ std::vector<double> sort_into_cells(Cells<d>& cells, const std::vector<double>& 
   }
   std::vector<BoxIndex<d>> index = cell_indices<d>(cells, position.data(), count, 1, count);
   order = sort_indices<d>(index);
-  std::vector<double> sorted(d * stride, 0.0);
+  std::vector<double> sorted(d * count);
   for (std::size_t l = 0; l < d; ++l)
-    for (std::size_t j = 0; j < count; ++j) sorted[l * stride + j] = position[l * count + order[j]];
+    for (std::size_t j = 0; j < count; ++j) sorted[l * count + j] = position[l * count + order[j]];
   for_each_change<d>(index, [&](std::size_t j, std::size_t axis) {
     if (axis > 0 || j == 0) cells.first_line.push_back(cells.index.size());
     cells.first.push_back(j);
@@ -175,20 +192,15 @@ CellsSum<d>::CellsSum(const CellsPlan& plan, double sigma, std::vector<double> p
     : plan_(plan), sigma_(sigma), threads_(threads), count_(count) {
   cells_.side = plan.side;
   cells_.span = plan.span;
-  position_ = sort_into_cells<d>(cells_, position, count, stride(), order_);
-}
-
-template <int d>
-std::size_t CellsSum<d>::stride() const {
-  return count_ + source_padding;
+  position_ = sort_into_cells<d>(cells_, position, count, order_);
 }
 
 template <int d>
 void CellsSum<d>::set_weights(const double* weights, std::size_t columns) {
   columns_ = columns;
-  weights_.assign(columns * stride(), 0.0);
+  weights_.resize(columns * count_);
   for (std::size_t k = 0; k < columns; ++k)
-    for (std::size_t j = 0; j < count_; ++j) weights_[k * stride() + j] = weights[k * count_ + order_[j]];
+    for (std::size_t j = 0; j < count_; ++j) weights_[k * count_ + j] = weights[k * count_ + order_[j]];
 }
 
 template <int d>
@@ -200,87 +212,63 @@ void CellsSum<d>::evaluate(const Request<d>& request, const double* targets, std
 
   std::vector<BoxIndex<d>> index = cell_indices<d>(cells_, targets, count, d, 1);
   const std::vector<std::size_t> order = sort_indices<d>(index);
-  std::vector<Block> blocks;
-  for_each_change<d>(index, [&](std::size_t j, std::size_t) {
-    if (j > 0) blocks.back().end = j;
-    blocks.push_back({j, count});
-  });
-  std::vector<std::size_t> pieces{0};  // blocks of piece i: pieces[i] .. pieces[i+1]
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (blocks[b].end - blocks[pieces.back()].begin >= piece_targets) pieces.push_back(b + 1);
-  if (pieces.back() < blocks.size()) pieces.push_back(blocks.size());
+  const Kernels& kernel = kernels();
+  constexpr std::size_t stride = piece_targets + target_padding;
 
-  // In one go, so that the reads, which jump, overlap.
-  std::vector<double> sorted(count * d);
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t l = 0; l < d; ++l) sorted[i * d + l] = targets[order[i] * d + l];
-  const std::size_t scratch_size = cells_scratch(d, columns_);
+  gaussdrift::base::parallel_for((count + piece_targets - 1) / piece_targets, threads_, [&](std::size_t piece) {
+    const std::size_t begin = piece * piece_targets, end = std::min(count, begin + piece_targets);
+    std::array<double, d * stride> target{};
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t l = 0; l < d; ++l) target[l * stride + i - begin] = targets[order[i] * d + l];
 
-  gaussdrift::base::parallel_for(pieces.size() - 1, threads_, [&](std::size_t piece) {
-    const auto scratch = std::make_unique_for_overwrite<double[]>(scratch_size);
-    std::vector<double> out(outputs * cell_targets);
     std::vector<NearLine> lines;
+    std::vector<CellsGroup> groups;
     std::vector<std::size_t> runs;
-    double target[d * cell_targets];
-    double origin[d];
-    CellsJob job{.dimension = d,
-                 .degree = plan_.degree,
-                 .root_sigma = std::sqrt(sigma_),
-                 .squared_reach = plan_.reach * plan_.reach,
-                 .origin = origin,
-                 .runs = 0,
-                 .run = nullptr,
-                 .position = position_.data(),
-                 .weights = weights_.data(),
-                 .stride = stride(),
-                 .columns = columns_,
-                 .combinations = request.combinations.size(),
-                 .first_term = terms.first.data(),
-                 .order = terms.order.data(),
-                 .coefficient = terms.coefficient.data(),
-                 .highest = request.highest.data(),
-                 .recurrence = recurrence.view(),
-                 .targets = 0,
-                 .target = target,
-                 .scratch = scratch.get(),
-                 .out = out.data()};
-
-    const BoxIndex<d>* before = nullptr;
-    for (std::size_t b = pieces[piece]; b < pieces[piece + 1]; ++b) {
-      const BoxIndex<d>& at = index[blocks[b].begin];
-      if (before == nullptr || line_before<d>(*before, at)) find_lines<d>(cells_, at, lines);
-      before = &at;
-      runs.clear();
+    for (std::size_t i = begin; i < end;) {
+      const BoxIndex<d>& at = index[i];
+      if (i == begin || line_before<d>(index[i - 1], at)) find_lines<d>(cells_, at, lines);
+      const std::size_t together = count_together<d>(index, i, end, cells_.span, kernel.lanes);
+      const std::int64_t last = index[i + together - 1][0];
+      const std::size_t first_run = runs.size() / 2;
       for (NearLine& line : lines) {
-        line.cell = advance<d>(cells_, line.cell, line.end, at[0] - line.reach);
-        std::size_t end = line.cell;
-        while (end < line.end && cells_.index[end][0] <= at[0] + line.reach) ++end;
-        if (end == line.cell) continue;
-        const std::size_t first = cells_.first[line.cell], last = cells_.first[end];
-        if (!runs.empty() && runs.back() == first) {
-          runs.back() = last;
+        line.from = advance<d>(cells_, line.from, line.end, at[0] - line.reach);
+        line.to = advance<d>(cells_, std::max(line.from, line.to), line.end, last + line.reach + 1);
+        if (line.from == line.to) continue;
+        const std::size_t first_source = cells_.first[line.from], end_source = cells_.first[line.to];
+        if (runs.size() / 2 > first_run && runs.back() == first_source) {
+          runs.back() = end_source;
         } else {
-          runs.insert(runs.end(), {first, last});
+          runs.insert(runs.end(), {first_source, end_source});
         }
       }
-      if (runs.empty()) {
-        for (std::size_t i = blocks[b].begin; i < blocks[b].end; ++i)
-          for (std::size_t output = 0; output < outputs; ++output) values[output * count + order[i]] = 0;
-        continue;
-      }
-      job.runs = runs.size() / 2;
-      job.run = runs.data();
-      for (std::size_t begin = blocks[b].begin; begin < blocks[b].end; begin += cell_targets) {
-        job.targets = std::min(cell_targets, blocks[b].end - begin);
-        for (std::size_t i = 0; i < job.targets; ++i)
-          for (std::size_t l = 0; l < d; ++l) target[l * cell_targets + i] = sorted[(begin + i) * d + l];
-        for (std::size_t l = 0; l < d; ++l) origin[l] = target[l * cell_targets];
-        kernels().cells(job);
-        for (std::size_t output = 0; output < outputs; ++output)
-          for (std::size_t i = 0; i < job.targets; ++i)
-            values[output * count + order[begin + i]] = out[output * cell_targets + i];
-      }
+      groups.push_back({i - begin, together, first_run, runs.size() / 2});
+      i += together;
     }
+
+    std::vector<double> out(outputs * stride);
+    kernel.cells({.dimension = d,
+                  .degree = plan_.degree,
+                  .sigma = sigma_,
+                  .root_sigma = std::sqrt(sigma_),
+                  .squared_reach = plan_.reach * plan_.reach,
+                  .position = position_.data(),
+                  .weights = weights_.data(),
+                  .stride = count_,
+                  .columns = columns_,
+                  .combinations = request.combinations.size(),
+                  .first_term = terms.first.data(),
+                  .order = terms.order.data(),
+                  .coefficient = terms.coefficient.data(),
+                  .highest = request.highest.data(),
+                  .recurrence = recurrence.view(),
+                  .groups = groups.size(),
+                  .group = groups.data(),
+                  .run = runs.data(),
+                  .target = target.data(),
+                  .out = out.data(),
+                  .target_stride = stride});
+    for (std::size_t output = 0; output < outputs; ++output)
+      for (std::size_t i = begin; i < end; ++i) values[output * count + order[i]] = out[output * stride + i - begin];
   });
 }
 
@@ -289,17 +277,18 @@ double CellsSum<d>::plan_bytes(std::size_t columns) const {
   const double cells =
       static_cast<double>(cells_.index.capacity()) * sizeof(BoxIndex<d>) +
       static_cast<double>(cells_.first.capacity() + cells_.first_line.capacity()) * sizeof(std::size_t);
-  return 8.0 * static_cast<double>(stride()) * static_cast<double>(d + columns) + 8.0 * static_cast<double>(count_) +
+  return 8.0 * static_cast<double>(count_) * static_cast<double>(d + columns) + 8.0 * static_cast<double>(count_) +
          cells;
 }
 
-/// Indices, places and keys of the sort, blocks and pieces.
+/// Indices, places and keys of the sort; groups, runs and results of a piece.
 template <int d>
 double CellsSum<d>::point_bytes(const Request<d>& request, std::size_t count) const {
   const double threads = gaussdrift::base::resolve_threads(threads_);
   const double outputs = static_cast<double>(request.combinations.size() * columns_);
-  return static_cast<double>(count) * (3 * 8.0 * d + 4 * 8.0 + 2 * sizeof(Block) + 16.0) +
-         threads * 8 * (static_cast<double>(cells_scratch(d, columns_)) + outputs * static_cast<double>(cell_targets));
+  const double lines = std::min(std::pow(2.0 * cells_.span + 1, d - 1), static_cast<double>(cells_.first_line.size()));
+  const double piece = static_cast<double>(piece_targets) * (2 * sizeof(CellsGroup) + 8 * (d + outputs) + 32 * lines);
+  return static_cast<double>(count) * (2 * 8.0 * d + 4 * 8.0) + threads * piece;
 }
 
 #define FGTD_INSTANTIATE(d) \

@@ -58,15 +58,13 @@ class CellsSum : public Summation<d> {
   std::size_t boxes() const override { return cells_.index.size(); }
 
  private:
-  std::size_t stride() const;  // from one axis, or one column of weights, to the next
-
   CellsPlan plan_;
   double sigma_;
   int threads_;
   std::size_t count_;
   std::size_t columns_ = 0;
-  std::vector<double> position_;    // [d][stride], sorted by cell
-  std::vector<double> weights_;     // [columns][stride]
+  std::vector<double> position_;    // [d][count], sorted by cell
+  std::vector<double> weights_;     // [columns][count]
   std::vector<std::size_t> order_;  // sorted source j is the caller's order_[j]
   Cells<d> cells_;
 };

@@ -47,9 +47,11 @@ double find_precision(const Situation<d>& at, CellsPlan& plan) {
   return std::max({pair.error, d * row.error, dropped_error(d, plan.reach, order)});
 }
 
+/// Times that the exponential of a pair is computed: for so many columns of weights, or outputs of derivatives, at
+/// once.
 template <int d>
-bool plain(const Situation<d>& at) {
-  return at.options.derivative_order == 0 && at.columns == 1;
+double exponentials_of_pair(const Situation<d>& at) {
+  return std::ceil(at.columns / (at.options.derivative_order > 0 ? 16 : 4));
 }
 
 /// Sources within reach of a target that lies like the sources, it being none of them: by a look at a part of the
@@ -86,16 +88,21 @@ constexpr double ball = d == 1   ? 2.0
 template <int d>
 double points_seconds(const Situation<d>& at, double around, int span) {
   const double density = around / ball<d>;  // sources in a cube of the reach
-  const double cell = density * std::pow(span, -d);
-  const double cell_targets = std::max(1.0, cell * at.targets / at.sources);
   const double lines = std::min(std::pow(2 * span + 1, d - 1), 1 + at.sources);
   const double near = std::min(
       at.sources, 1 + density * std::min(std::pow(2.0 + 1.0 / span, d), ball<d> * std::pow(1 + 0.8 / span, d)));
-  const double pair = cost::cells_pair[d - 1] * (plain(at) ? 1 : cost::cells_derivative_factor * at.columns);
-  const double kernel = (near + cost::cells_lane_loss) * pair;
+  // Along a line of 2 span + 1 cells that see a target, the next target is `gap` cells away; four of them share a
+  // vector, or one is alone in it.
+  const double gap = at.sources / (at.targets * density * std::pow(span, -d));
+  const double widening = 1 + 3 * gap / (2 * span + 1);
+  const double pairs = near * std::min(widening, 4.0);
+  const double targets_together = widening < 4 ? 4 : 1;
+  const double pair =
+      cost::cells_pair[d - 1] *
+      (exponentials_of_pair<d>(at) * (at.options.derivative_order > 0 ? cost::cells_derivative_factor : 1) +
+       cost::cells_column * (at.columns - 1));
   return at.sources * cost::cells_source_sort +
-         at.targets * (cost::cells_target_sort + kernel +
-                       (lines * cost::cells_line + near * (d + at.columns) * cost::cells_copy) / cell_targets);
+         at.targets * (cost::cells_target_sort + pairs * pair + lines * cost::cells_line / targets_together);
 }
 
 /// Nodes of an axis that sources within [low - reach, high + reach] see, and how many lie in a window of unit length.
@@ -152,7 +159,8 @@ std::optional<Proposal<d>> propose(const Situation<d>& at, Method method) {
   proposal.choice.bound = find_precision<d>(at, plan);
   const double reach = plan.reach / std::sqrt(at.sigma);
   const double smallest = std::max(smallest_side<d>(at), std::numeric_limits<double>::min());
-  if (!std::isfinite(reach) || !(reach > 0)) return std::nullopt;
+  if (!(reach > 0) || !std::isfinite(2 * at.sigma) || !std::isfinite(2 * reach * reach))
+    return std::nullopt;  // the kernel takes sigma log2 e times squares of distances
 
   double around = 0;
   std::array<AxisView, d> view{};
@@ -175,7 +183,7 @@ std::optional<Proposal<d>> propose(const Situation<d>& at, Method method) {
 
   const double columns = at.columns;
   // positions, weights, order, and at worst a cell for every source; while they are sorted, also what the sort takes
-  proposal.plan_bytes = 8 * (at.sources + source_padding) * (d + columns) + 8 * at.sources * (3 * d + 7);
+  proposal.plan_bytes = 8 * at.sources * (d + columns) + 8 * at.sources * (3 * d + 7);
   if (proposal.plan_bytes > static_cast<double>(at.options.memory_limit)) {
     if (at.options.method == method)
       check_memory(method == Method::cells ? "the plan with Method::cells" : "the plan with Method::outer",

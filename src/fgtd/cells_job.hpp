@@ -17,25 +17,24 @@ constexpr Exponential exponentials[] = {{4, 3.6e-6}, {6, 2.6e-9}, {8, 1.2e-12}, 
 
 constexpr double log2_e = 1.4426950408889634;
 
-/// Targets of one cell that are handed over at a time, and sources that are brought near at a time.
-constexpr std::size_t cell_targets = 128;
-constexpr std::size_t cell_chunk = 1024;
-/// Sums that are kept at a time.
-constexpr std::size_t cells_outputs = 16;
-/// Numbers that may be read beyond the end of an array of sources.
-constexpr std::size_t source_padding = 16;
+/// Numbers that may be read beyond the end of an array of targets, and written beyond the end of results.
+constexpr std::size_t target_padding = 8;
 
-/// out[q c + k][i] = sum over runs of sources of weights[k][j] times combination q of E_alpha(t), |t| <= reach, as in
-/// DirectJob. Distances are taken from `origin`, a point near all of the targets.
+/// Targets first .. first + targets - 1, which share the runs of sources first_run .. end_run - 1.
+struct CellsGroup {
+  std::size_t first, targets;
+  std::size_t first_run, end_run;
+};
+
+/// out[q c + k][i] = sum over the runs of sources of target i of weights[k][j] times combination q of E_alpha(t),
+/// |t| <= reach, as in DirectJob.
 struct CellsJob {
   int dimension;
   int degree;  // of the exponential
+  double sigma;
   double root_sigma;
-  double squared_reach;  // of t = sqrt(sigma) (y - x); beyond it a term is exactly 0
-  const double* origin;  // [dimension]
-  std::size_t runs;
-  const std::size_t* run;  // [runs][2]: first source and the one after the last
-  const double* position;  // [dimension][stride], readable for source_padding numbers beyond each run
+  double squared_reach;    // of t = sqrt(sigma) (y - x); beyond it a term is exactly 0
+  const double* position;  // [dimension][stride]
   const double* weights;   // [columns][stride]
   std::size_t stride;
   std::size_t columns;
@@ -45,15 +44,13 @@ struct CellsJob {
   const double* coefficient;      // [terms]
   const int* highest;             // [dimension]
   Recurrence recurrence;
-  std::size_t targets;   // at most cell_targets
-  const double* target;  // [dimension][cell_targets]
-  double* scratch;       // cells_scratch(...) numbers
-  double* out;           // [combinations columns][cell_targets], overwritten
+  std::size_t groups;
+  const CellsGroup* group;  // in ascending order
+  const std::size_t* run;   // [runs][2]: first source and the one after the last
+  const double* target;     // [dimension][target_stride]
+  double* out;              // [combinations columns][target_stride], overwritten
+  std::size_t target_stride;
 };
-
-constexpr std::size_t cells_scratch(std::size_t dimension, std::size_t columns) {
-  return (dimension + (columns < cells_outputs ? columns : cells_outputs)) * (cell_chunk + source_padding);
-}
 
 /// Sources of one group of `outer`, and grid nodes an axis of one block of its window.
 constexpr std::size_t outer_depth = 32;
@@ -96,7 +93,7 @@ struct OuterJob {
 constexpr std::size_t outer_scratch(int dimension, const int* highest, const std::size_t* nodes) {
   std::size_t size = outer_depth * (1 + (dimension > 1 ? nodes[1] : 1));
   for (int l = 0; l < dimension; ++l) {
-    const std::size_t row = l == 0 ? nodes[0] + source_padding : nodes[l];
+    const std::size_t row = l == 0 ? nodes[0] + row_padding : nodes[l];
     size += row + outer_depth * (1 + row * (static_cast<std::size_t>(highest[l]) + 1));
   }
   return size;

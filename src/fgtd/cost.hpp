@@ -25,13 +25,12 @@ constexpr double hermite_search = 0.5e-3;
 constexpr double chebyshev_search = 0.7e-3;
 
 // cells and outer, with bench_sharp
-constexpr double cells_source_sort = 45e-9;  // one source brought to its cell
-constexpr double cells_target_sort = 60e-9;  // one target brought to its cell, and its result back
+constexpr double cells_source_sort = 35e-9;  // one source brought to its cell
+constexpr double cells_target_sort = 45e-9;  // one target brought to its cell, and its result back
 constexpr double cells_pair[4] = {0.6e-9, 0.7e-9, 0.8e-9, 1.0e-9};  // one source at one target, by dimension
-constexpr double cells_derivative_factor = 3;                       // the same with derivatives or several columns
-constexpr double cells_lane_loss = 4;                               // pairs lost to vectors that are not full
-constexpr double cells_line = 15e-9;                                // one line of cells looked at
-constexpr double cells_copy = 0.1e-9;                               // one number of a source brought near
+constexpr double cells_derivative_factor = 3;                       // the same with derivatives
+constexpr double cells_column = 0.1;                                // one more column of weights, in pairs
+constexpr double cells_line = 30e-9;                                // one line of cells looked at for a group of targets
 constexpr double outer_source_sort = 20e-9;                         // one source of few brought to its cell
 constexpr double outer_group = 150e-9;                              // one group of sources
 constexpr double outer_table = 0.7e-9;                              // one value of a row

@@ -131,6 +131,7 @@ struct ChainJob;
 
 struct Kernels {
   const char* name;
+  std::size_t lanes;  // doubles in a vector
   void (*direct)(const DirectJob&);
   void (*product)(const ProductJob&);
   void (*expansion)(const ExpansionJob&);

@@ -53,18 +53,18 @@ struct PowerOfTwo<11> {
                                  0x1.e9ec1fcb69a7fp-32};
 };
 
-/// 2^-s where 0 <= s <= limit <= 1000, exactly 0 beyond and for s = NaN.
+/// 2^-s, s = scale squared, where squared >= 0, squared <= limit and s <= 1000; exactly 0 for larger squared and NaN.
 template <int degree>
-FGTD_INLINE Vector power_of_half(Vector s, double limit) {
+FGTD_INLINE Vector power_of_half(Vector squared, double scale, double limit) {
   constexpr double shift = 0x1.8p52;  // adding it rounds to an integer that then stands in the low bits
-  Vector k = shift - s;
+  Vector k = squared * scale + shift;
   const Bits exponent = reinterpret_cast<Bits>(k) << 52;
   k -= shift;
-  const Vector r = -s - k;
+  const Vector r = k - squared * scale;
   Vector power = broadcast(PowerOfTwo<degree>::c[degree]);
   for (int i = degree - 1; i >= 0; --i) power = power * r + PowerOfTwo<degree>::c[i];
-  const Vector value = reinterpret_cast<Vector>(reinterpret_cast<Bits>(power) + exponent);
-  return select(reinterpret_cast<Bits>(s <= limit), value);
+  const Vector value = reinterpret_cast<Vector>(reinterpret_cast<Bits>(power) - exponent);
+  return select(reinterpret_cast<Bits>(squared <= limit), value);
 }
 
 }  // namespace

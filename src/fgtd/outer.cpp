@@ -134,7 +134,7 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
   const Bundles<d> bundles(request);
   const RecurrenceTable recurrence(max_derivative_order + 1);
   const double reach = window_slack * plan_.reach / std::sqrt(sigma_);
-  const std::vector<Group<d>> groups = make_groups<d>(cells_, position_, stride(), reach, grid);
+  const std::vector<Group<d>> groups = make_groups<d>(cells_, position_, count_, reach, grid);
   const std::size_t threads = static_cast<std::size_t>(gaussdrift::base::resolve_threads(threads_));
   const std::vector<std::size_t> cuts =
       cut_slabs<d>(groups, grid.axes[d - 1].size(), threads > 1 ? slabs_a_thread * threads : 1);
@@ -157,7 +157,7 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
                  .sources = 0,
                  .position = nullptr,
                  .weights = nullptr,
-                 .stride = stride(),
+                 .stride = count_,
                  .columns = columns_,
                  .low = nullptr,
                  .high = nullptr,

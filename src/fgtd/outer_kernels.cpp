@@ -11,16 +11,17 @@ namespace {
 
 /// exp(-t^2) by a polynomial of one of the degrees of `exponentials`.
 FGTD_INLINE Vector gaussian(Vector t, int degree) {
-  const Vector s = t * t * log2_e;
+  const Vector squared = t * t;
+  constexpr double limit = 690;  // 2^-1000
   switch (degree) {
     case 4:
-      return power_of_half<4>(s, 1000.0);
+      return power_of_half<4>(squared, log2_e, limit);
     case 6:
-      return power_of_half<6>(s, 1000.0);
+      return power_of_half<6>(squared, log2_e, limit);
     case 8:
-      return power_of_half<8>(s, 1000.0);
+      return power_of_half<8>(squared, log2_e, limit);
     default:
-      return power_of_half<11>(s, 1000.0);
+      return power_of_half<11>(squared, log2_e, limit);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fgtd/cells_job.hpp"
 #include "fgtd/request.hpp"
 #include "oracle/naive.hpp"
 
@@ -63,6 +64,58 @@ TEST(Kernels, AgreeOnDirectSums) {
                          return out;
                        });
     }
+}
+
+TEST(Kernels, AgreeOnCellsForGroupsAndRunsOfEveryLength) {
+  const std::size_t count = 700, columns = 7, targets = 60, stride = targets + target_padding;
+  // groups of 1 ... 8, 9, 15 targets; runs: none, one of one source, several, one longer than partial sums are
+  const std::vector<std::size_t> run{3, 4, 0, 699, 100, 137, 600, 700};
+  std::vector<CellsGroup> groups;
+  std::size_t first = 0;
+  for (const std::size_t size : {1, 2, 3, 4, 5, 6, 7, 8, 9, 15}) {
+    const std::size_t first_run = groups.size() % 4;
+    groups.push_back({first, size, first_run, std::min<std::size_t>(4, first_run + groups.size())});
+    first += size;
+  }
+  ASSERT_EQ(first, targets);
+  const RecurrenceTable recurrence(10);
+  for (int d = 1; d <= 4; ++d)
+    for (const int order : {0, 3})
+      for (const Exponential& exponential : exponentials) {
+        const auto position = random_list(static_cast<std::size_t>(d) * count, 80),
+                   weights = random_list(columns * count, 81),
+                   target = random_list(static_cast<std::size_t>(d) * stride, 82);
+        const std::vector<std::size_t> first_term{0, 1};
+        const std::vector<int> alpha(max_dimension, order), highest(max_dimension, order);
+        const std::vector<double> coefficient{1.5};
+        expect_agreement(1e-12, [&](const Kernels& kernels) {  // 700 weights below one, rounded with and without FMA
+          std::vector<double> out(columns * stride, -1.0);
+          kernels.cells({.dimension = d,
+                         .degree = exponential.degree,
+                         .sigma = 2.0,
+                         .root_sigma = std::sqrt(2.0),
+                         .squared_reach = 1.7,
+                         .position = position.data(),
+                         .weights = weights.data(),
+                         .stride = count,
+                         .columns = columns,
+                         .combinations = 1,
+                         .first_term = first_term.data(),
+                         .order = alpha.data(),
+                         .coefficient = coefficient.data(),
+                         .highest = highest.data(),
+                         .recurrence = recurrence.view(),
+                         .groups = groups.size(),
+                         .group = groups.data(),
+                         .run = run.data(),
+                         .target = target.data(),
+                         .out = out.data(),
+                         .target_stride = stride});
+          for (std::size_t k = 0; k < columns; ++k)  // what lies beyond the targets is written or not, as the set likes
+            for (std::size_t i = targets; i < stride; ++i) out[k * stride + i] = 0;
+          return out;
+        });
+      }
 }
 
 TEST(Kernels, AgreeOnProductsOfEveryShapeAndWriteNothingElse) {
