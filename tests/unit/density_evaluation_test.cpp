@@ -15,7 +15,7 @@ namespace {
 const Vector low{-1, -1, 0}, high{1, 1, 0};
 
 Particles cone_particles(int per_axis) {
-  const RadialDensity cone(RadialDensity::Profile::wendland, {0.5, 0, 0}, 0.25, 1);
+  const RadialDensity cone(RadialDensity::Profile::wendland, 2, {0.5, 0, 0}, 0.25, 1);
   return seed(
       make_lattice(2, low, high, per_axis), [&](const PointsView& x, double* v) { cone.add(x, v); }, 0);
 }
