@@ -73,7 +73,7 @@ struct Corners {
 };
 
 template <int d>
-Corners<d> bounding_box(const std::vector<double>& position, std::size_t count) {
+Corners<d> bounding_box(const Buffer<double>& position, std::size_t count) {
   Corners<d> corners;
   for (std::size_t l = 0; l < d; ++l) {
     if (count == 0) continue;
@@ -87,7 +87,7 @@ Corners<d> bounding_box(const std::vector<double>& position, std::size_t count) 
 
 /// i_l = min(floor((x_l - low_l) / side), boxes of axis l - 1) for every point.
 template <int d>
-std::vector<BoxIndex<d>> box_indices(const std::vector<double>& position, std::size_t count, double side,
+std::vector<BoxIndex<d>> box_indices(const Buffer<double>& position, std::size_t count, double side,
                                      const Corners<d>& corners) {
   std::vector<BoxIndex<d>> index(count);
   for (std::size_t l = 0; l < d; ++l) {
@@ -107,7 +107,7 @@ std::int64_t Boxes<d>::index_at(std::size_t axis, double y) const {
 }
 
 template <int d>
-bool boxes_resolve(const std::vector<double>& position, std::size_t count, double side) {
+bool boxes_resolve(const Buffer<double>& position, std::size_t count, double side) {
   double largest = 0;
   for (std::size_t i = 0; i < d * count; ++i) largest = std::max(largest, std::abs(position[i]));
   return side > std::numeric_limits<double>::min() && std::isfinite(side) && largest <= side * 0x1p40;
@@ -148,12 +148,12 @@ std::vector<std::size_t> sorted_places(const std::vector<BoxIndex<d>>& index) {
 }
 
 template <int d>
-Boxes<d> make_boxes(std::vector<double>& position, std::size_t count, double side, std::vector<std::size_t>& order) {
+Boxes<d> make_boxes(Buffer<double>& position, std::size_t count, double side, std::vector<std::size_t>& order) {
   const Corners<d> corners = bounding_box<d>(position, count);
   const std::vector<BoxIndex<d>> index = box_indices<d>(position, count, side, corners);
   order = sorted_places<d>(index);
 
-  std::vector<double> sorted(position.size());
+  Buffer<double> sorted(position.size());
   for (std::size_t l = 0; l < d; ++l)
     for (std::size_t j = 0; j < count; ++j) sorted[l * count + j] = position[l * count + order[j]];
   position.swap(sorted);
@@ -179,7 +179,7 @@ Boxes<d> make_boxes(std::vector<double>& position, std::size_t count, double sid
 }
 
 template <int d>
-Occupation<d> count_boxes(const std::vector<double>& position, std::size_t count, double side) {
+Occupation<d> count_boxes(const Buffer<double>& position, std::size_t count, double side) {
   const std::vector<BoxIndex<d>> index = box_indices<d>(position, count, side, bounding_box<d>(position, count));
   const std::vector<std::size_t> order = sorted_places<d>(index);
   Occupation<d> occupation;
@@ -192,12 +192,12 @@ Occupation<d> count_boxes(const std::vector<double>& position, std::size_t count
   return occupation;
 }
 
-#define FGTD_INSTANTIATE(d)                                                                              \
-  template struct Boxes<d>;                                                                              \
-  template bool boxes_resolve<d>(const std::vector<double>&, std::size_t, double);                       \
-  template std::vector<std::size_t> sorted_places<d>(const std::vector<BoxIndex<d>>&);                   \
-  template Boxes<d> make_boxes<d>(std::vector<double>&, std::size_t, double, std::vector<std::size_t>&); \
-  template Occupation<d> count_boxes<d>(const std::vector<double>&, std::size_t, double);
+#define FGTD_INSTANTIATE(d)                                                                         \
+  template struct Boxes<d>;                                                                         \
+  template bool boxes_resolve<d>(const Buffer<double>&, std::size_t, double);                       \
+  template std::vector<std::size_t> sorted_places<d>(const std::vector<BoxIndex<d>>&);              \
+  template Boxes<d> make_boxes<d>(Buffer<double>&, std::size_t, double, std::vector<std::size_t>&); \
+  template Occupation<d> count_boxes<d>(const Buffer<double>&, std::size_t, double);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)
 FGTD_INSTANTIATE(3)

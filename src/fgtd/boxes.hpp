@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fgtd/buffer.hpp"
+
 namespace fgtd::detail {
 
 template <int d>
@@ -36,12 +38,12 @@ struct Boxes {
 /// True if boxes of this side can be told apart: every |x| is below 2^40 sides, so that the rounding of a centre moves
 /// it by less than side/1000.
 template <int d>
-bool boxes_resolve(const std::vector<double>& position, std::size_t count, double side);
+bool boxes_resolve(const Buffer<double>& position, std::size_t count, double side);
 
 /// Sorts `position` ([d][count]) into boxes; `order[new place] = old place`. A point on the upper face of the bounding
 /// box belongs to the last box.
 template <int d>
-Boxes<d> make_boxes(std::vector<double>& position, std::size_t count, double side, std::vector<std::size_t>& order);
+Boxes<d> make_boxes(Buffer<double>& position, std::size_t count, double side, std::vector<std::size_t>& order);
 
 /// The places of `index` in ascending order (last axis slowest); equal ones keep their order.
 template <int d>
@@ -53,6 +55,6 @@ struct Occupation {
   std::array<double, d> nodes{};  // of level l
 };
 template <int d>
-Occupation<d> count_boxes(const std::vector<double>& position, std::size_t count, double side);
+Occupation<d> count_boxes(const Buffer<double>& position, std::size_t count, double side);
 
 }  // namespace fgtd::detail

@@ -154,7 +154,7 @@ void for_each_change(const std::vector<BoxIndex<d>>& index, const Open& open) {
 
 /// Sorts `position` ([d][count]) into cells.
 template <int d>
-std::vector<double> sort_into_cells(Cells<d>& cells, const std::vector<double>& position, std::size_t count,
+std::vector<double> sort_into_cells(Cells<d>& cells, const Buffer<double>& position, std::size_t count,
                                     std::vector<std::size_t>& order) {
   for (std::size_t l = 0; l < d; ++l) {
     const double* x = position.data() + l * count;
@@ -188,7 +188,7 @@ std::int64_t Cells<d>::index_at(std::size_t axis, double x) const {
 }
 
 template <int d>
-CellsSum<d>::CellsSum(const CellsPlan& plan, double sigma, std::vector<double> position, std::size_t count, int threads)
+CellsSum<d>::CellsSum(const CellsPlan& plan, double sigma, Buffer<double> position, std::size_t count, int threads)
     : plan_(plan), sigma_(sigma), threads_(threads), count_(count) {
   cells_.side = plan.side;
   cells_.span = plan.span;

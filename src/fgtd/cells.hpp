@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fgtd/boxes.hpp"
+#include "fgtd/buffer.hpp"
 #include "fgtd/direct.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
@@ -46,7 +47,7 @@ template <int d>
 class CellsSum : public Summation<d> {
  public:
   /// position [d][count]
-  CellsSum(const CellsPlan& plan, double sigma, std::vector<double> position, std::size_t count, int threads);
+  CellsSum(const CellsPlan& plan, double sigma, Buffer<double> position, std::size_t count, int threads);
 
   void set_weights(const double* weights, std::size_t columns) override;
   void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;

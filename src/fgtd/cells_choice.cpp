@@ -195,7 +195,7 @@ std::optional<Proposal<d>> propose(const Situation<d>& at, Method method) {
   proposal.choice.cost = best / cost::direct_pair[d - 1];
   proposal.choice.box_side = plan.side;
   proposal.choice.neighbours = plan.span;
-  proposal.make = [plan, sigma = at.sigma, threads = at.options.threads](std::vector<double> position) {
+  proposal.make = [plan, sigma = at.sigma, threads = at.options.threads](Buffer<double> position) {
     const std::size_t count = position.size() / d;
     return std::make_unique<CellsSum<d>>(plan, sigma, std::move(position), count, threads);
   };

@@ -283,7 +283,7 @@ class ChebyshevSum<d>::Translation {
 };
 
 template <int d>
-ChebyshevSum<d>::ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const std::vector<double>& position,
+ChebyshevSum<d>::ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const Buffer<double>& position,
                               std::size_t count, int threads)
     : plan_(plan), sigma_(sigma), threads_(threads), box_numbers_(to_power(static_cast<std::size_t>(plan.nodes), d)) {
   const int p = plan.nodes;

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "fgtd/buffer.hpp"
 #include "fgtd/chebyshev_lattice.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
@@ -29,7 +30,7 @@ template <int d>
 class ChebyshevSum : public Summation<d> {
  public:
   /// position [d][count]
-  ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const std::vector<double>& position, std::size_t count,
+  ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const Buffer<double>& position, std::size_t count,
                int threads);
 
   void set_weights(const double* weights, std::size_t columns) override;  // computes the moments

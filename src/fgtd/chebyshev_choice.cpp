@@ -160,7 +160,7 @@ std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at) {
       check_memory("the plan with Method::chebyshev", smallest_memory, at.options.memory_limit);
     return std::nullopt;
   }
-  proposal.make = [plan = *best, sigma = at.sigma, threads = at.options.threads](std::vector<double> position) {
+  proposal.make = [plan = *best, sigma = at.sigma, threads = at.options.threads](Buffer<double> position) {
     return std::make_unique<ChebyshevSum<d>>(plan, sigma, position, position.size() / d, threads);
   };
   return proposal;

@@ -5,11 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "fgtd/boxes.hpp"
+#include "fgtd/buffer.hpp"
 
 namespace fgtd::detail {
 
@@ -26,26 +25,6 @@ struct Lattice {
 template <int d>
 bool fit_lattice(const std::array<double, d>& low, const std::array<double, d>& extent, double widest,
                  Lattice<d>& lattice);
-
-/// Leaves numbers uninitialised that are written before they are read: setting millions to zero costs as much as
-/// sorting.
-template <class T>
-struct Uninitialised : std::allocator<T> {
-  template <class U>
-  struct rebind {
-    using other = Uninitialised<U>;
-  };
-  template <class U, class... Arguments>
-  void construct(U* at, Arguments&&... arguments) {
-    if constexpr (sizeof...(Arguments) == 0) {
-      ::new (static_cast<void*>(at)) U;
-    } else {
-      ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
-    }
-  }
-};
-template <class T>
-using Buffer = std::vector<T, Uninitialised<T>>;
 
 /// Points as they are given: coordinate l of point j is at data[l * axis_stride + j * point_stride].
 struct PointView {

@@ -1,9 +1,12 @@
 // Refuses bad arguments; see check.hpp.
 #include "fgtd/check.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
@@ -18,10 +21,44 @@ namespace {
 
 std::string text(std::size_t value) { return std::to_string(value); }
 
+constexpr std::size_t piece = 1 << 15;  // numbers looked at together
+
+/// x - x is 0 for finite x and else not a number, which no sum loses again.
+bool row_is_finite(const double* row, std::size_t count) {
+  double sum[8] = {};
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8)
+    for (std::size_t k = 0; k < 8; ++k) sum[k] += row[i + k] - row[i + k];
+  for (; i < count; ++i) sum[0] += row[i] - row[i];
+  double all = 0;
+  for (const double part : sum) all += part;
+  return all == 0;
+}
+
+/// Which number is not finite is looked for only where one is.
+bool columns_are_finite(const double* data, std::size_t rows, std::size_t columns, std::size_t stride, int threads) {
+  if (stride == rows || columns == 1) {  // without gaps: one long row
+    rows *= columns;
+    columns = 1;
+    stride = rows;
+  }
+  if (rows == 0) return true;
+  const std::size_t pieces = (rows + piece - 1) / piece;                // of a column
+  const std::size_t together = std::max<std::size_t>(1, piece / rows);  // columns
+  std::atomic<bool> finite{true};
+  gaussdrift::base::parallel_for(pieces * ((columns + together - 1) / together), threads, [&](std::size_t i) {
+    const std::size_t begin = i % pieces * piece, end = std::min(rows, begin + piece);
+    for (std::size_t k = i / pieces * together; k < std::min(columns, (i / pieces + 1) * together); ++k)
+      if (!row_is_finite(data + k * stride + begin, end - begin)) finite = false;
+  });
+  return finite;
+}
+
 }  // namespace
 
-void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count,
-                  std::size_t stride) {
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride,
+                  int threads) {
+  if (columns_are_finite(points, dimension, count, stride, threads)) return;
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t l = 0; l < dimension; ++l) {
       const double value = points[j * stride + l];
@@ -32,11 +69,14 @@ void check_points(const char* kind, const double* points, std::size_t dimension,
     }
 }
 
-void check_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights, std::size_t sources) {
+void check_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights, std::size_t sources, int threads) {
   if (static_cast<std::size_t>(weights.rows()) != sources) {
     throw InvalidArgument("fgtd: weights have " + std::to_string(weights.rows()) + " rows for " + text(sources) +
                           " sources; there must be one row for every source");
   }
+  const std::size_t columns = static_cast<std::size_t>(weights.cols());
+  if (columns_are_finite(weights.data(), sources, columns, static_cast<std::size_t>(weights.outerStride()), threads))
+    return;
   for (Eigen::Index k = 0; k < weights.cols(); ++k)
     for (Eigen::Index j = 0; j < weights.rows(); ++j)
       if (!std::isfinite(weights(j, k))) {

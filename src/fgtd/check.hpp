@@ -12,10 +12,11 @@ namespace fgtd::detail {
 std::string text(double value);
 
 /// Every entry of `points` (d x m) is finite; `kind` is "source" or "target".
-void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride);
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride,
+                  int threads);
 
 /// Every entry of `weights` (N x c) is finite and there are N of them.
-void check_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights, std::size_t sources);
+void check_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights, std::size_t sources, int threads);
 
 void check_sigma(double sigma);
 void check_options(const Options& options, std::size_t dimension);

@@ -18,7 +18,7 @@ Proposal<d> propose_direct(const Situation<d>& at) {
   choice.seconds = choice.cost * cost::direct_pair[d - 1] * at.columns *
                    (at.options.derivative_order > 0 ? cost::direct_derivative_factor : 1);
   proposal.plan_bytes = 8 * at.sources * (d + at.columns);
-  proposal.make = [sigma = at.sigma, threads = at.options.threads](std::vector<double> position) {
+  proposal.make = [sigma = at.sigma, threads = at.options.threads](Buffer<double> position) {
     const std::size_t count = position.size() / d;
     return std::make_unique<DirectSum<d>>(std::move(position), count, sigma, threads);
   };
@@ -26,7 +26,7 @@ Proposal<d> propose_direct(const Situation<d>& at) {
 }
 
 template <int d>
-Proposal<d> choose(const std::vector<double>& position, std::size_t count, std::size_t columns, double sigma,
+Proposal<d> choose(const Buffer<double>& position, std::size_t count, std::size_t columns, double sigma,
                    const Options& options) {
   const Situation<d> at = look_at<d>(position, count, columns, sigma, options);
   const Method asked = options.hermite ? Method::hermite : options.method;
@@ -55,9 +55,9 @@ template Proposal<1> propose_direct<1>(const Situation<1>&);
 template Proposal<2> propose_direct<2>(const Situation<2>&);
 template Proposal<3> propose_direct<3>(const Situation<3>&);
 template Proposal<4> propose_direct<4>(const Situation<4>&);
-template Proposal<1> choose<1>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&);
-template Proposal<2> choose<2>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&);
-template Proposal<3> choose<3>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&);
-template Proposal<4> choose<4>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&);
+template Proposal<1> choose<1>(const Buffer<double>&, std::size_t, std::size_t, double, const Options&);
+template Proposal<2> choose<2>(const Buffer<double>&, std::size_t, std::size_t, double, const Options&);
+template Proposal<3> choose<3>(const Buffer<double>&, std::size_t, std::size_t, double, const Options&);
+template Proposal<4> choose<4>(const Buffer<double>&, std::size_t, std::size_t, double, const Options&);
 
 }  // namespace fgtd::detail

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "fgtd/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/situation.hpp"
 #include "fgtd/summation.hpp"
@@ -18,7 +19,7 @@ template <int d>
 struct Proposal {
   Choice choice;          // method, bound, cost, seconds, parameters; `boxes` is filled in later
   double plan_bytes = 0;  // predicted
-  std::function<std::unique_ptr<Summation<d>>(std::vector<double> position)> make;  // position [d][N]
+  std::function<std::unique_ptr<Summation<d>>(Buffer<double> position)> make;  // position [d][N]
 };
 
 // One function a method; none if it cannot keep the promise here, or would need more than the memory limit.
@@ -44,7 +45,7 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at);
 /// The proposal of the method that is asked for; of all for Method::automatic. A method that cannot serve here (no
 /// sources, boxes that coordinates cannot tell apart) gives way to `direct`. position [d][count].
 template <int d>
-Proposal<d> choose(const std::vector<double>& position, std::size_t count, std::size_t columns, double sigma,
+Proposal<d> choose(const Buffer<double>& position, std::size_t count, std::size_t columns, double sigma,
                    const Options& options);
 
 }  // namespace fgtd::detail

@@ -75,7 +75,7 @@ void evaluate_direct(const Sources<d>& sources, double sigma, const Request<d>& 
 }
 
 template <int d>
-DirectSum<d>::DirectSum(std::vector<double> position, std::size_t count, double sigma, int threads)
+DirectSum<d>::DirectSum(Buffer<double> position, std::size_t count, double sigma, int threads)
     : sigma_(sigma), threads_(threads) {
   sources_.count = count;
   sources_.position = std::move(position);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "fgtd/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
 #include "fgtd/summation.hpp"
@@ -16,7 +17,7 @@ template <int d>
 struct Sources {
   std::size_t count = 0;
   std::size_t columns = 0;
-  std::vector<double> position;  // [d][count]
+  Buffer<double> position;  // [d][count]
   std::vector<double> weights;   // [columns][count]
 };
 
@@ -34,7 +35,7 @@ template <int d>
 class DirectSum : public Summation<d> {
  public:
   /// position [d][count]
-  DirectSum(std::vector<double> position, std::size_t count, double sigma, int threads);
+  DirectSum(Buffer<double> position, std::size_t count, double sigma, int threads);
 
   void set_weights(const double* weights, std::size_t columns) override;
   void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override {

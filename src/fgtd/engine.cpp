@@ -1,8 +1,11 @@
 #include "fgtd/engine.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "base/parallel.hpp"
+#include "fgtd/buffer.hpp"
 #include "fgtd/check.hpp"
 #include "fgtd/choose.hpp"
 
@@ -15,6 +18,25 @@ std::size_t stride(const Eigen::Ref<const Points<d>>& points) {
   return d == 1 ? 1 : static_cast<std::size_t>(points.outerStride());
 }
 
+/// Points as columns brought to [d][count].
+template <int d>
+Buffer<double> by_axis(const double* points, std::size_t count, std::size_t point_stride, int threads) {
+  constexpr std::size_t piece = 1 << 14;
+  Buffer<double> position(d * count);
+  gaussdrift::base::parallel_for((count + piece - 1) / piece, threads, [&](std::size_t i) {
+    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j)
+      for (std::size_t l = 0; l < d; ++l) position[l * count + j] = points[j * point_stride + l];
+  });
+  return position;
+}
+
+/// Not set to anything.
+Eigen::MatrixXd make_result(std::size_t rows, std::size_t columns) {
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  prefer_huge_pages(values.data(), 8 * rows * columns);
+  return values;
+}
+
 }  // namespace
 
 template <int d>
@@ -23,28 +45,30 @@ Engine<d>::Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<c
     : sigma_(sigma), options_(options), sources_(static_cast<std::size_t>(sources.cols())) {
   check_sigma(sigma);
   check_options(options, d);
-  check_points("source", sources.data(), d, sources_, stride<d>(sources));
-  check_weights(weights, sources_);
+  check_points("source", sources.data(), d, sources_, stride<d>(sources), options.threads);
+  check_weights(weights, sources_, options.threads);
 
   const std::size_t columns = static_cast<std::size_t>(weights.cols());
   check_memory("the plan", 8.0 * static_cast<double>(sources_) * static_cast<double>(d + columns),
                options.memory_limit);
-  std::vector<double> position(d * sources_);
-  for (std::size_t j = 0; j < sources_; ++j)
-    for (std::size_t l = 0; l < d; ++l)
-      position[l * sources_ + j] = sources(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(j));
+  Buffer<double> position = by_axis<d>(sources.data(), sources_, stride<d>(sources), options.threads);
 
   Proposal<d> chosen = choose<d>(position, sources_, columns, sigma, options);
   check_memory("the plan", chosen.plan_bytes, options.memory_limit);
   choice_ = chosen.choice;
   summation_ = chosen.make(std::move(position));
   choice_.boxes = summation_->boxes();
-  set_weights(weights);
+  take_weights(weights);
 }
 
 template <int d>
 void Engine<d>::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
-  check_weights(weights, sources_);
+  check_weights(weights, sources_, options_.threads);
+  take_weights(weights);
+}
+
+template <int d>
+void Engine<d>::take_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
   const std::size_t columns = static_cast<std::size_t>(weights.cols());
   const bool gaps = columns > 1 && weights.outerStride() != weights.rows();
   check_memory("the plan",
@@ -64,7 +88,7 @@ template <int d>
 Eigen::MatrixXd Engine<d>::evaluate(const Eigen::Ref<const Points<d>>& targets,
                                     const std::vector<Combination<d>>& combinations) const {
   const std::size_t count = static_cast<std::size_t>(targets.cols());
-  check_points("target", targets.data(), d, count, stride<d>(targets));
+  check_points("target", targets.data(), d, count, stride<d>(targets), options_.threads);
   const Request<d> request = make_request<d>(combinations, sigma_, options_.derivative_order);
   const std::size_t outputs = combinations.size() * columns_;
   const bool gaps = stride<d>(targets) != d;
@@ -72,7 +96,7 @@ Eigen::MatrixXd Engine<d>::evaluate(const Eigen::Ref<const Points<d>>& targets,
                summation_->plan_bytes(columns_) + summation_->point_bytes(request, count) +
                    8.0 * static_cast<double>(count) * static_cast<double>(outputs + (gaps ? d : 0)),
                options_.memory_limit);
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(outputs));
+  Eigen::MatrixXd values = make_result(count, outputs);
   if (!gaps) {
     summation_->evaluate(request, targets.data(), count, values.data());
     return values;
@@ -92,7 +116,7 @@ Eigen::MatrixXd Engine<d>::evaluate(const TensorGrid& grid, const std::vector<Co
   const double held = summation_->plan_bytes(columns_) + 8.0 * nodes * static_cast<double>(outputs);
   check_memory("evaluation", held, options_.memory_limit);
   check_memory("evaluation", held + summation_->grid_bytes(request, grid), options_.memory_limit);
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(grid.size()), static_cast<Eigen::Index>(outputs));
+  Eigen::MatrixXd values = make_result(grid.size(), outputs);
   summation_->evaluate(request, grid, values.data());
   return values;
 }

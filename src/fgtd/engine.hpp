@@ -21,6 +21,9 @@ class Engine {
   const Choice& choice() const { return choice_; }
 
  private:
+  /// Weights that have been checked.
+  void take_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights);
+
   double sigma_;
   Options options_;
   Choice choice_;

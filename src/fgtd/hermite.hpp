@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fgtd/boxes.hpp"
+#include "fgtd/buffer.hpp"
 #include "fgtd/direct.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
@@ -28,7 +29,7 @@ template <int d>
 class HermiteSum : public Summation<d> {
  public:
   /// position [d][count] of sources whose boxes have the side `side`.
-  HermiteSum(const HermitePlan& plan, double sigma, double side, std::vector<double> position, std::size_t count,
+  HermiteSum(const HermitePlan& plan, double sigma, double side, Buffer<double> position, std::size_t count,
              int threads);
 
   void set_weights(const double* weights, std::size_t columns) override;  // computes the moments

@@ -178,7 +178,7 @@ std::optional<Proposal<d>> propose_hermite(const Situation<d>& at) {
   proposal.choice = decision->choice;
   proposal.plan_bytes = decision->plan_bytes;
   proposal.make = [plan = decision->hermite, sigma = at.sigma, side = decision->choice.box_side,
-                   threads = at.options.threads](std::vector<double> position) {
+                   threads = at.options.threads](Buffer<double> position) {
     const std::size_t count = position.size() / d;
     return std::make_unique<HermiteSum<d>>(plan, sigma, side, std::move(position), count, threads);
   };

@@ -44,7 +44,7 @@ std::vector<double> binomial_roots(int highest, int terms) {
 }
 
 template <int d>
-HermiteSum<d>::HermiteSum(const HermitePlan& plan, double sigma, double side, std::vector<double> position,
+HermiteSum<d>::HermiteSum(const HermitePlan& plan, double sigma, double side, Buffer<double> position,
                           std::size_t count, int threads)
     : plan_(plan), sigma_(sigma), threads_(threads) {
   sources_.count = count;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "base/parallel.hpp"
 
 namespace fgtd::detail {
 namespace {
@@ -21,10 +24,35 @@ double cubes_within(int d, double reach) {
   return sum;
 }
 
+/// Smallest and largest of some numbers.
+std::pair<double, double> range_of(const double* x, std::size_t count, int threads) {
+  constexpr std::size_t piece = 1 << 15, lanes = 8;
+  const std::size_t pieces = (count + piece - 1) / piece;
+  std::vector<std::pair<double, double>> range(pieces);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+    const std::size_t begin = i * piece, end = std::min(count, begin + piece);
+    double low[lanes], high[lanes];
+    for (std::size_t k = 0; k < lanes; ++k) low[k] = high[k] = x[begin];
+    std::size_t j = begin;
+    for (; j + lanes <= end; j += lanes)
+      for (std::size_t k = 0; k < lanes; ++k) {
+        low[k] = x[j + k] < low[k] ? x[j + k] : low[k];
+        high[k] = x[j + k] > high[k] ? x[j + k] : high[k];
+      }
+    for (; j < end; ++j) {
+      low[0] = std::min(low[0], x[j]);
+      high[0] = std::max(high[0], x[j]);
+    }
+    range[i] = {*std::min_element(low, low + lanes), *std::max_element(high, high + lanes)};
+  });
+  for (const auto& [low, high] : range) range[0] = {std::min(range[0].first, low), std::max(range[0].second, high)};
+  return range[0];
+}
+
 }  // namespace
 
 template <int d>
-Situation<d> look_at(const std::vector<double>& position, std::size_t count, std::size_t columns, double sigma,
+Situation<d> look_at(const Buffer<double>& position, std::size_t count, std::size_t columns, double sigma,
                      const Options& options) {
   double targets = static_cast<double>(options.expected_targets);
   if (options.expected_grid) targets = static_cast<double>(options.expected_grid->size());
@@ -34,9 +62,9 @@ Situation<d> look_at(const std::vector<double>& position, std::size_t count, std
       position, {},    std::min(count, sample_size)};
   for (std::size_t l = 0; l < d && count > 0; ++l) {
     const double* x = position.data() + l * count;
-    const auto [low, high] = std::minmax_element(x, x + count);
-    situation.low[l] = *low;
-    situation.extent[l] = *high - *low;
+    const auto [low, high] = range_of(x, count, options.threads);
+    situation.low[l] = low;
+    situation.extent[l] = high - low;
     for (std::size_t i = 0; i < situation.sample_count; ++i)
       situation.sample.push_back(x[i * count / situation.sample_count]);
   }
@@ -88,9 +116,9 @@ double boxes_within(const Situation<d>& at, double side, double reach, double oc
   return std::min({occupied, std::max(1.0, cubes), sources_within<d>(at, reach + side)});
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                       \
-  template Situation<d> look_at<d>(const std::vector<double>&, std::size_t, std::size_t, double, const Options&); \
-  template double sources_within<d>(const Situation<d>&, double);                                                 \
+#define FGTD_INSTANTIATE(d)                                                                                  \
+  template Situation<d> look_at<d>(const Buffer<double>&, std::size_t, std::size_t, double, const Options&); \
+  template double sources_within<d>(const Situation<d>&, double);                                            \
   template double boxes_within<d>(const Situation<d>&, double, double, double);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "fgtd/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 
 namespace fgtd::detail {
@@ -13,17 +14,17 @@ template <int d>
 struct Situation {
   const Options& options;
   double sigma;
-  double sources;                       // N
-  double targets;                       // that are expected
-  double columns;                       // of weights, at least 1
-  const std::vector<double>& position;  // of all sources, [d][N]
-  std::vector<double> sample;           // of some of them, [d][sample_count]
+  double sources;                  // N
+  double targets;                  // that are expected
+  double columns;                  // of weights, at least 1
+  const Buffer<double>& position;  // of all sources, [d][N]
+  std::vector<double> sample;      // of some of them, [d][sample_count]
   std::size_t sample_count;
   std::array<double, d> low{}, extent{};  // the bounding box of the sources
 };
 
 template <int d>
-Situation<d> look_at(const std::vector<double>& position, std::size_t count, std::size_t columns, double sigma,
+Situation<d> look_at(const Buffer<double>& position, std::size_t count, std::size_t columns, double sigma,
                      const Options& options);
 
 /// Places occupied by `points` points that fall on equally likely places, of which `sampled` points occupied `seen`.

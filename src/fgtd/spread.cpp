@@ -165,7 +165,7 @@ std::size_t tile_side(std::size_t axis) {
 }
 
 template <int d>
-std::optional<SpreadLayout<d>> lay_out(const std::vector<double>& position, std::size_t count,
+std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size_t count,
                                        const std::array<double, d>& low, const std::array<double, d>& extent,
                                        double spacing, int width) {
   SpreadLayout<d> layout;
@@ -246,8 +246,8 @@ std::optional<SpreadLayout<d>> lay_out(const std::vector<double>& position, std:
   return layout;
 }
 
-void sort_into_tiles(const std::vector<std::uint32_t>& tile, std::size_t tiles, int threads,
-                     std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& first) {
+void sort_into_tiles(const Buffer<std::uint32_t>& tile, std::size_t tiles, int threads, Buffer<std::uint32_t>& order,
+                     std::vector<std::uint32_t>& first) {
   const std::size_t count = tile.size();
   const std::size_t piece = std::max<std::size_t>(std::size_t{1} << 16, 4 * tiles);
   const std::size_t pieces = (count + piece - 1) / piece;
@@ -273,7 +273,7 @@ void sort_into_tiles(const std::vector<std::uint32_t>& tile, std::size_t tiles, 
 
 template <int d>
 SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma,
-                        std::vector<double> position, int threads)
+                        Buffer<double> position, int threads)
     : filter_(std::move(filter)),
       layout_(std::move(layout)),
       sigma_(sigma),
@@ -281,7 +281,7 @@ SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout
       count_(position.size() / d) {
   constexpr std::size_t piece = 1 << 14;
   const std::size_t pieces = (count_ + piece - 1) / piece;
-  std::vector<std::uint32_t> tile(count_);
+  Buffer<std::uint32_t> tile(count_);
   gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
     for (std::size_t j = i * piece; j < std::min(count_, (i + 1) * piece); ++j) {
       const Brick<d>& brick = layout_.bricks[layout_.brick_of.empty() ? 0 : layout_.brick_of[j]];
@@ -340,7 +340,7 @@ void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
   columns_ = columns;
   lattice_.clear();
   lattice_.resize(columns * layout_.nodes() + SpreadFilter::padded_window, 0.0);
-  std::vector<double> sorted(columns * count_);
+  Buffer<double> sorted(columns * count_);
   constexpr std::size_t piece = 1 << 14;
   gaussdrift::base::parallel_for((count_ + piece - 1) / piece, threads_, [&](std::size_t i) {
     for (std::size_t k = 0; k < columns; ++k)
@@ -370,18 +370,16 @@ double SpreadSum<d>::plan_bytes(std::size_t columns) const {
          8.0 * static_cast<double>(columns) * static_cast<double>(layout_.nodes());
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                           \
-  template struct LatticeFrame<d>;                                                                                    \
-  template struct Brick<d>;                                                                                           \
-  template struct SpreadLayout<d>;                                                                                    \
-  template std::size_t tile_side<d>(std::size_t);                                                                     \
-  template std::optional<SpreadLayout<d>> lay_out<d>(const std::vector<double>&, std::size_t,                         \
-                                                     const std::array<double, d>&, const std::array<double, d>&,      \
-                                                     double, int);                                                    \
-  template SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter>, SpreadLayout<d>, double, std::vector<double>, \
-                                   int);                                                                              \
-  template SpreadJob SpreadSum<d>::job_for(const Brick<d>&) const;                                                    \
-  template void SpreadSum<d>::set_weights(const double*, std::size_t);                                                \
+#define FGTD_INSTANTIATE(d)                                                                                            \
+  template struct LatticeFrame<d>;                                                                                     \
+  template struct Brick<d>;                                                                                            \
+  template struct SpreadLayout<d>;                                                                                     \
+  template std::size_t tile_side<d>(std::size_t);                                                                      \
+  template std::optional<SpreadLayout<d>> lay_out<d>(const Buffer<double>&, std::size_t, const std::array<double, d>&, \
+                                                     const std::array<double, d>&, double, int);                       \
+  template SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter>, SpreadLayout<d>, double, Buffer<double>, int); \
+  template SpreadJob SpreadSum<d>::job_for(const Brick<d>&) const;                                                     \
+  template void SpreadSum<d>::set_weights(const double*, std::size_t);                                                 \
   template double SpreadSum<d>::plan_bytes(std::size_t) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "fgtd/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/kernels.hpp"
 #include "fgtd/request.hpp"
@@ -70,7 +71,7 @@ std::size_t tile_side(std::size_t axis);
 /// Lays bricks around the points so that little of the lattice is empty; none if coordinates cannot be told apart on it
 /// or if it would be much larger than the points justify. position [d][count].
 template <int d>
-std::optional<SpreadLayout<d>> lay_out(const std::vector<double>& position, std::size_t count,
+std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size_t count,
                                        const std::array<double, d>& low, const std::array<double, d>& extent,
                                        double spacing, int width);
 
@@ -78,8 +79,8 @@ template <int d>
 class SpreadSum : public Summation<d> {
  public:
   /// position [d][count]
-  SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma,
-            std::vector<double> position, int threads);
+  SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma, Buffer<double> position,
+            int threads);
 
   void set_weights(const double* weights, std::size_t columns) override;
   void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;
@@ -101,12 +102,12 @@ class SpreadSum : public Summation<d> {
   double sigma_;
   int threads_;
   std::size_t count_ = 0;
-  std::vector<double> position_;           // [d][count] from the anchor, sorted by tile
-  std::vector<std::uint32_t> order_;       // sorted source j is the caller's order_[j]
+  Buffer<double> position_;                // [d][count] from the anchor, sorted by tile
+  Buffer<std::uint32_t> order_;            // sorted source j is the caller's order_[j]
   std::vector<std::uint32_t> tile_first_;  // sources of a tile
   std::array<std::vector<Tile>, std::size_t{1} << d> colour_;
   std::size_t columns_ = 0;
-  std::vector<double> lattice_;  // bricks one after the other: [columns][brick.size()], then padding
+  Buffer<double> lattice_;  // bricks one after the other: [columns][brick.size()], then padding
 };
 
 /// The filter of all bricks onto a grid: values[(q columns + k) nodes + i], overwritten. `node_of` empty: the grid's
@@ -142,7 +143,7 @@ template <int d>
 double filter_bytes(const FilterJob<d>& job, const std::array<double, d>& sizes, bool on_lattice);
 
 /// Sorts points into tiles by a stable counting sort over fixed pieces: order[new place] = old place, first[tile].
-void sort_into_tiles(const std::vector<std::uint32_t>& tile, std::size_t tiles, int threads,
-                     std::vector<std::uint32_t>& order, std::vector<std::uint32_t>& first);
+void sort_into_tiles(const Buffer<std::uint32_t>& tile, std::size_t tiles, int threads, Buffer<std::uint32_t>& order,
+                     std::vector<std::uint32_t>& first);
 
 }  // namespace fgtd::detail

@@ -128,7 +128,7 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
   choice.box_side = spacing;
   choice.expansion_order = filter->width();
   proposal.make = [filter, sigma = at.sigma, threads = at.options.threads,
-                   shared = std::make_shared<SpreadLayout<d>>(std::move(*layout))](std::vector<double> position) {
+                   shared = std::make_shared<SpreadLayout<d>>(std::move(*layout))](Buffer<double> position) {
     return std::make_unique<SpreadSum<d>>(filter, std::move(*shared), sigma, std::move(position), threads);
   };
   return proposal;

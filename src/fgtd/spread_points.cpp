@@ -15,7 +15,7 @@ constexpr std::size_t piece = 4096;  // targets at a time
 template <int d>
 struct NearTargets {
   std::vector<std::uint32_t> index;  // the caller's numbers, sorted
-  std::vector<double> position;      // [d][index.size()]
+  Buffer<double> position;           // [d][index.size()]
   Brick<d> brick;
 };
 
@@ -49,7 +49,7 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
   }
   if (index.empty()) return near;
   Brick<d>& brick = near.brick;
-  std::vector<std::uint32_t> tile(index.size(), 0);
+  Buffer<std::uint32_t> tile(index.size(), 0);
   for (std::size_t l = d; l-- > 0;) {
     const std::size_t span = static_cast<std::size_t>(high[l] - low[l]) + 1;
     brick.first[l] = low[l] - 1;
@@ -61,7 +61,8 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
                                            static_cast<std::size_t>(node - low[l]) / tile_side<d>(l));
     }
   }
-  std::vector<std::uint32_t> order, tile_first;
+  Buffer<std::uint32_t> order;
+  std::vector<std::uint32_t> tile_first;
   sort_into_tiles(tile, brick.tile_count(), threads, order, tile_first);
   near.index.resize(index.size());
   near.position.resize(d * index.size());
@@ -98,7 +99,7 @@ void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, st
         nodes.node[l].push_back(near.brick.first[l] + static_cast<std::int64_t>(i));
     }
     const std::size_t size = near.brick.size();
-    std::vector<double> lattice(outputs * size + SpreadFilter::padded_window);
+    Buffer<double> lattice(outputs * size + SpreadFilter::padded_window, 0.0);
     apply_filter<d>(job, nodes, near.brick.nodes[0], size, lattice.data());
 
     gaussdrift::base::parallel_for((near_count + piece - 1) / piece, threads_, [&](std::size_t i) {
