@@ -26,8 +26,8 @@ struct Decision {
 
 /// The corners of the bounding box, [d][2].
 template <int d>
-std::vector<double> corners(const Situation<d>& at) {
-  std::vector<double> points;
+Buffer<double> corners(const Situation<d>& at) {
+  Buffer<double> points;
   for (std::size_t l = 0; l < d; ++l) {
     points.push_back(at.low[l]);
     points.push_back(at.low[l] + at.extent[l]);

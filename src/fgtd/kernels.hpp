@@ -101,24 +101,24 @@ struct TableJob {
 struct CellsJob;  // cells_job.hpp
 struct OuterJob;
 
-/// Points begin .. end brought to a lattice (`spread`): lattice[k][node] += weights[k][j] prod_l phi at the node, or, with
-/// `out`, out[k][j - begin] = sum over nodes of lattice[k][node] prod_l phi. The lattice is readable and writable up to 16
-/// numbers past every run of w nodes along axis 0; zeros are added there.
+/// Points begin .. end brought to a lattice (`spread`): lattice[k][node] += weights[k][j] prod_l phi at the node, or,
+/// with `out`, out[k][j - begin] = sum over nodes of lattice[k][node] prod_l phi. The lattice is readable and writable
+/// up to 16 numbers past every run of w nodes along axis 0; zeros are added there.
 struct SpreadJob {
   int dimension;
-  int width;                            // w, at most 16
-  int degree;                           // of the polynomials
-  const double* window;                 // [degree + 1][16], spread_filter.hpp
-  double spacing_high, spacing_low;     // h, the first part with few digits
-  double inverse_spacing;               // 1/h
-  long long first[max_dimension];       // node of the lattice's corner
-  std::size_t stride[max_dimension];    // numbers from node to node
-  const double* position;               // [dimension][position_stride], lattice node k at k h
-  std::size_t position_stride;
+  int width;                          // w, at most 16
+  int degree;                         // of the polynomials
+  const double* window;               // [degree + 1][16], spread_filter.hpp
+  double spacing_high, spacing_low;   // h, the first part with few digits
+  double inverse_spacing;             // 1/h
+  long long first[max_dimension];     // node of the lattice's corner
+  std::size_t stride[max_dimension];  // numbers from node to node
+  const double* position;             // [points][dimension], lattice node k at k h
   std::size_t begin, end;
   std::size_t columns;
-  const double* weights;  // [columns][position_stride]
-  double* lattice;        // [columns][lattice_stride]
+  const double* weights;  // [columns][weights_stride]
+  std::size_t weights_stride;
+  double* lattice;  // [columns][lattice_stride]
   std::size_t lattice_stride;
   double* out;  // [columns][out_stride], or null
   std::size_t out_stride;

@@ -121,9 +121,9 @@ void HermiteSum<d>::set_weights(const double* weights, std::size_t columns) {
   });
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                      \
-  template HermiteSum<d>::HermiteSum(const HermitePlan&, double, double, std::vector<double>, std::size_t, int); \
-  template double HermiteSum<d>::plan_bytes(std::size_t) const;                                                  \
+#define FGTD_INSTANTIATE(d)                                                                                 \
+  template HermiteSum<d>::HermiteSum(const HermitePlan&, double, double, Buffer<double>, std::size_t, int); \
+  template double HermiteSum<d>::plan_bytes(std::size_t) const;                                             \
   template void HermiteSum<d>::set_weights(const double*, std::size_t);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -18,7 +18,7 @@ struct Situation {
   double targets;                  // that are expected
   double columns;                  // of weights, at least 1
   const Buffer<double>& position;  // of all sources, [d][N]
-  std::vector<double> sample;      // of some of them, [d][sample_count]
+  Buffer<double> sample;           // of some of them, [d][sample_count]
   std::size_t sample_count;
   std::array<double, d> low{}, extent{};  // the bounding box of the sources
 };

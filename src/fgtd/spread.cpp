@@ -246,31 +246,6 @@ std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size
   return layout;
 }
 
-void sort_into_tiles(const Buffer<std::uint32_t>& tile, std::size_t tiles, int threads, Buffer<std::uint32_t>& order,
-                     std::vector<std::uint32_t>& first) {
-  const std::size_t count = tile.size();
-  const std::size_t piece = std::max<std::size_t>(std::size_t{1} << 16, 4 * tiles);
-  const std::size_t pieces = (count + piece - 1) / piece;
-  std::vector<std::uint32_t> start(std::max<std::size_t>(1, pieces) * tiles, 0);  // [piece][tile]
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
-    std::uint32_t* counts = start.data() + i * tiles;
-    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) ++counts[tile[j]];
-  });
-  first.assign(tiles + 1, 0);
-  std::uint32_t sum = 0;
-  for (std::size_t t = 0; t < tiles; ++t) {
-    first[t] = sum;
-    for (std::size_t i = 0; i < pieces; ++i) sum += std::exchange(start[i * tiles + t], sum);
-  }
-  first[tiles] = sum;
-  order.resize(count);
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
-    std::uint32_t* to = start.data() + i * tiles;
-    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j)
-      order[to[tile[j]]++] = static_cast<std::uint32_t>(j);
-  });
-}
-
 template <int d>
 SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma,
                         Buffer<double> position, int threads)
@@ -279,28 +254,25 @@ SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout
       sigma_(sigma),
       threads_(threads),
       count_(position.size() / d) {
-  constexpr std::size_t piece = 1 << 14;
-  const std::size_t pieces = (count_ + piece - 1) / piece;
-  Buffer<std::uint32_t> tile(count_);
-  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
-    for (std::size_t j = i * piece; j < std::min(count_, (i + 1) * piece); ++j) {
+  place_.resize(count_);  // the tile first
+  in_pieces(count_, threads_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
       const Brick<d>& brick = layout_.bricks[layout_.brick_of.empty() ? 0 : layout_.brick_of[j]];
       std::size_t number = 0;
       for (std::size_t l = d; l-- > 0;) {
         const std::int64_t node = layout_.frame.first_node(position[l * count_ + j] - layout_.frame.anchor[l]);
         number = number * brick.tiles[l] + static_cast<std::size_t>(node - brick.first[l] - 1) / tile_side<d>(l);
       }
-      tile[j] = static_cast<std::uint32_t>(brick.first_tile + number);
+      place_[j] = static_cast<std::uint32_t>(brick.first_tile + number);
     }
   });
   const Brick<d>& last = layout_.bricks.back();
-  sort_into_tiles(tile, last.first_tile + last.tile_count(), threads_, order_, tile_first_);
   position_.resize(position.size());
-  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
-    for (std::size_t l = 0; l < d; ++l)
-      for (std::size_t j = i * piece; j < std::min(count_, (i + 1) * piece); ++j)
-        position_[l * count_ + j] = position[l * count_ + order_[j]] - layout_.frame.anchor[l];
-  });
+  sort_into_tiles(place_, last.first_tile + last.tile_count(), threads_, tile_first_,
+                  [&](std::size_t j, std::size_t place) {
+                    for (std::size_t l = 0; l < d; ++l)
+                      position_[place * d + l] = position[l * count_ + j] - layout_.frame.anchor[l];
+                  });
   for (std::size_t b = 0; b < layout_.bricks.size(); ++b) {
     const Brick<d>& brick = layout_.bricks[b];
     for (std::size_t number = 0; number < brick.tile_count(); ++number) {
@@ -338,21 +310,21 @@ SpreadJob SpreadSum<d>::job_for(const Brick<d>& brick) const {
 template <int d>
 void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
   columns_ = columns;
-  lattice_.clear();
-  lattice_.resize(columns * layout_.nodes() + SpreadFilter::padded_window, 0.0);
+  lattice_.resize(columns * layout_.nodes() + SpreadFilter::padded_window);
+  in_pieces(lattice_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+    std::fill(lattice_.data() + begin, lattice_.data() + end, 0.0);
+  });
   Buffer<double> sorted(columns * count_);
-  constexpr std::size_t piece = 1 << 14;
-  gaussdrift::base::parallel_for((count_ + piece - 1) / piece, threads_, [&](std::size_t i) {
+  in_pieces(count_, threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < columns; ++k)
-      for (std::size_t j = i * piece; j < std::min(count_, (i + 1) * piece); ++j)
-        sorted[k * count_ + j] = weights[k * count_ + order_[j]];
+      for (std::size_t j = begin; j < end; ++j) sorted[k * count_ + place_[j]] = weights[k * count_ + j];
   });
   for (const auto& tiles : colour_)
     gaussdrift::base::parallel_for(tiles.size(), threads_, [&](std::size_t i) {
       const Brick<d>& brick = layout_.bricks[tiles[i].brick];
       SpreadJob job = job_for(brick);
       job.position = position_.data();
-      job.position_stride = count_;
+      job.weights_stride = count_;
       job.begin = tile_first_[tiles[i].number];
       job.end = tile_first_[tiles[i].number + 1];
       job.columns = columns;
@@ -362,7 +334,7 @@ void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
     });
 }
 
-/// Sorted positions and order, the lattice, and while weights are set their sorted copy.
+/// Sorted positions and places, the lattice, and while weights are set their sorted copy.
 template <int d>
 double SpreadSum<d>::plan_bytes(std::size_t columns) const {
   const double tiles = static_cast<double>(tile_first_.size());

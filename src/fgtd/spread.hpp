@@ -7,13 +7,16 @@
 // every node still adds its tiles in the same order.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "fgtd/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/kernels.hpp"
@@ -102,8 +105,8 @@ class SpreadSum : public Summation<d> {
   double sigma_;
   int threads_;
   std::size_t count_ = 0;
-  Buffer<double> position_;                // [d][count] from the anchor, sorted by tile
-  Buffer<std::uint32_t> order_;            // sorted source j is the caller's order_[j]
+  Buffer<double> position_;                // [count][d] from the anchor, sorted by tile
+  Buffer<std::uint32_t> place_;            // the caller's source j is sorted source place_[j]
   std::vector<std::uint32_t> tile_first_;  // sources of a tile
   std::array<std::vector<Tile>, std::size_t{1} << d> colour_;
   std::size_t columns_ = 0;
@@ -142,8 +145,41 @@ void apply_filter(const FilterJob<d>& job, const FilterTargets<d>& targets, std:
 template <int d>
 double filter_bytes(const FilterJob<d>& job, const std::array<double, d>& sizes, bool on_lattice);
 
-/// Sorts points into tiles by a stable counting sort over fixed pieces: order[new place] = old place, first[tile].
-void sort_into_tiles(const Buffer<std::uint32_t>& tile, std::size_t tiles, int threads, Buffer<std::uint32_t>& order,
-                     std::vector<std::uint32_t>& first);
+/// Sorts points into tiles by a stable counting sort over fixed pieces: the tile of every point becomes its new place,
+/// and move(point, place) is called for each. The points of a tile are at first[tile] .. first[tile + 1].
+template <class Move>
+void sort_into_tiles(Buffer<std::uint32_t>& tile, std::size_t tiles, int threads, std::vector<std::uint32_t>& first,
+                     const Move& move) {
+  const std::size_t count = tile.size();
+  const std::size_t piece = std::max<std::size_t>(std::size_t{1} << 16, 4 * tiles);
+  const std::size_t pieces = (count + piece - 1) / piece;
+  std::vector<std::uint32_t> start(pieces * tiles, 0);  // [piece][tile]
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+    std::uint32_t* const counts = start.data() + i * tiles;
+    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) ++counts[tile[j]];
+  });
+  first.assign(tiles + 1, 0);
+  std::uint32_t sum = 0;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    first[t] = sum;
+    for (std::size_t i = 0; i < pieces; ++i) sum += std::exchange(start[i * tiles + t], sum);
+  }
+  first[tiles] = sum;
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+    std::uint32_t* const to = start.data() + i * tiles;
+    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) {
+      tile[j] = to[tile[j]]++;
+      move(j, tile[j]);
+    }
+  });
+}
+
+/// Calls body(begin, end) for pieces of 0 .. count.
+template <class Body>
+void in_pieces(std::size_t count, int threads, const Body& body) {
+  constexpr std::size_t piece = 1 << 14;
+  gaussdrift::base::parallel_for((count + piece - 1) / piece, threads,
+                                 [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
+}
 
 }  // namespace fgtd::detail

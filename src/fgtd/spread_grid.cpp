@@ -3,7 +3,8 @@
 //   T2[z][k1 k0]  = sum_{k2} f_{a2}(z - k2) lattice[k2][k1 k0]        shared by all derivatives with the same a2
 //   T1[z y][k0]   = sum_{k1} f_{a1}(y - k1) T2[z][k1 k0]              ... the same (a1, a2)
 //   S[z y][x]    += sum_{k0} T1[z y][k0] f_{a0}(x - k0)
-// over the nodes within reach of the brick; nodes of the grid are taken in groups whose bands overlap.
+// over the nodes within reach of the brick; nodes of the grid are taken in groups whose bands overlap. T1 exists for
+// one group of y at a time, and all values and derivatives of these rows are written while it is in the nearest cache.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,9 +36,10 @@ struct Group {
 /// The filter between one axis of the targets and one of a brick.
 struct AxisMatrix {
   std::size_t begin = 0, end = 0;  // targets within reach
-  std::vector<Group> groups;       //
-  std::vector<std::vector<double>>
-      entries;  // [a]: a group has [depth][padded(size)] on axis 0, [size][depth] on others
+  std::vector<Group> groups;
+  /// Of axis 0 for every distinct (alpha_0, factor) of the request: a group has [depth][padded(size)]; of other axes
+  /// for every alpha_l: [size][depth].
+  std::vector<std::vector<double>> entries;
 };
 
 /// Distinct derivatives of axes l .. d-1.
@@ -51,12 +53,17 @@ class Filter {
  public:
   Filter(const FilterJob<d>& job, const FilterTargets<d>& targets, std::size_t row_stride, std::size_t output_stride,
          double* values)
-      : job_(job), targets_(targets), output_stride_(output_stride), values_(values) {
+      : job_(job),
+        targets_(targets),
+        output_stride_(output_stride),
+        values_(values),
+        row_length_(row_stride),
+        alone_(job.bricks.size() == 1) {
     stride_[0] = 1;
     if constexpr (d > 1) stride_[1] = row_stride;
     for (std::size_t l = 2; l < d; ++l) stride_[l] = stride_[l - 1] * targets.size(l - 1);
-    last_stride_ = d == 1 ? 1 : stride_[d - 1];
     find_suffixes();
+    find_factors();
     matrix_.resize(job.bricks.size());
     for (std::size_t b = 0; b < job.bricks.size(); ++b)
       for (std::size_t l = 0; l < d; ++l) matrix_[b][l] = make_matrix(*job.bricks[b], l);
@@ -71,25 +78,30 @@ class Filter {
 
  private:
   void find_suffixes();
+  void find_factors();
   AxisMatrix make_matrix(const Brick<d>& brick, std::size_t axis) const;
   std::pair<std::int64_t, std::int64_t> band(std::size_t axis, std::size_t i) const;
   double entry(int a, std::size_t axis, std::size_t i, std::int64_t k) const;
   void run_piece(std::size_t begin, std::size_t end) const;
   void descend(std::size_t b, std::size_t k, std::size_t axis, const std::vector<const double*>& in, std::size_t begin,
-               std::size_t end, std::size_t offset, std::array<std::vector<double>, d>& scratch) const;
+               std::size_t end, std::size_t offset, std::array<Buffer<double>, d>& scratch) const;
   void write_rows(std::size_t b, std::size_t k, const std::vector<const double*>& in, std::size_t rows,
-                  std::size_t begin, std::size_t end, std::size_t offset, std::vector<double>& scratch) const;
-  void clear(std::size_t begin, std::size_t end) const;
+                  std::size_t begin, std::size_t end, std::size_t offset) const;
+  void clear(std::size_t k, std::size_t axis, std::size_t begin, std::size_t end, std::size_t offset) const;
 
   const FilterJob<d>& job_;
   const FilterTargets<d>& targets_;
   std::size_t output_stride_;
   double* values_;
   std::array<std::size_t, d> stride_{};  // numbers from node to node of the result
-  std::size_t last_stride_;
-  std::array<std::vector<Suffix>, d> suffix_;  // [axis], axis >= 1
-  std::vector<std::size_t> leaf_;              // of each derivative, in suffix_[1]
+  std::size_t row_length_;
+  std::array<std::vector<Suffix>, d> suffix_;         // [axis], axis >= 1
+  std::vector<std::size_t> leaf_;                     // of each derivative, in suffix_[1]
+  std::vector<std::pair<int, double>> factor_;        // distinct (alpha_0, factor)
+  std::vector<std::vector<std::size_t>> row_matrix_;  // [combination][part], in factor_
   std::vector<std::array<AxisMatrix, d>> matrix_;
+  /// One brick: every row is set to zero when it is written first, while it is in the cache; else beforehand.
+  bool alone_;
 };
 
 template <int d>
@@ -107,6 +119,19 @@ void Filter<d>::find_suffixes() {
     }
   }
   leaf_ = std::move(at);
+}
+
+template <int d>
+void Filter<d>::find_factors() {
+  for (const auto& combination : job_.request.combinations) {
+    auto& matrices = row_matrix_.emplace_back();
+    for (const auto& part : combination) {
+      const std::pair<int, double> factor{job_.request.derivatives[part.derivative][0], part.factor};
+      const auto place = std::find(factor_.begin(), factor_.end(), factor);
+      matrices.push_back(static_cast<std::size_t>(place - factor_.begin()));
+      if (place == factor_.end()) factor_.push_back(factor);
+    }
+  }
 }
 
 /// Lattice nodes within reach of target i, first and last.
@@ -153,7 +178,7 @@ AxisMatrix Filter<d>::make_matrix(const Brick<d>& brick, std::size_t axis) const
     if (!matrix.groups.empty()) {
       Group& group = matrix.groups.back();
       const std::size_t depth = std::max(to, group.first + group.depth) - std::min(from, group.first);
-      if (group.size < largest && depth <= static_cast<std::size_t>(2 * width)) {
+      if (i % largest != 0 && depth <= static_cast<std::size_t>(2 * width)) {
         group.depth = depth;
         group.first = std::min(from, group.first);
         ++group.size;
@@ -166,130 +191,141 @@ AxisMatrix Filter<d>::make_matrix(const Brick<d>& brick, std::size_t axis) const
     group.offset = numbers;
     numbers += group.depth * (axis == 0 ? padded(group.size) : group.size);
   }
-  matrix.entries.resize(static_cast<std::size_t>(job_.request.highest[axis]) + 1);
-  for (std::size_t a = 0; a < matrix.entries.size(); ++a) {
-    if (std::none_of(job_.request.derivatives.begin(), job_.request.derivatives.end(),
-                     [&](const Derivative<d>& alpha) { return alpha[axis] == static_cast<int>(a); }))
-      continue;
-    auto& entries = matrix.entries[a];
+  const auto fill = [&](std::vector<double>& entries, int a, double factor) {
     entries.assign(numbers, 0.0);
     for (const Group& group : matrix.groups)
       for (std::size_t i = 0; i < group.size; ++i)
         for (std::size_t k = 0; k < group.depth; ++k) {
           const double value =
-              entry(static_cast<int>(a), axis, group.begin + i, first + static_cast<std::int64_t>(group.first + k));
+              factor * entry(a, axis, group.begin + i, first + static_cast<std::int64_t>(group.first + k));
           entries[group.offset + (axis == 0 ? k * padded(group.size) + i : i * group.depth + k)] = value;
         }
+  };
+  if (axis == 0) {
+    matrix.entries.resize(factor_.size());
+    for (std::size_t f = 0; f < factor_.size(); ++f) fill(matrix.entries[f], factor_[f].first, factor_[f].second);
+    return matrix;
+  }
+  matrix.entries.resize(static_cast<std::size_t>(job_.request.highest[axis]) + 1);
+  for (const Suffix& suffix : suffix_[axis]) {
+    auto& entries = matrix.entries[static_cast<std::size_t>(suffix.a)];
+    if (entries.empty()) fill(entries, suffix.a, 1);
   }
   return matrix;
 }
 
-/// Nodes begin .. end of the last axis become zero.
+/// Everything at nodes begin .. end of an axis becomes zero, for column k.
 template <int d>
-void Filter<d>::clear(std::size_t begin, std::size_t end) const {
-  const std::size_t outputs = job_.request.combinations.size() * job_.columns;
-  for (std::size_t output = 0; output < outputs; ++output)
-    std::fill(values_ + output * output_stride_ + begin * last_stride_,
-              values_ + output * output_stride_ + end * last_stride_, 0.0);
+void Filter<d>::clear(std::size_t k, std::size_t axis, std::size_t begin, std::size_t end, std::size_t offset) const {
+  if (begin >= end) return;
+  // with the gap behind a row
+  const std::size_t length = axis == 0 && end == targets_.size(0) ? row_length_ - begin : (end - begin) * stride_[axis];
+  for (std::size_t q = 0; q < job_.request.combinations.size(); ++q)
+    std::fill_n(values_ + (q * job_.columns + k) * output_stride_ + offset + begin * stride_[axis], length, 0.0);
 }
 
 template <int d>
 void Filter<d>::run_piece(std::size_t begin, std::size_t end) const {
-  std::array<std::vector<double>, d> scratch;
-  bool cleared = false;
-  for (std::size_t b = 0; b < job_.bricks.size(); ++b) {
-    const auto& matrix = matrix_[b];
-    if (std::any_of(matrix.begin(), matrix.end(), [](const AxisMatrix& axis) { return axis.groups.empty(); })) continue;
-    const std::size_t from = std::max(begin, matrix[d - 1].begin), to = std::min(end, matrix[d - 1].end);
-    if (from >= to) continue;
-    if (!cleared) clear(begin, end);
-    cleared = true;
-    for (std::size_t k = 0; k < job_.columns; ++k) {
+  std::array<Buffer<double>, d> scratch;
+  for (std::size_t k = 0; k < job_.columns; ++k) {
+    if (!alone_) clear(k, d - 1, begin, end, 0);
+    for (std::size_t b = 0; b < job_.bricks.size(); ++b) {
+      const auto& matrix = matrix_[b];
+      const bool reached =
+          std::none_of(matrix.begin(), matrix.end(), [](const AxisMatrix& axis) { return axis.groups.empty(); });
+      const std::size_t from = reached ? std::clamp(matrix[d - 1].begin, begin, end) : end,
+                        to = reached ? std::clamp(matrix[d - 1].end, from, end) : end;
+      if (alone_) {
+        clear(k, d - 1, begin, from, 0);
+        clear(k, d - 1, to, end, 0);
+      }
+      if (from == to) continue;
       const std::vector<const double*> in{job_.lattice[b] + k * job_.bricks[b]->size()};
       if constexpr (d == 1) {
-        write_rows(b, k, in, 1, from, to, 0, scratch[0]);
+        if (alone_) clear(k, 0, from, to, 0);
+        write_rows(b, k, in, 1, from, to, 0);
       } else {
         descend(b, k, d - 1, in, from, to, 0, scratch);
       }
     }
   }
-  if (!cleared) clear(begin, end);
 }
 
-/// From sums over axes axis+1 .. d-1, one array for every suffix, to those over `axis` at its targets begin .. end.
+/// From sums over axes axis+1 .. d-1, one array for every suffix, to those over `axis` at its targets begin .. end, a
+/// group or, on the last axis, a piece at a time.
 template <int d>
 void Filter<d>::descend(std::size_t b, std::size_t k, std::size_t axis, const std::vector<const double*>& in,
                         std::size_t begin, std::size_t end, std::size_t offset,
-                        std::array<std::vector<double>, d>& scratch) const {
+                        std::array<Buffer<double>, d>& scratch) const {
   const Brick<d>& brick = *job_.bricks[b];
   const AxisMatrix& matrix = matrix_[b][axis];
+  const AxisMatrix& below = matrix_[b][axis - 1];
   std::size_t inner = 1;
   for (std::size_t l = 0; l < axis; ++l) inner *= brick.nodes[l];
-  const std::size_t rows = end - begin;
   auto& sums = scratch[axis];  // [suffix][rows][inner]
-  sums.assign(suffix_[axis].size() * rows * inner + row_padding, 0.0);
-  for (std::size_t s = 0; s < suffix_[axis].size(); ++s) {
-    const Suffix& suffix = suffix_[axis][s];
-    const auto& entries = matrix.entries[static_cast<std::size_t>(suffix.a)];
-    for (const Group& group : matrix.groups) {
-      const std::size_t from = std::max(begin, group.begin), to = std::min(end, group.begin + group.size);
-      if (from >= to) continue;
-      kernels().product({.rows = to - from,
-                         .depth = group.depth,
-                         .width = inner,
-                         .b = entries.data() + group.offset + (from - group.begin) * group.depth,
-                         .b_stride = group.depth,
-                         .d = in[suffix.parent] + group.first * inner,
-                         .d_stride = inner,
-                         .c = sums.data() + (s * rows + from - begin) * inner,
-                         .c_stride = inner});
-    }
-  }
   std::vector<const double*> out(suffix_[axis].size());
-  if (axis == 1) {
-    for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + s * rows * inner;
-    const AxisMatrix& first = matrix_[b][0];
-    write_rows(b, k, out, rows, first.begin, first.end, offset + begin * stride_[1], scratch[0]);
-    return;
-  }
-  const AxisMatrix& below = matrix_[b][axis - 1];
-  for (std::size_t i = 0; i < rows; ++i) {
-    for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + (s * rows + i) * inner;
-    descend(b, k, axis - 1, out, below.begin, below.end, offset + (begin + i) * stride_[axis], scratch);
-  }
-}
-
-/// The last pass, along axis 0 to its targets begin .. end, added to the result. Matrices are scaled by the factors of
-/// the combinations.
-template <int d>
-void Filter<d>::write_rows(std::size_t b, std::size_t k, const std::vector<const double*>& in, std::size_t rows,
-                           std::size_t begin, std::size_t end, std::size_t offset, std::vector<double>& scratch) const {
-  const AxisMatrix& matrix = matrix_[b][0];
-  const std::size_t row = job_.bricks[b]->nodes[0];
   for (const Group& group : matrix.groups) {
     const std::size_t from = std::max(begin, group.begin), to = std::min(end, group.begin + group.size);
     if (from >= to) continue;
-    const std::size_t width = padded(group.size);
-    for (std::size_t q = 0; q < job_.request.combinations.size(); ++q)
-      for (const auto& part : job_.request.combinations[q]) {
-        const int a = job_.request.derivatives[part.derivative][0];
-        const double* entries = matrix.entries[static_cast<std::size_t>(a)].data() + group.offset;
-        if (part.factor != 1) {
-          scratch.resize(std::max(scratch.size(), group.depth * width));
-          for (std::size_t i = 0; i < group.depth * width; ++i) scratch[i] = entries[i] * part.factor;
-          entries = scratch.data();
-        }
+    const std::size_t rows = to - from, size = rows * inner;
+    sums.resize(std::max(sums.size(), out.size() * size + row_padding));
+    std::fill_n(sums.begin(), out.size() * size + row_padding, 0.0);
+    for (std::size_t s = 0; s < out.size(); ++s) {
+      const Suffix& suffix = suffix_[axis][s];
+      kernels().product({.rows = rows,
+                         .depth = group.depth,
+                         .width = inner,
+                         .b = matrix.entries[static_cast<std::size_t>(suffix.a)].data() + group.offset +
+                              (from - group.begin) * group.depth,
+                         .b_stride = group.depth,
+                         .d = in[suffix.parent] + group.first * inner,
+                         .d_stride = inner,
+                         .c = sums.data() + s * size,
+                         .c_stride = inner});
+    }
+    if (axis == 1) {
+      for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + s * size;
+      if (alone_) clear(k, 1, from, to, offset);
+      write_rows(b, k, out, rows, below.begin, below.end, offset + from * stride_[1]);
+      continue;
+    }
+    for (std::size_t i = 0; i < rows; ++i) {
+      const std::size_t here = offset + (from + i) * stride_[axis];
+      for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + s * size + i * inner;
+      if (alone_) {
+        clear(k, axis - 1, 0, below.begin, here);
+        clear(k, axis - 1, below.end, targets_.size(axis - 1), here);
+      }
+      descend(b, k, axis - 1, out, below.begin, below.end, here, scratch);
+    }
+  }
+}
+
+/// The last pass, along axis 0 to its targets begin .. end, added to the result.
+template <int d>
+void Filter<d>::write_rows(std::size_t b, std::size_t k, const std::vector<const double*>& in, std::size_t rows,
+                           std::size_t begin, std::size_t end, std::size_t offset) const {
+  const AxisMatrix& matrix = matrix_[b][0];
+  const std::size_t row = job_.bricks[b]->nodes[0];
+  for (std::size_t q = 0; q < row_matrix_.size(); ++q)
+    for (std::size_t part = 0; part < row_matrix_[q].size(); ++part) {
+      const double* entries = matrix.entries[row_matrix_[q][part]].data();
+      const double* sums = in[d == 1 ? 0 : leaf_[job_.request.combinations[q][part].derivative]];
+      double* to_values = values_ + (q * job_.columns + k) * output_stride_ + offset;
+      for (const Group& group : matrix.groups) {
+        const std::size_t from = std::max(begin, group.begin), to = std::min(end, group.begin + group.size);
+        if (from >= to) continue;
         kernels().product({.rows = rows,
                            .depth = group.depth,
                            .width = to - from,
-                           .b = in[d == 1 ? 0 : leaf_[part.derivative]] + group.first,
+                           .b = sums + group.first,
                            .b_stride = row,
-                           .d = entries + (from - group.begin),
-                           .d_stride = width,
-                           .c = values_ + (q * job_.columns + k) * output_stride_ + offset + from,
+                           .d = entries + group.offset + (from - group.begin),
+                           .d_stride = padded(group.size),
+                           .c = to_values + from,
                            .c_stride = stride_[d == 1 ? 0 : 1]});
       }
-  }
+    }
 }
 
 }  // namespace
@@ -304,19 +340,21 @@ void apply_filter(const FilterJob<d>& job, const FilterTargets<d>& targets, std:
 template <int d>
 double filter_bytes(const FilterJob<d>& job, const std::array<double, d>& sizes, bool on_lattice) {
   const double reach = on_lattice ? job.filter.lattice_reach() : std::ceil(job.filter.reach() / job.filter.spacing());
+  double parts = 0;
+  for (const auto& combination : job.request.combinations) parts += static_cast<double>(combination.size());
   double matrices = 0, largest = 0;
   for (const Brick<d>* brick : job.bricks) {
-    double inner = 1;
+    double inner = 1, sums = 0;
     for (std::size_t l = 0; l < d; ++l) {
       const double nodes = static_cast<double>(brick->nodes[l]);
       const double within = std::min(sizes[l], on_lattice ? nodes + 2 * reach : sizes[l]);
-      matrices += (l == 0 ? 3.0 : 2.0) * (job.request.highest[l] + 1) * within * std::min(nodes, 2 * (2 * reach + 1));
-    }
-    double sums = 0, suffixes = static_cast<double>(job.request.derivatives.size());
-    for (std::size_t l = 1; l < d; ++l) {
-      inner *= static_cast<double>(brick->nodes[l - 1]);
-      const double rows = l + 1 == d ? static_cast<double>(piece_nodes<d>()) : sizes[l];
-      sums += suffixes * std::min(rows, sizes[l]) * inner;
+      matrices +=
+          (l == 0 ? 3 * parts : 2.0 * (job.request.highest[l] + 1)) * within * std::min(nodes, 2 * (2 * reach + 1));
+      if (l > 0)
+        sums += static_cast<double>(job.request.derivatives.size() *
+                                    std::min(outer_group, static_cast<std::size_t>(sizes[l]))) *
+                inner;
+      inner *= nodes;
     }
     largest = std::max(largest, sums);
   }

@@ -19,7 +19,7 @@ struct Placement {
     double zeta[d];
     Vector value[d][vectors];
     for (int l = 0; l < d; ++l) {
-      const double x = job.position[static_cast<std::size_t>(l) * job.position_stride + j];
+      const double x = job.position[j * d + static_cast<std::size_t>(l)];
       const double k = (x * job.inverse_spacing + (0.5 - 0.5 * job.width) + shift) - shift;
       const double theta = ((k * job.spacing_high - x) + k * job.spacing_low) * job.inverse_spacing + 0.5 * job.width;
       zeta[l] = 2 * theta - 1;
@@ -63,7 +63,7 @@ void spread_points(const SpreadJob& job) {
   for (std::size_t j = job.begin; j < job.end; ++j) {
     const std::size_t offset = placed.find(job, j);
     for (std::size_t k = 0; k < job.columns; ++k)
-      spread_rows<d - 1, vectors>(job, placed, job.weights[k * job.position_stride + j],
+      spread_rows<d - 1, vectors>(job, placed, job.weights[k * job.weights_stride + j],
                                   job.lattice + k * job.lattice_stride + offset);
   }
 }

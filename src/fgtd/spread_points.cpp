@@ -2,6 +2,8 @@
 // phi from there to each target. Targets that a brick does not reach are left out; they add exactly nothing.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "fgtd/spread.hpp"
@@ -14,63 +16,90 @@ constexpr std::size_t piece = 4096;  // targets at a time
 /// The targets near one brick: sorted by tile, from the anchor, and the lattice around them.
 template <int d>
 struct NearTargets {
-  std::vector<std::uint32_t> index;  // the caller's numbers, sorted
-  Buffer<double> position;           // [d][index.size()]
+  Buffer<std::uint32_t> index;  // the caller's numbers, sorted
+  Buffer<double> position;      // [index.size()][d]
   Brick<d> brick;
 };
 
 template <int d>
 NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, int reach, const double* targets,
                          std::size_t count, int threads) {
-  NearTargets<d> near;
-  std::vector<std::uint32_t> index;
-  std::array<std::int64_t, d> low{}, high{};
   std::array<double, d> from, to;  // first nodes within reach
   for (std::size_t l = 0; l < d; ++l) {
     const double first = static_cast<double>(source.first[l]), nodes = static_cast<double>(source.nodes[l]);
     from[l] = (first - reach - frame.width) * frame.spacing;
     to[l] = (first + nodes + reach + frame.width) * frame.spacing;
   }
-  for (std::size_t i = 0; i < count; ++i) {
+  const auto is_near = [&](std::size_t i) {
     bool inside = true;
-    std::array<std::int64_t, d> node{};
     for (std::size_t l = 0; l < d; ++l) {
       const double y = targets[i * d + l] - frame.anchor[l];
       inside = inside && from[l] <= y && y <= to[l];
-      if (inside) node[l] = frame.first_node(y);
     }
-    if (!inside) continue;
-    if (index.empty()) low = high = node;
-    for (std::size_t l = 0; l < d; ++l) {
-      low[l] = std::min(low[l], node[l]);
-      high[l] = std::max(high[l], node[l]);
+    return inside;
+  };
+  struct Found {
+    std::size_t count = 0;
+    std::array<double, d> low, high;
+  };
+  const std::size_t pieces = (count + piece - 1) / piece;
+  std::vector<Found> found(pieces);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
+    Found here;
+    here.low.fill(std::numeric_limits<double>::infinity());
+    here.high.fill(-std::numeric_limits<double>::infinity());
+    for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
+      if (!is_near(i)) continue;
+      ++here.count;
+      for (std::size_t l = 0; l < d; ++l) {
+        const double y = targets[i * d + l] - frame.anchor[l];
+        here.low[l] = std::min(here.low[l], y);
+        here.high[l] = std::max(here.high[l], y);
+      }
     }
-    index.push_back(static_cast<std::uint32_t>(i));
+    found[p] = here;
+  });
+  Found all;
+  for (Found& part : found) {
+    if (part.count > 0)
+      for (std::size_t l = 0; l < d; ++l) {
+        all.low[l] = all.count == 0 ? part.low[l] : std::min(all.low[l], part.low[l]);
+        all.high[l] = all.count == 0 ? part.high[l] : std::max(all.high[l], part.high[l]);
+      }
+    all.count += std::exchange(part.count, all.count);  // from now on those before it
   }
-  if (index.empty()) return near;
+  NearTargets<d> near;
+  if (all.count == 0) return near;
   Brick<d>& brick = near.brick;
-  Buffer<std::uint32_t> tile(index.size(), 0);
-  for (std::size_t l = d; l-- > 0;) {
-    const std::size_t span = static_cast<std::size_t>(high[l] - low[l]) + 1;
+  std::array<std::int64_t, d> low;
+  for (std::size_t l = 0; l < d; ++l) {
+    low[l] = frame.first_node(all.low[l]);
+    const std::size_t span = static_cast<std::size_t>(frame.first_node(all.high[l]) - low[l]) + 1;
     brick.first[l] = low[l] - 1;
     brick.nodes[l] = span + (l == 0 ? SpreadFilter::padded_window : static_cast<std::size_t>(frame.width)) + 1;
     brick.tiles[l] = (span + tile_side<d>(l) - 1) / tile_side<d>(l);
-    for (std::size_t j = 0; j < index.size(); ++j) {
-      const std::int64_t node = frame.first_node(targets[index[j] * d + l] - frame.anchor[l]);
-      tile[j] = static_cast<std::uint32_t>(tile[j] * brick.tiles[l] +
-                                           static_cast<std::size_t>(node - low[l]) / tile_side<d>(l));
+  }
+  Buffer<std::uint32_t> index(all.count), tile(all.count);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
+    std::size_t at = found[p].count;
+    for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
+      if (!is_near(i)) continue;
+      std::size_t number = 0;
+      for (std::size_t l = d; l-- > 0;) {
+        const std::int64_t node = frame.first_node(targets[i * d + l] - frame.anchor[l]);
+        number = number * brick.tiles[l] + static_cast<std::size_t>(node - low[l]) / tile_side<d>(l);
+      }
+      index[at] = static_cast<std::uint32_t>(i);
+      tile[at++] = static_cast<std::uint32_t>(number);
     }
-  }
-  Buffer<std::uint32_t> order;
+  });
+  near.index.resize(all.count);
+  near.position.resize(d * all.count);
   std::vector<std::uint32_t> tile_first;
-  sort_into_tiles(tile, brick.tile_count(), threads, order, tile_first);
-  near.index.resize(index.size());
-  near.position.resize(d * index.size());
-  for (std::size_t j = 0; j < index.size(); ++j) {
-    near.index[j] = index[order[j]];
-    for (std::size_t l = 0; l < d; ++l)
-      near.position[l * index.size() + j] = targets[near.index[j] * d + l] - frame.anchor[l];
-  }
+  sort_into_tiles(tile, brick.tile_count(), threads, tile_first, [&](std::size_t j, std::size_t place) {
+    near.index[place] = index[j];
+    for (std::size_t l = 0; l < d; ++l) near.position[place * d + l] = targets[index[j] * d + l] - frame.anchor[l];
+  });
   return near;
 }
 
@@ -79,7 +108,8 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
 template <int d>
 void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const {
   const std::size_t outputs = request.combinations.size() * columns_;
-  std::fill(values, values + outputs * count, 0.0);
+  in_pieces(outputs * count, threads_,
+            [&](std::size_t begin, std::size_t end) { std::fill(values + begin, values + end, 0.0); });
   if (outputs == 0 || count == 0) return;
   for (const auto& brick : layout_.bricks) {
     const NearTargets<d> near = find_near<d>(layout_.frame, brick, filter_->lattice_reach(), targets, count, threads_);
@@ -99,13 +129,13 @@ void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, st
         nodes.node[l].push_back(near.brick.first[l] + static_cast<std::int64_t>(i));
     }
     const std::size_t size = near.brick.size();
-    Buffer<double> lattice(outputs * size + SpreadFilter::padded_window, 0.0);
+    Buffer<double> lattice(outputs * size + SpreadFilter::padded_window);
+    std::fill_n(lattice.end() - SpreadFilter::padded_window, SpreadFilter::padded_window, 0.0);
     apply_filter<d>(job, nodes, near.brick.nodes[0], size, lattice.data());
 
     gaussdrift::base::parallel_for((near_count + piece - 1) / piece, threads_, [&](std::size_t i) {
       SpreadJob gather = job_for(near.brick);
       gather.position = near.position.data();
-      gather.position_stride = near_count;
       gather.begin = i * piece;
       gather.end = std::min(near_count, (i + 1) * piece);
       gather.columns = outputs;
