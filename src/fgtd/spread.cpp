@@ -131,12 +131,6 @@ Brick<d> brick_around(const std::array<std::int64_t, d>& low, const std::array<s
 }  // namespace
 
 template <int d>
-std::int64_t LatticeFrame<d>::first_node(double x) const {
-  constexpr double shift = 0x1.8p52;  // adding it rounds to an integer
-  return static_cast<std::int64_t>((x / spacing + (0.5 - 0.5 * width) + shift) - shift);
-}
-
-template <int d>
 std::size_t Brick<d>::size() const {
   std::size_t product = 1;
   for (const std::size_t n : nodes) product *= n;
@@ -158,13 +152,6 @@ std::size_t SpreadLayout<d>::nodes() const {
 }
 
 template <int d>
-std::size_t tile_side(std::size_t axis) {
-  static_assert(SpreadFilter::padded_window == 16, "tiles must be wider than what a source writes, and two to spare");
-  if (d == 1) return 256;
-  return d == 2 || axis == 0 ? 32 : 18;
-}
-
-template <int d>
 std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size_t count,
                                        const std::array<double, d>& low, const std::array<double, d>& extent,
                                        double spacing, int width) {
@@ -174,6 +161,7 @@ std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size
       count > std::numeric_limits<std::uint32_t>::max() / 2)
     return std::nullopt;
   frame.spacing = spacing;
+  frame.inverse_spacing = 1 / spacing;
   frame.spacing_high = static_cast<double>(static_cast<float>(std::ldexp(spacing, -std::ilogb(spacing))));
   frame.spacing_high = std::ldexp(frame.spacing_high, std::ilogb(spacing));
   frame.spacing_low = spacing - frame.spacing_high;
@@ -254,29 +242,30 @@ SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout
       sigma_(sigma),
       threads_(threads),
       count_(position.size() / d) {
-  place_.resize(count_);  // the tile first
+  const auto from_anchor = [&](std::size_t j) {
+    std::array<double, d> x;
+    for (std::size_t l = 0; l < d; ++l) x[l] = position[l * count_ + j] - layout_.frame.anchor[l];
+    return x;
+  };
+  place_.resize(count_);  // the cell first
   in_pieces(count_, threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       const Brick<d>& brick = layout_.bricks[layout_.brick_of.empty() ? 0 : layout_.brick_of[j]];
-      std::size_t number = 0;
-      for (std::size_t l = d; l-- > 0;) {
-        const std::int64_t node = layout_.frame.first_node(position[l * count_ + j] - layout_.frame.anchor[l]);
-        number = number * brick.tiles[l] + static_cast<std::size_t>(node - brick.first[l] - 1) / tile_side<d>(l);
-      }
-      place_[j] = static_cast<std::uint32_t>(brick.first_tile + number);
+      place_[j] = static_cast<std::uint32_t>(brick.first_tile * cells_in_tile<d>() +
+                                             brick.cell_of(layout_.frame, from_anchor(j)));
     }
   });
   const Brick<d>& last = layout_.bricks.back();
   position_.resize(position.size());
-  sort_into_tiles(place_, last.first_tile + last.tile_count(), threads_, tile_first_,
+  sort_into_cells(place_, last.first_tile * cells_in_tile<d>() + last.cell_count(), threads_, cell_first_,
                   [&](std::size_t j, std::size_t place) {
-                    for (std::size_t l = 0; l < d; ++l)
-                      position_[place * d + l] = position[l * count_ + j] - layout_.frame.anchor[l];
+                    const std::array<double, d> x = from_anchor(j);
+                    std::copy_n(x.begin(), d, position_.begin() + static_cast<std::ptrdiff_t>(place * d));
                   });
   for (std::size_t b = 0; b < layout_.bricks.size(); ++b) {
     const Brick<d>& brick = layout_.bricks[b];
     for (std::size_t number = 0; number < brick.tile_count(); ++number) {
-      if (tile_first_[brick.first_tile + number] == tile_first_[brick.first_tile + number + 1]) continue;
+      if (sources_of(brick.first_tile + number) == sources_of(brick.first_tile + number + 1)) continue;
       std::size_t rest = number, colour = 0;
       for (std::size_t l = 0; l < d; ++l) {
         colour |= (rest % brick.tiles[l] % 2) << l;
@@ -296,7 +285,7 @@ SpreadJob SpreadSum<d>::job_for(const Brick<d>& brick) const {
   job.window = filter_->coefficients();
   job.spacing_high = layout_.frame.spacing_high;
   job.spacing_low = layout_.frame.spacing_low;
-  job.inverse_spacing = 1 / layout_.frame.spacing;
+  job.inverse_spacing = layout_.frame.inverse_spacing;
   std::size_t stride = 1;
   for (std::size_t l = 0; l < d; ++l) {
     job.first[l] = brick.first[l];
@@ -325,8 +314,8 @@ void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
       SpreadJob job = job_for(brick);
       job.position = position_.data();
       job.weights_stride = count_;
-      job.begin = tile_first_[tiles[i].number];
-      job.end = tile_first_[tiles[i].number + 1];
+      job.begin = sources_of(tiles[i].number);
+      job.end = sources_of(tiles[i].number + 1);
       job.columns = columns;
       job.weights = sorted.data();
       job.lattice = lattice_.data() + columns * brick.offset;
@@ -337,16 +326,16 @@ void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
 /// Sorted positions and places, the lattice, and while weights are set their sorted copy.
 template <int d>
 double SpreadSum<d>::plan_bytes(std::size_t columns) const {
-  const double tiles = static_cast<double>(tile_first_.size());
-  return static_cast<double>(count_) * (8.0 * static_cast<double>(d + columns) + 6) + 20 * tiles +
+  const double cells = static_cast<double>(cell_first_.size());
+  return static_cast<double>(count_) * (8.0 * static_cast<double>(d + columns) + 6) +
+         (12 + 24.0 / cells_in_tile<d>()) * cells +
          8.0 * static_cast<double>(columns) * static_cast<double>(layout_.nodes());
 }
 
 #define FGTD_INSTANTIATE(d)                                                                                            \
-  template struct LatticeFrame<d>;                                                                                     \
+                                                                                                                       \
   template struct Brick<d>;                                                                                            \
   template struct SpreadLayout<d>;                                                                                     \
-  template std::size_t tile_side<d>(std::size_t);                                                                      \
   template std::optional<SpreadLayout<d>> lay_out<d>(const Buffer<double>&, std::size_t, const std::array<double, d>&, \
                                                      const std::array<double, d>&, double, int);                       \
   template SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter>, SpreadLayout<d>, double, Buffer<double>, int); \

@@ -30,19 +30,43 @@ namespace fgtd::detail {
 /// parts of which the first has so few digits that its multiples are exact.
 template <int d>
 struct LatticeFrame {
-  double spacing = 0;  // h
+  double spacing = 0, inverse_spacing = 0;  // h, 1/h
   double spacing_high = 0, spacing_low = 0;
   std::array<double, d> anchor{};
   int width = 0;  // w
 
   /// First of the w nodes around x (from the anchor); the kernels may differ from it by one.
-  std::int64_t first_node(double x) const;
+  std::int64_t first_node(double x) const {
+    constexpr double shift = 0x1.8p52;  // adding it rounds to an integer
+    return static_cast<std::int64_t>((x * inverse_spacing + (0.5 - 0.5 * width) + shift) - shift);
+  }
   /// x - k h
   double from_node(double x, std::int64_t k) const {
     const double node = static_cast<double>(k);
     return (x - node * spacing_high) - node * spacing_low;
   }
 };
+
+/// Nodes a side of a tile; more than the nodes that one source writes.
+template <int d>
+constexpr std::size_t tile_side(std::size_t axis) {
+  static_assert(SpreadFilter::padded_window == 16, "tiles must be wider than what a source writes, and two to spare");
+  if (d == 1) return 256;
+  return d == 2 || axis == 0 ? 32 : 18;
+}
+
+/// Nodes a side of a cell, of which a tile has whole ones: points are sorted by cell, so that the nodes that successive
+/// points write or read stay in the nearest cache. A tile of one or two dimensions is small enough.
+template <int d>
+constexpr std::size_t cell_side(std::size_t axis) {
+  return d < 3 ? tile_side<d>(axis) : axis == 0 ? 8 : 6;
+}
+template <int d>
+constexpr std::size_t cells_in_tile() {
+  std::size_t cells = 1;
+  for (std::size_t l = 0; l < d; ++l) cells *= tile_side<d>(l) / cell_side<d>(l);
+  return cells;
+}
 
 /// A dense piece of the lattice and its tiles.
 template <int d>
@@ -55,6 +79,17 @@ struct Brick {
 
   std::size_t size() const;
   std::size_t tile_count() const;
+  std::size_t cell_count() const { return tile_count() * cells_in_tile<d>(); }
+  /// Number of the cell in which the first node of a point is; cells of a tile follow each other.
+  std::size_t cell_of(const LatticeFrame<d>& frame, const std::array<double, d>& x) const {
+    std::size_t tile = 0, cell = 0;
+    for (std::size_t l = d; l-- > 0;) {
+      const std::size_t node = static_cast<std::size_t>(frame.first_node(x[l]) - first[l] - 1);
+      tile = tile * tiles[l] + node / tile_side<d>(l);
+      cell = cell * (tile_side<d>(l) / cell_side<d>(l)) + node % tile_side<d>(l) / cell_side<d>(l);
+    }
+    return tile * cells_in_tile<d>() + cell;
+  }
 };
 
 /// Where sources lie.
@@ -66,10 +101,6 @@ struct SpreadLayout {
 
   std::size_t nodes() const;  // of all bricks
 };
-
-/// Nodes a side of a tile; more than the nodes that one source writes.
-template <int d>
-std::size_t tile_side(std::size_t axis);
 
 /// Lays bricks around the points so that little of the lattice is empty; none if coordinates cannot be told apart on it
 /// or if it would be much larger than the points justify. position [d][count].
@@ -99,6 +130,8 @@ class SpreadSum : public Summation<d> {
     std::size_t brick, number;
   };
   SpreadJob job_for(const Brick<d>& brick) const;
+  /// The first of a tile.
+  std::size_t sources_of(std::size_t tile) const { return cell_first_[tile * cells_in_tile<d>()]; }
 
   std::shared_ptr<const SpreadFilter> filter_;
   SpreadLayout<d> layout_;
@@ -107,7 +140,7 @@ class SpreadSum : public Summation<d> {
   std::size_t count_ = 0;
   Buffer<double> position_;                // [count][d] from the anchor, sorted by tile
   Buffer<std::uint32_t> place_;            // the caller's source j is sorted source place_[j]
-  std::vector<std::uint32_t> tile_first_;  // sources of a tile
+  std::vector<std::uint32_t> cell_first_;  // sources of a cell
   std::array<std::vector<Tile>, std::size_t{1} << d> colour_;
   std::size_t columns_ = 0;
   Buffer<double> lattice_;  // bricks one after the other: [columns][brick.size()], then padding
@@ -145,31 +178,31 @@ void apply_filter(const FilterJob<d>& job, const FilterTargets<d>& targets, std:
 template <int d>
 double filter_bytes(const FilterJob<d>& job, const std::array<double, d>& sizes, bool on_lattice);
 
-/// Sorts points into tiles by a stable counting sort over fixed pieces: the tile of every point becomes its new place,
-/// and move(point, place) is called for each. The points of a tile are at first[tile] .. first[tile + 1].
+/// Sorts points into cells by a stable counting sort over fixed pieces: the cell of every point becomes its new place,
+/// and move(point, place) is called for each. The points of a cell are at first[cell] .. first[cell + 1].
 template <class Move>
-void sort_into_tiles(Buffer<std::uint32_t>& tile, std::size_t tiles, int threads, std::vector<std::uint32_t>& first,
+void sort_into_cells(Buffer<std::uint32_t>& cell, std::size_t cells, int threads, std::vector<std::uint32_t>& first,
                      const Move& move) {
-  const std::size_t count = tile.size();
-  const std::size_t piece = std::max<std::size_t>(std::size_t{1} << 16, 4 * tiles);
+  const std::size_t count = cell.size();
+  const std::size_t piece = std::max<std::size_t>(std::size_t{1} << 16, 4 * cells);
   const std::size_t pieces = (count + piece - 1) / piece;
-  std::vector<std::uint32_t> start(pieces * tiles, 0);  // [piece][tile]
+  std::vector<std::uint32_t> start(pieces * cells, 0);  // [piece][cell]
   gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
-    std::uint32_t* const counts = start.data() + i * tiles;
-    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) ++counts[tile[j]];
+    std::uint32_t* const counts = start.data() + i * cells;
+    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) ++counts[cell[j]];
   });
-  first.assign(tiles + 1, 0);
+  first.assign(cells + 1, 0);
   std::uint32_t sum = 0;
-  for (std::size_t t = 0; t < tiles; ++t) {
-    first[t] = sum;
-    for (std::size_t i = 0; i < pieces; ++i) sum += std::exchange(start[i * tiles + t], sum);
+  for (std::size_t c = 0; c < cells; ++c) {
+    first[c] = sum;
+    for (std::size_t i = 0; i < pieces; ++i) sum += std::exchange(start[i * cells + c], sum);
   }
-  first[tiles] = sum;
+  first[cells] = sum;
   gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
-    std::uint32_t* const to = start.data() + i * tiles;
+    std::uint32_t* const to = start.data() + i * cells;
     for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) {
-      tile[j] = to[tile[j]]++;
-      move(j, tile[j]);
+      cell[j] = to[cell[j]]++;
+      move(j, cell[j]);
     }
   });
 }

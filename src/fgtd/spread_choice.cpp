@@ -104,7 +104,7 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
 
   Proposal<d> proposal;
   const double tiles = static_cast<double>(layout->bricks.back().first_tile + layout->bricks.back().tile_count());
-  proposal.plan_bytes = at.sources * (8.0 * (2 * d + at.columns) + 12) + 24 * tiles +
+  proposal.plan_bytes = at.sources * (8.0 * (2 * d + at.columns) + 12) + (24 + 12.0 * cells_in_tile<d>()) * tiles +
                         8 * at.columns * static_cast<double>(layout->nodes());
   if (proposal.plan_bytes > static_cast<double>(at.options.memory_limit)) {
     if (asked) check_memory("the plan with Method::spread", proposal.plan_bytes, at.options.memory_limit);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t piece = 4096;  // targets at a time
 
-/// The targets near one brick: sorted by tile, from the anchor, and the lattice around them.
+/// The targets near one brick: sorted by cell, from the anchor, and the lattice around them.
 template <int d>
 struct NearTargets {
   Buffer<std::uint32_t> index;  // the caller's numbers, sorted
@@ -30,12 +30,14 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
     from[l] = (first - reach - frame.width) * frame.spacing;
     to[l] = (first + nodes + reach + frame.width) * frame.spacing;
   }
-  const auto is_near = [&](std::size_t i) {
+  const auto from_anchor = [&](std::size_t i) {
+    std::array<double, d> y;
+    for (std::size_t l = 0; l < d; ++l) y[l] = targets[i * d + l] - frame.anchor[l];
+    return y;
+  };
+  const auto is_near = [&](const std::array<double, d>& y) {
     bool inside = true;
-    for (std::size_t l = 0; l < d; ++l) {
-      const double y = targets[i * d + l] - frame.anchor[l];
-      inside = inside && from[l] <= y && y <= to[l];
-    }
+    for (std::size_t l = 0; l < d; ++l) inside = inside && from[l] <= y[l] && y[l] <= to[l];
     return inside;
   };
   struct Found {
@@ -49,12 +51,12 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
     here.low.fill(std::numeric_limits<double>::infinity());
     here.high.fill(-std::numeric_limits<double>::infinity());
     for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
-      if (!is_near(i)) continue;
+      const std::array<double, d> y = from_anchor(i);
+      if (!is_near(y)) continue;
       ++here.count;
       for (std::size_t l = 0; l < d; ++l) {
-        const double y = targets[i * d + l] - frame.anchor[l];
-        here.low[l] = std::min(here.low[l], y);
-        here.high[l] = std::max(here.high[l], y);
+        here.low[l] = std::min(here.low[l], y[l]);
+        here.high[l] = std::max(here.high[l], y[l]);
       }
     }
     found[p] = here;
@@ -71,34 +73,29 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
   NearTargets<d> near;
   if (all.count == 0) return near;
   Brick<d>& brick = near.brick;
-  std::array<std::int64_t, d> low;
   for (std::size_t l = 0; l < d; ++l) {
-    low[l] = frame.first_node(all.low[l]);
-    const std::size_t span = static_cast<std::size_t>(frame.first_node(all.high[l]) - low[l]) + 1;
-    brick.first[l] = low[l] - 1;
+    const std::int64_t low = frame.first_node(all.low[l]);
+    const std::size_t span = static_cast<std::size_t>(frame.first_node(all.high[l]) - low) + 1;
+    brick.first[l] = low - 1;
     brick.nodes[l] = span + (l == 0 ? SpreadFilter::padded_window : static_cast<std::size_t>(frame.width)) + 1;
     brick.tiles[l] = (span + tile_side<d>(l) - 1) / tile_side<d>(l);
   }
-  Buffer<std::uint32_t> index(all.count), tile(all.count);
+  Buffer<std::uint32_t> index(all.count), cell(all.count);
   gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
     std::size_t at = found[p].count;
     for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
-      if (!is_near(i)) continue;
-      std::size_t number = 0;
-      for (std::size_t l = d; l-- > 0;) {
-        const std::int64_t node = frame.first_node(targets[i * d + l] - frame.anchor[l]);
-        number = number * brick.tiles[l] + static_cast<std::size_t>(node - low[l]) / tile_side<d>(l);
-      }
+      if (!is_near(from_anchor(i))) continue;
       index[at] = static_cast<std::uint32_t>(i);
-      tile[at++] = static_cast<std::uint32_t>(number);
+      cell[at++] = static_cast<std::uint32_t>(brick.cell_of(frame, from_anchor(i)));
     }
   });
   near.index.resize(all.count);
   near.position.resize(d * all.count);
-  std::vector<std::uint32_t> tile_first;
-  sort_into_tiles(tile, brick.tile_count(), threads, tile_first, [&](std::size_t j, std::size_t place) {
+  std::vector<std::uint32_t> first;
+  sort_into_cells(cell, brick.cell_count(), threads, first, [&](std::size_t j, std::size_t place) {
     near.index[place] = index[j];
-    for (std::size_t l = 0; l < d; ++l) near.position[place * d + l] = targets[index[j] * d + l] - frame.anchor[l];
+    const std::array<double, d> y = from_anchor(index[j]);
+    std::copy_n(y.begin(), d, near.position.begin() + static_cast<std::ptrdiff_t>(place * d));
   });
   return near;
 }
