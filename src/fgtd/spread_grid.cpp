@@ -19,12 +19,29 @@ namespace {
 constexpr std::size_t inner_group = 24;  // nodes of axis 0 in a product: three vectors of the widest kind
 constexpr std::size_t outer_group = 8;   // nodes of another axis in a product
 
+/// Rows that are written together, so that they share the parts of the last matrix in the nearest cache; their sums, of
+/// so many numbers a row, stay in the next.
+constexpr std::size_t most_rows = 32;
+std::size_t rows_at_once(std::size_t numbers) {
+  constexpr std::size_t cached = 8192;
+  return std::clamp(cached / std::max<std::size_t>(1, numbers) / outer_group * outer_group, outer_group, most_rows);
+}
+
 std::size_t padded(std::size_t n) { return (n + row_padding - 1) / row_padding * row_padding; }
 
 /// Nodes of the last axis in a piece.
 template <int d>
 constexpr std::size_t piece_nodes() {
   return d == 1 ? 64 * inner_group : d == 2 ? 32 : 8;
+}
+
+constexpr std::size_t columns_at_once = 96;  // whose rows, within reach of a group, fit the nearest cache
+
+/// Asks for numbers that are needed soon.
+void fetch(const double* block, std::size_t rows, std::size_t stride, std::size_t columns) {
+  constexpr std::size_t line = 8;
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t x = 0; x < columns; x += line) __builtin_prefetch(block + i * stride + x);
 }
 
 /// Targets begin .. begin + size against lattice nodes first .. first + depth of a brick.
@@ -37,6 +54,7 @@ struct Group {
 struct AxisMatrix {
   std::size_t begin = 0, end = 0;  // targets within reach
   std::vector<Group> groups;
+  std::vector<std::size_t> group_of;  // of target begin + i
   /// Of axis 0 for every distinct (alpha_0, factor) of the request: a group has [depth][padded(size)]; of other axes
   /// for every alpha_l: [size][depth].
   std::vector<std::vector<double>> entries;
@@ -182,9 +200,11 @@ AxisMatrix Filter<d>::make_matrix(const Brick<d>& brick, std::size_t axis) const
         group.depth = depth;
         group.first = std::min(from, group.first);
         ++group.size;
+        matrix.group_of.push_back(matrix.groups.size() - 1);
         continue;
       }
     }
+    matrix.group_of.push_back(matrix.groups.size());
     matrix.groups.push_back({i, 1, from, to - from, 0});
   }
   for (Group& group : matrix.groups) {
@@ -251,8 +271,8 @@ void Filter<d>::run_piece(std::size_t begin, std::size_t end) const {
   }
 }
 
-/// From sums over axes axis+1 .. d-1, one array for every suffix, to those over `axis` at its targets begin .. end, a
-/// group or, on the last axis, a piece at a time.
+/// From sums over axes axis+1 .. d-1, one array for every suffix, to those over `axis` at its targets begin .. end,
+/// some at a time.
 template <int d>
 void Filter<d>::descend(std::size_t b, std::size_t k, std::size_t axis, const std::vector<const double*>& in,
                         std::size_t begin, std::size_t end, std::size_t offset,
@@ -264,40 +284,55 @@ void Filter<d>::descend(std::size_t b, std::size_t k, std::size_t axis, const st
   for (std::size_t l = 0; l < axis; ++l) inner *= brick.nodes[l];
   auto& sums = scratch[axis];  // [suffix][rows][inner]
   std::vector<const double*> out(suffix_[axis].size());
-  for (const Group& group : matrix.groups) {
-    const std::size_t from = std::max(begin, group.begin), to = std::min(end, group.begin + group.size);
-    if (from >= to) continue;
-    const std::size_t rows = to - from, size = rows * inner;
+  const std::size_t together = axis == 1 ? rows_at_once(inner * out.size()) : outer_group;
+  for (std::size_t first = begin; first < end;) {
+    const std::size_t last = std::min(end, (first / together + 1) * together), size = (last - first) * inner;
     sums.resize(std::max(sums.size(), out.size() * size + row_padding));
-    std::fill_n(sums.begin(), out.size() * size + row_padding, 0.0);
-    for (std::size_t s = 0; s < out.size(); ++s) {
-      const Suffix& suffix = suffix_[axis][s];
-      kernels().product({.rows = rows,
-                         .depth = group.depth,
-                         .width = inner,
-                         .b = matrix.entries[static_cast<std::size_t>(suffix.a)].data() + group.offset +
-                              (from - group.begin) * group.depth,
-                         .b_stride = group.depth,
-                         .d = in[suffix.parent] + group.first * inner,
-                         .d_stride = inner,
-                         .c = sums.data() + s * size,
-                         .c_stride = inner});
+    std::fill_n(sums.begin() + static_cast<std::ptrdiff_t>(out.size() * size), row_padding, 0.0);
+    // Rows along axis 1 are short. Later axes take them from all over the lattice, for which the processor needs a
+    // hint.
+    const std::size_t block = axis == 1 ? inner : columns_at_once;
+    for (std::size_t x = 0; x < inner; x += block) {
+      const std::size_t columns = std::min(block, inner - x);
+      for (std::size_t s = 0; s < out.size(); ++s) {
+        const Suffix& suffix = suffix_[axis][s];
+        const double* entries = matrix.entries[static_cast<std::size_t>(suffix.a)].data();
+        double* const to_sums = sums.data() + s * size + x;
+        for (std::size_t i = 0; i < last - first; ++i) std::fill_n(to_sums + i * inner, columns, 0.0);
+        for (std::size_t g = matrix.group_of[first - matrix.begin]; g < matrix.groups.size(); ++g) {
+          const Group& group = matrix.groups[g];
+          const std::size_t from = std::max(first, group.begin), to = std::min(last, group.begin + group.size);
+          if (from >= to) break;
+          const double* const from_sums = in[suffix.parent] + group.first * inner + x;
+          if (axis > 1 && x + block < inner)
+            fetch(from_sums + block, group.depth, inner, std::min(block, inner - x - block));
+          kernels().product({.rows = to - from,
+                             .depth = group.depth,
+                             .width = columns,
+                             .b = entries + group.offset + (from - group.begin) * group.depth,
+                             .b_stride = group.depth,
+                             .d = from_sums,
+                             .d_stride = inner,
+                             .c = to_sums + (from - first) * inner,
+                             .c_stride = inner});
+        }
+      }
     }
     if (axis == 1) {
       for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + s * size;
-      if (alone_) clear(k, 1, from, to, offset);
-      write_rows(b, k, out, rows, below.begin, below.end, offset + from * stride_[1]);
-      continue;
-    }
-    for (std::size_t i = 0; i < rows; ++i) {
-      const std::size_t here = offset + (from + i) * stride_[axis];
-      for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + s * size + i * inner;
-      if (alone_) {
-        clear(k, axis - 1, 0, below.begin, here);
-        clear(k, axis - 1, below.end, targets_.size(axis - 1), here);
+      write_rows(b, k, out, last - first, below.begin, below.end, offset + first * stride_[1]);
+    } else {
+      for (std::size_t i = first; i < last; ++i) {
+        const std::size_t here = offset + i * stride_[axis];
+        for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + s * size + (i - first) * inner;
+        if (alone_) {
+          clear(k, axis - 1, 0, below.begin, here);
+          clear(k, axis - 1, below.end, targets_.size(axis - 1), here);
+        }
+        descend(b, k, axis - 1, out, below.begin, below.end, here, scratch);
       }
-      descend(b, k, axis - 1, out, below.begin, below.end, here, scratch);
     }
+    first = last;
   }
 }
 
@@ -307,11 +342,13 @@ void Filter<d>::write_rows(std::size_t b, std::size_t k, const std::vector<const
                            std::size_t begin, std::size_t end, std::size_t offset) const {
   const AxisMatrix& matrix = matrix_[b][0];
   const std::size_t row = job_.bricks[b]->nodes[0];
-  for (std::size_t q = 0; q < row_matrix_.size(); ++q)
+  const std::size_t stride = stride_[d == 1 ? 0 : 1];
+  for (std::size_t q = 0; q < row_matrix_.size(); ++q) {
+    double* const rows_of_values = values_ + (q * job_.columns + k) * output_stride_ + offset;
+    if (d > 1 && alone_) std::fill_n(rows_of_values, rows * stride, 0.0);
     for (std::size_t part = 0; part < row_matrix_[q].size(); ++part) {
       const double* entries = matrix.entries[row_matrix_[q][part]].data();
       const double* sums = in[d == 1 ? 0 : leaf_[job_.request.combinations[q][part].derivative]];
-      double* to_values = values_ + (q * job_.columns + k) * output_stride_ + offset;
       for (const Group& group : matrix.groups) {
         const std::size_t from = std::max(begin, group.begin), to = std::min(end, group.begin + group.size);
         if (from >= to) continue;
@@ -322,10 +359,11 @@ void Filter<d>::write_rows(std::size_t b, std::size_t k, const std::vector<const
                            .b_stride = row,
                            .d = entries + group.offset + (from - group.begin),
                            .d_stride = padded(group.size),
-                           .c = to_values + from,
-                           .c_stride = stride_[d == 1 ? 0 : 1]});
+                           .c = rows_of_values + from,
+                           .c_stride = stride});
       }
     }
+  }
 }
 
 }  // namespace
@@ -350,9 +388,10 @@ double filter_bytes(const FilterJob<d>& job, const std::array<double, d>& sizes,
       const double within = std::min(sizes[l], on_lattice ? nodes + 2 * reach : sizes[l]);
       matrices +=
           (l == 0 ? 3 * parts : 2.0 * (job.request.highest[l] + 1)) * within * std::min(nodes, 2 * (2 * reach + 1));
+      const std::size_t together = l == 1 ? most_rows : outer_group;
       if (l > 0)
         sums += static_cast<double>(job.request.derivatives.size() *
-                                    std::min(outer_group, static_cast<std::size_t>(sizes[l]))) *
+                                    std::min(together, static_cast<std::size_t>(sizes[l]))) *
                 inner;
       inner *= nodes;
     }
