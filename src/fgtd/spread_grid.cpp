@@ -4,7 +4,7 @@
 //   T1[z y][k0]   = sum_{k1} f_{a1}(y - k1) T2[z][k1 k0]              ... the same (a1, a2)
 //   S[z y][x]    += sum_{k0} T1[z y][k0] f_{a0}(x - k0)
 // over the nodes within reach of the brick; nodes of the grid are taken in groups whose bands overlap. T1 exists for
-// one group of y at a time, and all values and derivatives of these rows are written while it is in the nearest cache.
+// a few y at a time, and all values and derivatives of these rows are written while it is in the cache.
 #include <algorithm>
 #include <cmath>
 #include <limits>
