@@ -9,35 +9,6 @@
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
-namespace {
-
-constexpr std::size_t moments_points = 1 << 14;      // of one piece of work
-constexpr std::size_t interpolate_points = 1 << 12;  // of one piece of work
-constexpr std::size_t interpolate_run = 256;         // targets of one box handed to the kernel at a time
-constexpr std::size_t block_points = 1 << 22;        // targets sorted at a time
-constexpr std::size_t coefficient_budget = 1 << 19;  // numbers of target boxes that exist at a time
-constexpr std::size_t grid_group = 16;               // nodes of a grid that are computed together
-constexpr double grid_group_sides = 2;               // and lie within so many boxes
-
-std::size_t to_power(std::size_t p, int n) {
-  std::size_t result = 1;
-  for (; n > 0; --n) result *= p;
-  return result;
-}
-
-template <int d>
-std::array<int, d> axes_upwards() {
-  std::array<int, d> axis;
-  for (int l = 0; l < d; ++l) axis[static_cast<std::size_t>(l)] = l;
-  return axis;
-}
-
-template <int d>
-std::array<int, d> axes_downwards() {
-  std::array<int, d> axis;
-  for (int l = 0; l < d; ++l) axis[static_cast<std::size_t>(l)] = d - 1 - l;
-  return axis;
-}
 
 /// The Gaussian and its derivatives on one axis, between the nodes of source boxes and groups of targets: the nodes of
 /// a box, or neighbouring nodes of a grid. A matrix is rows x P; for the first axis, where it stands on the right, P x
@@ -62,6 +33,36 @@ struct AxisMatrices {
            static_cast<std::size_t>(source - of.low) * of.rows * nodes;
   }
 };
+
+namespace {
+
+constexpr std::size_t moments_points = 1 << 14;      // of one piece of work
+constexpr std::size_t interpolate_points = 1 << 12;  // of one piece of work
+constexpr std::size_t interpolate_run = 256;         // targets of one box handed to the kernel at a time
+constexpr std::size_t target_block = 1 << 22;        // targets sorted at a time
+constexpr std::size_t coefficient_budget = 1 << 19;  // numbers of target boxes that exist at a time
+constexpr std::size_t grid_group = 16;               // nodes of a grid that are computed together
+constexpr double grid_group_sides = 2;               // and lie within so many boxes
+
+std::size_t to_power(std::size_t p, int n) {
+  std::size_t result = 1;
+  for (; n > 0; --n) result *= p;
+  return result;
+}
+
+template <int d>
+std::array<int, d> axes_upwards() {
+  std::array<int, d> axis;
+  for (int l = 0; l < d; ++l) axis[static_cast<std::size_t>(l)] = l;
+  return axis;
+}
+
+template <int d>
+std::array<int, d> axes_downwards() {
+  std::array<int, d> axis;
+  for (int l = 0; l < d; ++l) axis[static_cast<std::size_t>(l)] = d - 1 - l;
+  return axis;
+}
 
 /// numbers[a][i] = h~_a(t_i) for all orders a; the numbers are padded as products want it.
 void tabulate(AxisMatrices& matrices, std::vector<double> t, int highest) {
@@ -150,6 +151,37 @@ AxisMatrices grid_matrices(const std::vector<double>& nodes, const std::vector<d
     }
   tabulate(matrices, std::move(t), highest);
   return matrices;
+}
+
+/// Lowest and highest coordinates of points [count][d], count > 0. Several points side by side, so that no comparison
+/// waits for the one before.
+template <int d>
+std::pair<std::array<double, d>, std::array<double, d>> bounding_box(const double* points, std::size_t count) {
+  constexpr std::size_t together = 4;
+  double low[together * d], high[together * d];
+  for (std::size_t i = 0; i < together * d; ++i) low[i] = high[i] = points[i % d];
+  std::size_t j = 0;
+  for (; j + together <= count; j += together)
+    for (std::size_t i = 0; i < together * d; ++i) {
+      const double x = points[j * d + i];
+      low[i] = x < low[i] ? x : low[i];
+      high[i] = x > high[i] ? x : high[i];
+    }
+  for (; j < count; ++j)
+    for (std::size_t l = 0; l < d; ++l) {
+      low[l] = std::min(low[l], points[j * d + l]);
+      high[l] = std::max(high[l], points[j * d + l]);
+    }
+  std::pair<std::array<double, d>, std::array<double, d>> box;
+  for (std::size_t l = 0; l < d; ++l) {
+    box.first[l] = low[l];
+    box.second[l] = high[l];
+    for (std::size_t i = l; i < together * d; i += d) {
+      box.first[l] = std::min(box.first[l], low[i]);
+      box.second[l] = std::max(box.second[l], high[i]);
+    }
+  }
+  return box;
 }
 
 /// Numbers of target boxes that are computed at a time.
@@ -283,8 +315,7 @@ class ChebyshevSum<d>::Translation {
 };
 
 template <int d>
-ChebyshevSum<d>::ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const Buffer<double>& position,
-                              std::size_t count, int threads)
+ChebyshevSum<d>::ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, Buffer<double> position, int threads)
     : plan_(plan), sigma_(sigma), threads_(threads), box_numbers_(to_power(static_cast<std::size_t>(plan.nodes), d)) {
   const int p = plan.nodes;
   for (int i = 0; i < p; ++i) {
@@ -292,11 +323,23 @@ ChebyshevSum<d>::ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const 
     node_.push_back(std::cos(angle));
     scale_.push_back((i % 2 == 0 ? 1 : -1) * std::sin(angle) * std::ldexp(1.0, p - 1) / p);  // 1 / T_P'(z_i) 2^(P-1)
   }
-  BoxIndex<d> high = plan.lattice.boxes;
-  for (std::int64_t& i : high) --i;
-  sources_ =
-      sort_points<d>(plan.lattice, {position.data(), count, 1, count}, BoxIndex<d>{}, high, axes_upwards<d>(), threads);
-  tree_ = make_tree<d>(sources_.box, axes_upwards<d>());
+  const BoxRange<d> range = source_range();
+  if (plan.few_boxes) {
+    position_ = std::move(position);
+    sources_.box = range.boxes();
+  } else {
+    const std::size_t count = position.size() / d;
+    sources_ =
+        sort_points<d>(plan.lattice, {position.data(), count, 1, count}, range.low, range.high, range.axis, threads);
+  }
+  tree_ = make_tree<d>(sources_.box, range.axis);
+}
+
+template <int d>
+BoxRange<d> ChebyshevSum<d>::source_range() const {
+  BoxRange<d> range{{}, plan_.lattice.boxes, axes_upwards<d>()};
+  for (std::int64_t& i : range.high) --i;
+  return range;
 }
 
 template <int d>
@@ -305,11 +348,22 @@ std::int64_t ChebyshevSum<d>::neighbours(std::size_t l) const {
   return static_cast<std::int64_t>(std::floor(plan_.reach / scaled_side)) + 1;
 }
 
-/// Pieces of sorted sources; a box that two pieces share is summed apart by each, and then added up in their order.
 template <int d>
 void ChebyshevSum<d>::set_weights(const double* weights, std::size_t columns) {
   columns_ = columns;
-  const std::size_t numbers = columns * box_numbers_, count = sources_.order.size();
+  if (plan_.few_boxes) {
+    const std::size_t count = position_.size() / d;
+    block_moments<d>(plan_.lattice, source_range(), plan_.nodes, {position_.data(), count, 1, count}, weights, columns,
+                     threads_, moments_);
+  } else {
+    sum_moments(weights);
+  }
+}
+
+/// Pieces of sorted sources; a box that two pieces share is summed apart by each, and then added up in their order.
+template <int d>
+void ChebyshevSum<d>::sum_moments(const double* weights) {
+  const std::size_t columns = columns_, numbers = columns * box_numbers_, count = sources_.order.size();
   moments_.assign(sources_.box.size() * numbers + chain_padding, 0.0);
   if (columns == 0) return;
   const std::size_t piece_points = std::max(moments_points, 4 * box_numbers_);
@@ -338,6 +392,7 @@ void ChebyshevSum<d>::set_weights(const double* weights, std::size_t columns) {
                            .basis = {plan_.nodes, node_.data(), scale_.data()},
                            .count = size,
                            .local = sources_.local.data() + j * d,
+                           .local_stride = d,
                            .columns = columns,
                            .weights = weight.data(),
                            .weight_stride = moments_chunk,
@@ -359,10 +414,103 @@ void ChebyshevSum<d>::set_weights(const double* weights, std::size_t columns) {
 }
 
 template <int d>
+std::array<AxisMatrices, d> ChebyshevSum<d>::matrices_between_boxes(const Request<d>& request) const {
+  std::array<AxisMatrices, d> matrices;
+  for (std::size_t l = 0; l < d; ++l)
+    matrices[l] =
+        box_matrices(node_, plan_.lattice.side[l] * std::sqrt(sigma_), neighbours(l), request.highest[l], l == 0);
+  return matrices;
+}
+
+template <int d>
 void ChebyshevSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count,
                                double* values) const {
-  for (std::size_t begin = 0; begin < count; begin += block_points)
-    evaluate_block(request, targets + begin * d, std::min(block_points, count - begin), values + begin, count);
+  if (request.combinations.size() * columns_ == 0 || count == 0) return;
+  const auto [low, high] = bounding_box<d>(targets, count);
+  // boxes that hold targets, as far as sources are in their reach
+  BoxRange<d> range{{}, {}, axes_downwards<d>()};
+  for (std::size_t l = 0; l < d; ++l) {
+    const double n = static_cast<double>(neighbours(l)), last = static_cast<double>(plan_.lattice.boxes[l] - 1) + n;
+    const auto index = [&](double y) {
+      const double box = box_of(y, plan_.lattice.origin[l], plan_.lattice.side[l]);
+      return static_cast<std::int64_t>(std::clamp(box, -n, last));
+    };
+    range.low[l] = index(low[l]);
+    range.high[l] = index(high[l]);
+  }
+  if (are_few(range.count(), static_cast<double>(box_numbers_), static_cast<double>(count))) {
+    evaluate_few(request, range, targets, count, values);
+    return;
+  }
+  for (std::size_t begin = 0; begin < count; begin += target_block)
+    evaluate_block(request, targets + begin * d, std::min(target_block, count - begin), values + begin, count);
+}
+
+template <int d>
+void ChebyshevSum<d>::evaluate_few(const Request<d>& request, const BoxRange<d>& range, const double* targets,
+                                   std::size_t count, double* values) const {
+  const std::size_t outputs = request.combinations.size() * columns_;
+  const std::vector<BoxIndex<d>> boxes = range.boxes();
+  Buffer<double> coefficients(boxes.size() * outputs * box_numbers_ + chain_padding);
+  translate(request, matrices_between_boxes(request), make_tree<d>(boxes, range.axis), 0, boxes.size(),
+            coefficients.data());
+  BoxIndex<d> least, most;
+  for (std::size_t l = 0; l < d; ++l) {
+    least[l] = -neighbours(l);
+    most[l] = plan_.lattice.boxes[l] - 1 + neighbours(l);
+  }
+  block_values<d>(plan_.lattice, range, least, most, plan_.nodes, {targets, 1, d, count}, outputs, coefficients.data(),
+                  values, count, threads_);
+}
+
+template <int d>
+void ChebyshevSum<d>::translate(const Request<d>& request, const std::array<AxisMatrices, d>& matrices,
+                                const std::array<BoxLevel, d>& tree, std::size_t begin, std::size_t end,
+                                double* coefficients) const {
+  const std::size_t numbers = request.combinations.size() * columns_ * box_numbers_;
+  std::fill_n(coefficients, (end - begin) * numbers, 0.0);
+  // nodes of every level that lead to the boxes begin .. end
+  std::array<std::size_t, d> from, to;
+  from[d - 1] = begin;
+  to[d - 1] = end;
+  for (std::size_t j = d - 1; j-- > 0;) {
+    const auto& first = tree[j].first;
+    from[j] = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), from[j + 1]) - first.begin()) - 1;
+    to[j] = static_cast<std::size_t>(std::lower_bound(first.begin(), first.end(), to[j + 1]) - first.begin());
+  }
+  const std::size_t slabs = to[0] - from[0], pieces = std::min<std::size_t>(slabs, 64);
+  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
+    Translation translation(*this, request, matrices);
+    const std::size_t p = node_.size();
+    for (std::size_t k = 0; k < columns_; ++k) {
+      translation.use_column(k);
+      const auto descend = [&](const auto& self, std::size_t j, std::size_t node, std::size_t above,
+                               const std::vector<std::size_t>& derivatives) -> void {
+        const std::size_t axis = d - 1 - j;
+        translation.contract(axis, matrices[axis].box(tree[j].index[node]), above, derivatives,
+                             [&](const std::vector<std::size_t>& subset) {
+                               if (axis > 0) {
+                                 const std::size_t first = std::max(tree[j].first[node], from[j + 1]);
+                                 const std::size_t last = std::min(tree[j].first[node + 1], to[j + 1]);
+                                 for (std::size_t child = first; child < last; ++child)
+                                   self(self, j + 1, child, above * p, subset);
+                                 return;
+                               }
+                               const double* result = translation.result();
+                               for (std::size_t q = 0; q < request.combinations.size(); ++q)
+                                 for (const auto& part : request.combinations[q]) {
+                                   if (std::find(subset.begin(), subset.end(), part.derivative) == subset.end())
+                                     continue;
+                                   double* into =
+                                       coefficients + (node - begin) * numbers + (q * columns_ + k) * box_numbers_;
+                                   for (std::size_t i = 0; i < box_numbers_; ++i) into[i] += part.factor * result[i];
+                                 }
+                             });
+      };
+      for (std::size_t slab = from[0] + slabs * piece / pieces; slab < from[0] + slabs * (piece + 1) / pieces; ++slab)
+        descend(descend, 0, slab, 1, translation.all_derivatives());
+    }
+  });
 }
 
 /// Sorts the targets, computes coefficients for boxes of targets, as many as the budget allows at a time, and
@@ -371,25 +519,18 @@ template <int d>
 void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const double* targets, std::size_t count,
                                      double* values, std::size_t stride) const {
   const std::size_t outputs = request.combinations.size() * columns_;
-  if (outputs == 0) return;
   const Lattice<d>& lattice = plan_.lattice;
-  std::array<AxisMatrices, d> matrices;
+  const std::array<AxisMatrices, d> matrices = matrices_between_boxes(request);
+  const auto [lowest, highest] = bounding_box<d>(targets, count);
   BoxIndex<d> low, high;
   for (std::size_t l = 0; l < d; ++l) {
     const std::int64_t n = neighbours(l);
-    matrices[l] = box_matrices(node_, lattice.side[l] * std::sqrt(sigma_), n, request.highest[l], l == 0);
-    // boxes that hold targets, as far as sources are in their reach
-    double lowest = targets[l], highest = targets[l];
-    for (std::size_t i = 0; i < count; ++i) {
-      lowest = std::min(lowest, targets[i * d + l]);
-      highest = std::max(highest, targets[i * d + l]);
-    }
     const double first = static_cast<double>(-n), last = static_cast<double>(lattice.boxes[l] - 1 + n);
     const auto index = [&](double y) {
-      return std::clamp(std::floor((y - lattice.origin[l]) / lattice.side[l]), first - 1, last + 1);
+      return std::clamp(box_of(y, lattice.origin[l], lattice.side[l]), first - 1, last + 1);
     };
-    low[l] = static_cast<std::int64_t>(std::clamp(index(lowest) - 1, first, last));
-    high[l] = static_cast<std::int64_t>(std::clamp(index(highest) + 1, first, last));
+    low[l] = static_cast<std::int64_t>(std::clamp(index(lowest[l]) - 1, first, last));
+    high[l] = static_cast<std::int64_t>(std::clamp(index(highest[l]) + 1, first, last));
   }
   const SortedPoints<d> sorted =
       sort_points<d>(lattice, {targets, 1, d, count}, low, high, axes_downwards<d>(), threads_);
@@ -401,50 +542,8 @@ void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const double* ta
   std::vector<double> coefficients;
   for (std::size_t begin = 0; begin < sorted.box.size(); begin += at_a_time) {
     const std::size_t end = std::min(sorted.box.size(), begin + at_a_time);
-    coefficients.assign((end - begin) * numbers, 0.0);
-
-    // nodes of every level that lead to the boxes begin .. end
-    std::array<std::size_t, d> from, to;
-    from[d - 1] = begin;
-    to[d - 1] = end;
-    for (std::size_t j = d - 1; j-- > 0;) {
-      const auto& first = tree[j].first;
-      from[j] = static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), from[j + 1]) - first.begin()) - 1;
-      to[j] = static_cast<std::size_t>(std::lower_bound(first.begin(), first.end(), to[j + 1]) - first.begin());
-    }
-    const std::size_t slabs = to[0] - from[0], pieces = std::min<std::size_t>(slabs, 64);
-    gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
-      Translation translation(*this, request, matrices);
-      const std::size_t p = node_.size();
-      for (std::size_t k = 0; k < columns_; ++k) {
-        translation.use_column(k);
-        const auto descend = [&](const auto& self, std::size_t j, std::size_t node, std::size_t above,
-                                 const std::vector<std::size_t>& derivatives) -> void {
-          const std::size_t axis = d - 1 - j;
-          translation.contract(axis, matrices[axis].box(tree[j].index[node]), above, derivatives,
-                               [&](const std::vector<std::size_t>& subset) {
-                                 if (axis > 0) {
-                                   const std::size_t first = std::max(tree[j].first[node], from[j + 1]);
-                                   const std::size_t last = std::min(tree[j].first[node + 1], to[j + 1]);
-                                   for (std::size_t child = first; child < last; ++child)
-                                     self(self, j + 1, child, above * p, subset);
-                                   return;
-                                 }
-                                 const double* result = translation.result();
-                                 for (std::size_t q = 0; q < request.combinations.size(); ++q)
-                                   for (const auto& part : request.combinations[q]) {
-                                     if (std::find(subset.begin(), subset.end(), part.derivative) == subset.end())
-                                       continue;
-                                     double* into = coefficients.data() + (node - begin) * numbers +
-                                                    (q * columns_ + k) * box_numbers_;
-                                     for (std::size_t i = 0; i < box_numbers_; ++i) into[i] += part.factor * result[i];
-                                   }
-                               });
-        };
-        for (std::size_t slab = from[0] + slabs * piece / pieces; slab < from[0] + slabs * (piece + 1) / pieces; ++slab)
-          descend(descend, 0, slab, 1, translation.all_derivatives());
-      }
-    });
+    coefficients.resize((end - begin) * numbers);
+    translate(request, matrices, tree, begin, end, coefficients.data());
 
     const std::size_t first_point = sorted.first[begin], points = sorted.first[end] - first_point;
     gaussdrift::base::parallel_for(
@@ -462,6 +561,7 @@ void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const double* ta
                                    .basis = {plan_.nodes, node_.data(), scale_.data()},
                                    .count = size,
                                    .local = sorted.local.data() + j * d,
+                                   .local_stride = d,
                                    .outputs = outputs,
                                    .coefficients = coefficients.data() + (box - begin) * numbers,
                                    .values = found.data(),
@@ -530,6 +630,11 @@ template <int d>
 double ChebyshevSum<d>::plan_bytes(std::size_t columns) const {
   const double points = static_cast<double>(sources_.order.size()), boxes = static_cast<double>(sources_.box.size());
   const double numbers = 8.0 * static_cast<double>(columns) * static_cast<double>(box_numbers_);
+  if (plan_.few_boxes) {
+    const double sources = static_cast<double>(position_.size() / d);
+    return sources * 8.0 * d + boxes * (numbers + 24.0 * d + 8) +
+           block_moments_bytes(d, plan_.nodes, boxes, sources, static_cast<double>(columns), threads_);
+  }
   const double pieces = std::ceil(points / static_cast<double>(std::max(moments_points, 4 * box_numbers_)));
   return points * (8.0 * d + 4) + boxes * (numbers + 24.0 * d + 8) + 2 * pieces * numbers;
 }
@@ -538,8 +643,11 @@ template <int d>
 double ChebyshevSum<d>::point_bytes(const Request<d>& request, std::size_t count) const {
   const double outputs = static_cast<double>(request.combinations.size() * columns_);
   const double numbers = outputs * static_cast<double>(box_numbers_);
-  const double points = static_cast<double>(std::min(count, block_points));
-  double bytes = sorting_bytes(d, points) + 8 * std::min(points * numbers, std::max(numbers, 1.0 * coefficient_budget));
+  const double points = static_cast<double>(std::min(count, target_block));
+  const double few = most_few_boxes(static_cast<double>(box_numbers_), static_cast<double>(count));
+  double bytes =
+      std::max(sorting_bytes(d, points) + 8 * std::min(points * numbers, std::max(numbers, 1.0 * coefficient_budget)),
+               few * (8 * numbers + 48.0 * d) + block_values_bytes(d, plan_.nodes, few, outputs, threads_));
   double partial = 8 * static_cast<double>(sources_.box.size());  // of one thread
   for (std::size_t l = 0; l < d; ++l) {
     const double nodes = l == 0 ? 1 : static_cast<double>(tree_[l - 1].index.size());

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "fgtd/buffer.hpp"
+#include "fgtd/chebyshev_blocks.hpp"
 #include "fgtd/chebyshev_lattice.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
@@ -19,19 +19,21 @@
 
 namespace fgtd::detail {
 
+struct AxisMatrices;  // chebyshev.cpp
+
 template <int d>
 struct ChebyshevPlan {
   int nodes = 0;     // P
   double reach = 0;  // R: boxes farther apart on some axis (times sqrt(sigma)) do not see each other
   Lattice<d> lattice;
+  bool few_boxes = false;  // all are kept, see chebyshev_blocks.hpp
 };
 
 template <int d>
 class ChebyshevSum : public Summation<d> {
  public:
-  /// position [d][count]
-  ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, const Buffer<double>& position, std::size_t count,
-               int threads);
+  /// position [d][sources]
+  ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, Buffer<double> position, int threads);
 
   void set_weights(const double* weights, std::size_t columns) override;  // computes the moments
   void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;
@@ -48,6 +50,16 @@ class ChebyshevSum : public Summation<d> {
   /// Boxes whose indices differ by more than this on axis l do not see each other.
   std::int64_t neighbours(std::size_t l) const;
   std::size_t box_numbers() const { return box_numbers_; }
+  /// All boxes of sources.
+  BoxRange<d> source_range() const;
+  void sum_moments(const double* weights);
+  std::array<AxisMatrices, d> matrices_between_boxes(const Request<d>& request) const;
+  /// Numbers at the nodes of the boxes begin .. end of a tree (first axis fastest; last axis slowest):
+  /// coefficients[box - begin][outputs][P^d], overwritten.
+  void translate(const Request<d>& request, const std::array<AxisMatrices, d>& matrices,
+                 const std::array<BoxLevel, d>& tree, std::size_t begin, std::size_t end, double* coefficients) const;
+  void evaluate_few(const Request<d>& request, const BoxRange<d>& range, const double* targets, std::size_t count,
+                    double* values) const;
   void evaluate_block(const Request<d>& request, const double* targets, std::size_t count, double* values,
                       std::size_t stride) const;
 
@@ -56,10 +68,11 @@ class ChebyshevSum : public Summation<d> {
   int threads_;
   std::vector<double> node_, scale_;  // of the Lagrange polynomials
   std::size_t box_numbers_;           // P^d
-  SortedPoints<d> sources_;           // first axis slowest
+  Buffer<double> position_;           // of the sources, [d][sources]; with few boxes, else empty
+  SortedPoints<d> sources_;           // first axis slowest; with few boxes only their list
   std::array<BoxLevel, d> tree_;
   std::size_t columns_ = 0;
-  std::vector<double> moments_;  // [boxes][columns][P^d], first axis fastest
+  Buffer<double> moments_;  // [boxes][columns][P^d], first axis fastest
 };
 
 }  // namespace fgtd::detail

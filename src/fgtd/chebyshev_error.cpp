@@ -52,11 +52,15 @@ double interpolation_error(int d, double h, int nodes, int derivative_order) {
 }
 
 double widest_side(int d, int nodes, double reach, double tolerance, int derivative_order) {
-  double low = 1e-8, high = 16;
+  // The error grows nearly like h^P: a few steps of that law from below or above, held between bounds that close in.
+  double low = 1e-8, high = 16, h = 1;
   if (interpolation_error(d, low, nodes, derivative_order) > tolerance) return 0;
-  for (int step = 0; step < 40; ++step) {
-    const double middle = std::sqrt(low * high);
-    (interpolation_error(d, middle, nodes, derivative_order) <= tolerance ? low : high) = middle;
+  for (int step = 0; step < 60 && high > low * 1.0005; ++step) {
+    const double error = interpolation_error(d, h, nodes, derivative_order);
+    (error <= tolerance ? low : high) = h;
+    h *= std::pow(0.9995 * tolerance / error, 1.0 / nodes);
+    if (!(h > low && h < high)) h = std::sqrt(low * high);
+    if (error <= tolerance && error >= 0.998 * tolerance) break;
   }
   for (int step = 0; step < 100; ++step, low *= 0.95)
     if (fades(d, low, nodes, reach, tolerance, derivative_order)) return low;

@@ -59,10 +59,166 @@ void locate(const LocateJob& job) {
   }
 }
 
+// ---------------------------------------------------------------------------------------------------------------
+// Four points, whatever the instruction set: numbers of one point side by side
+
 namespace {
+
+constexpr std::size_t quad = 4;
+using Quad = double __attribute__((vector_size(32)));
+using QuadIndex = long long __attribute__((vector_size(32)));
+using QuadKey = int __attribute__((vector_size(16)));
+using UnalignedQuad = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+FGTD_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
+FGTD_INLINE void store_quad(double* to, Quad x) { *reinterpret_cast<UnalignedQuad*>(to) = x; }
+FGTD_INLINE Quad every(double x) { return Quad{x, x, x, x}; }
+
+FGTD_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
+  const Quad ab0 = __builtin_shuffle(a, b, QuadIndex{0, 4, 2, 6}), ab1 = __builtin_shuffle(a, b, QuadIndex{1, 5, 3, 7});
+  const Quad cd0 = __builtin_shuffle(c, d, QuadIndex{0, 4, 2, 6}), cd1 = __builtin_shuffle(c, d, QuadIndex{1, 5, 3, 7});
+  a = __builtin_shuffle(ab0, cd0, QuadIndex{0, 1, 4, 5});
+  b = __builtin_shuffle(ab1, cd1, QuadIndex{0, 1, 4, 5});
+  c = __builtin_shuffle(ab0, cd0, QuadIndex{2, 3, 6, 7});
+  d = __builtin_shuffle(ab1, cd1, QuadIndex{2, 3, 6, 7});
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------------------------------------------------------
+// sort_block
+
+namespace {
+
+/// Coordinates of four points, the last point repeated.
+FGTD_INLINE Quad coordinates(const SortBlockJob& job, std::size_t l, std::size_t j) {
+  const double* from = job.coordinate + l * job.axis_stride;
+  const std::size_t step = job.point_stride;
+  if (j + quad <= job.count) {
+    if (step == 1) return load_quad(from + j);
+    from += j * step;
+    return Quad{from[0], from[step], from[2 * step], from[3 * step]};
+  }
+  Quad x;
+  for (std::size_t v = 0; v < quad; ++v) x[v] = from[(j + v < job.count ? j + v : job.count - 1) * step];
+  return x;
+}
+
+/// All points are in the one box there is.
+FGTD_INLINE void keep_order(const SortBlockJob& job) {
+  const std::size_t count = job.count;
+  job.first[1] = job.first[2] = static_cast<std::uint32_t>(count);
+  const double* unsorted = job.unsorted;
+  double* local = job.local;
+  for (std::size_t i = 0; i < count * record_numbers; i += quad) store_quad(local + i, load_quad(unsorted + i));
+  std::uint32_t* order = job.order;
+  if (order != nullptr)
+    for (std::size_t j = 0; j < count; ++j) order[j] = static_cast<std::uint32_t>(j);
+  for (std::size_t k = record_has_weight(job.dimension) ? 1 : 0; k < job.columns; ++k)
+    for (std::size_t j = 0; j < count; ++j)
+      job.weight[k * job.weight_stride + j] = job.given_weights[k * job.given_stride + j];
+}
+
+template <int d>
+void sort_block_in(const SortBlockJob& job) {
+  constexpr double shift = 0x1.8p52;  // adding it rounds to a whole number
+  struct Axis {
+    Quad origin, side, inverse, twice_inverse, low, high, least, most, below, above, step;
+  } axis[d];
+  for (std::size_t l = 0; l < d; ++l)
+    axis[l] = {every(job.origin[l]),    every(job.side[l]),     every(1 / job.side[l]), every(2 / job.side[l]),
+               every(job.low[l]),       every(job.high[l]),     every(job.least[l]),    every(job.most[l]),
+               every(job.least[l] - 1), every(job.most[l] + 1), every(job.step[l])};
+  const std::size_t count = job.count;
+  std::uint32_t *next = job.first + 1, *key = job.key;  // next: where the next point of a box goes
+  const Quad no_box = every(static_cast<double>(job.boxes));
+  const bool with_weight = record_has_weight(d) && job.columns > 0;
+  for (std::size_t box = 0; box < job.boxes + 2; ++box) job.first[box] = 0;
+
+  const bool one_box = job.boxes == 1;
+  QuadIndex any{};  // points without a box
+  for (std::size_t j = 0; j < count; j += quad) {
+    Quad number{}, z[4];
+    for (std::size_t l = d; l < 4; ++l) z[l] = every(0);
+    QuadIndex none{};
+    for (std::size_t l = 0; l < d; ++l) {
+      const Axis& a = axis[l];
+      const Quad x = coordinates(job, l, j);
+      Quad i = (x - a.origin) * a.inverse - 0.5;
+      i = i < a.below ? a.below : i;
+      i = i > a.above ? a.above : i;
+      i = (i + shift) - shift;
+      none |= (i < a.least) | (i > a.most);
+      i = i < a.low ? a.low : i;
+      i = i > a.high ? a.high : i;
+      number += (i - a.low) * a.step;
+      z[l] = (x - (i * a.side + a.origin)) * a.twice_inverse - 1.0;
+    }
+    if constexpr (record_has_weight(d))
+      if (with_weight) {
+        if (j + quad <= count) {
+          z[3] = load_quad(job.given_weights + j);
+        } else {
+          for (std::size_t v = 0; j + v < count; ++v) z[3][v] = job.given_weights[j + v];
+        }
+      }
+    any |= none;
+    number = none ? no_box : number;
+    const QuadKey keys = __builtin_convertvector(number, QuadKey);
+    __builtin_memcpy(key + j, &keys, sizeof keys);
+    transpose(z[0], z[1], z[2], z[3]);
+    for (std::size_t v = 0; v < quad; ++v) store_quad(job.unsorted + (j + v) * record_numbers, z[v]);
+    if (one_box) continue;
+    const std::size_t size = count - j < quad ? count - j : quad;
+    for (std::size_t v = 0; v < size; ++v) ++next[key[j + v]];
+  }
+  if (one_box) {
+    if (!(any[0] | any[1] | any[2] | any[3])) return keep_order(job);
+    for (std::size_t j = 0; j < count; ++j) ++next[key[j]];
+  }
+  std::uint32_t total = 0;
+  for (std::size_t box = 0; box < job.boxes + 1; ++box) {
+    const std::uint32_t held = next[box];
+    next[box] = total;
+    total += held;
+  }
+  // From here on keys are places. The arrays in names of their own: stores could change what the job points to.
+  const double* unsorted = job.unsorted;
+  double* local = job.local;
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::uint32_t to = next[key[j]]++;
+    key[j] = to;
+    store_quad(local + to * record_numbers, load_quad(unsorted + j * record_numbers));
+  }
+  std::uint32_t* order = job.order;
+  if (order != nullptr)
+    for (std::size_t j = 0; j < count; ++j) order[key[j]] = static_cast<std::uint32_t>(j);
+  for (std::size_t k = with_weight ? 1 : 0; k < job.columns; ++k) {
+    double* weight = job.weight + k * job.weight_stride;
+    const double* given = job.given_weights + k * job.given_stride;
+    for (std::size_t j = 0; j < count; ++j) weight[key[j]] = given[j];
+  }
+}
+
+}  // namespace
+
+void sort_block(const SortBlockJob& job) {
+  switch (job.dimension) {
+    case 1:
+      return sort_block_in<1>(job);
+    case 2:
+      return sort_block_in<2>(job);
+    case 3:
+      return sort_block_in<3>(job);
+    default:
+      return sort_block_in<4>(job);
+  }
+}
 
 // ---------------------------------------------------------------------------------------------------------------
 // chain
+
+namespace {
 
 template <int rows, int vectors>
 FGTD_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x, std::size_t valid) {
@@ -93,27 +249,25 @@ FGTD_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x
   }
 }
 
-/// Tall enough that the additions of a sum wait for nobody, and no larger than the registers.
+/// Rows in blocks that are tall enough that the additions of a sum wait for nobody, of nearly the same height, and no
+/// larger than the registers.
 template <int vectors>
 FGTD_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t valid) {
-  constexpr int tall = vectors == 1 ? 8 : 4;
-  std::size_t row = 0;
-  for (; row + tall <= job.rows; row += tall) chain_block<tall, vectors>(job, row, x, valid);
-  if constexpr (tall == 8) {
-    if (row + 4 <= job.rows) {
-      chain_block<4, vectors>(job, row, x, valid);
-      row += 4;
+  constexpr std::size_t tall = vectors == 1 ? 8 : 4;
+  std::size_t blocks = (job.rows + tall - 1) / tall;
+  for (std::size_t row = 0; row < job.rows; --blocks) {
+    const std::size_t height = (job.rows - row + blocks - 1) / blocks;
+    if constexpr (tall == 8) {
+      if (height == 8) chain_block<8, vectors>(job, row, x, valid);
+      if (height == 7) chain_block<7, vectors>(job, row, x, valid);
+      if (height == 6) chain_block<6, vectors>(job, row, x, valid);
+      if (height == 5) chain_block<5, vectors>(job, row, x, valid);
     }
-  }
-  switch (job.rows - row) {
-    case 3:
-      return chain_block<3, vectors>(job, row, x, valid);
-    case 2:
-      return chain_block<2, vectors>(job, row, x, valid);
-    case 1:
-      return chain_block<1, vectors>(job, row, x, valid);
-    default:
-      return;
+    if (height == 4) chain_block<4, vectors>(job, row, x, valid);
+    if (height == 3) chain_block<3, vectors>(job, row, x, valid);
+    if (height == 2) chain_block<2, vectors>(job, row, x, valid);
+    if (height == 1) chain_block<1, vectors>(job, row, x, valid);
+    row += height;
   }
 }
 
@@ -121,7 +275,11 @@ FGTD_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t v
 
 void chain(const ChainJob& job) {
   std::size_t x = 0;
-  for (; x + 3 * lanes <= job.width; x += 3 * lanes) chain_columns<3>(job, x, lanes);
+  for (; x + 3 * lanes <= job.width && x + 4 * lanes != job.width; x += 3 * lanes) chain_columns<3>(job, x, lanes);
+  if (x + 4 * lanes == job.width) {
+    chain_columns<2>(job, x, lanes);
+    x += 2 * lanes;
+  }
   const std::size_t rest = job.width - x;
   if (rest == 0) return;
   const std::size_t vectors = (rest + lanes - 1) / lanes;
@@ -136,8 +294,25 @@ namespace {
 // ---------------------------------------------------------------------------------------------------------------
 // moments and interpolate
 
-/// to[i stride] = l_i(z): products of the factors before i and of those after it.
-FGTD_INLINE void lagrange(const LagrangeBasis& basis, Vector z, double* to, std::size_t stride) {
+/// to[i stride] = T_i(z).
+FGTD_INLINE void polynomials(int count, Vector z, double* to, std::size_t stride) {
+  Vector before = broadcast(1.0), now = z;
+  const Vector twice = z + z;
+  store(to, before);
+  for (int i = 1; i < count; ++i) {
+    store(to + static_cast<std::size_t>(i) * stride, now);
+    const Vector next = twice * now - before;
+    before = now;
+    now = next;
+  }
+}
+
+/// to[i stride] = l_i(z): products of the factors before i and of those after it; or T_i(z).
+FGTD_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, std::size_t stride) {
+  if (basis.node == nullptr) {
+    polynomials(basis.nodes, z, to, stride);
+    return;
+  }
   Vector before = broadcast(1.0);
   for (int i = 0; i < basis.nodes; ++i) {
     store(to + static_cast<std::size_t>(i) * stride, before * basis.scale[i]);
@@ -151,66 +326,91 @@ FGTD_INLINE void lagrange(const LagrangeBasis& basis, Vector z, double* to, std:
   }
 }
 
-/// Local coordinate `axis` of the points j .. j + lanes, the last point repeated.
+/// to[l][j], l < d, and the weight of records behind: what is known of the points first .. first + count, one row a
+/// coordinate, the last point repeated up to a whole vector of 8.
 template <int d>
-FGTD_INLINE Vector local_of(const double* local, std::size_t count, std::size_t j, std::size_t axis) {
-  Vector z{};
-  if (j + lanes <= count) {
-    for (std::size_t v = 0; v < lanes; ++v) z[v] = local[(j + v) * d + axis];
-  } else {
-    for (std::size_t v = 0; v < lanes; ++v) z[v] = local[(j + v < count ? j + v : count - 1) * d + axis];
+FGTD_INLINE void bring_apart(const double* local, std::size_t step, std::size_t count, double* to, std::size_t stride) {
+  const std::size_t padded = (count + 7) / 8 * 8;
+  std::size_t j = 0;
+  if (step == record_numbers) {
+    for (; j + quad <= count; j += quad) {
+      const double* from = local + j * record_numbers;
+      Quad a = load_quad(from), b = load_quad(from + 4), c = load_quad(from + 8), e = load_quad(from + 12);
+      transpose(a, b, c, e);
+      store_quad(to + j, a);
+      if constexpr (d > 1) store_quad(to + stride + j, b);
+      if constexpr (d > 2) store_quad(to + 2 * stride + j, c);
+      store_quad(to + 3 * stride + j, e);
+    }
   }
-  return z;
+  const std::size_t numbers = step == record_numbers ? record_numbers : d;
+  for (; j < padded; ++j)
+    for (std::size_t l = 0; l < numbers; ++l) to[l * stride + j] = local[(j < count ? j : count - 1) * step + l];
 }
 
 /// The moments of a box are a product of two matrices: the leading one or two axes at each point on the right, the
 /// other axes times the weights on the left.
 template <int d>
 void moments_in(const MomentsJob& job) {
-  const std::size_t p = static_cast<std::size_t>(job.basis.nodes);
+  const std::size_t p = static_cast<std::size_t>(job.basis.nodes), padded = (p + 3) / 4 * 4;
   constexpr std::size_t right_axes = d <= 2 ? 1 : 2;
   const std::size_t right_width = right_axes == 1 ? p : p * p;
-  const std::size_t right_stride = right_width + chain_padding;
-  double* table = job.scratch;                   // [d][p][moments_chunk]
-  double* left = table + d * p * moments_chunk;  // [columns][p^(d - right_axes)][moments_chunk]
+  const std::size_t right_stride = right_width + padded + chain_padding;
+  double* point = job.scratch;                             // [record_numbers][moments_chunk]
+  double* table = point + record_numbers * moments_chunk;  // [d][padded][moments_chunk]
+  double* rows = table + d * padded * moments_chunk;       // [moments_chunk][padded]
+  double* left = rows + padded * moments_chunk;            // [columns][p^(d - right_axes)][moments_chunk]
   std::size_t left_rows = 1;
   for (std::size_t l = right_axes; l < d; ++l) left_rows *= p;
   double* right = left + job.columns * left_rows * moments_chunk;  // [count][right_stride]
 
-  for (std::size_t j = 0; j < job.count; j += lanes)
-    for (std::size_t l = 0; l < d; ++l)
-      lagrange(job.basis, local_of<d>(job.local, job.count, j, l), table + l * p * moments_chunk + j, moments_chunk);
+  bring_apart<d>(job.local, job.local_stride, job.count, point, moments_chunk);
+  for (std::size_t l = 0; l < d; ++l)
+    for (std::size_t j = 0; j < job.count; j += lanes)
+      evaluate_basis(job.basis, load(point + l * moments_chunk + j), table + l * padded * moments_chunk + j,
+                     moments_chunk);
 
-  for (std::size_t j = 0; j < job.count; ++j) {
-    double* row = right + j * right_stride;
-    if constexpr (right_axes == 1) {
-      for (std::size_t i = 0; i < p; ++i) row[i] = table[i * moments_chunk + j];
-    } else {
-      // whole vectors run over into the next row, which is written after
-      alignas(64) double first[24] = {};
-      for (std::size_t i = 0; i < p; ++i) first[i] = table[i * moments_chunk + j];
-      const double* second = table + p * moments_chunk + j;
-      if (p <= lanes) {
-        const Vector x = load(first);
-        for (std::size_t i = 0; i < p; ++i) store(row + i * p, x * second[i * moments_chunk]);
-      } else {
-        for (std::size_t i = 0; i < p; ++i)
-          for (std::size_t n = 0; n < p; n += lanes)
-            store(row + i * p + n, load(first + n) * second[i * moments_chunk]);
+  // the first axis by point; beyond p the rows hold anything finite
+  for (std::size_t n = p; n < padded; ++n)
+    for (std::size_t j = 0; j < job.count + quad && j < moments_chunk; ++j) table[n * moments_chunk + j] = 0;
+  double* first_axis = right_axes == 1 ? right : rows;
+  const std::size_t first_stride = right_axes == 1 ? right_stride : padded;
+  for (std::size_t j = 0; j < job.count; j += quad)
+    for (std::size_t n = 0; n < padded; n += quad) {
+      const double* from = table + n * moments_chunk + j;
+      Quad a = load_quad(from), b = load_quad(from + moments_chunk), c = load_quad(from + 2 * moments_chunk),
+           e = load_quad(from + 3 * moments_chunk);
+      transpose(a, b, c, e);
+      double* to = first_axis + j * first_stride + n;
+      store_quad(to, a);
+      store_quad(to + first_stride, b);
+      store_quad(to + 2 * first_stride, c);
+      store_quad(to + 3 * first_stride, e);
+    }
+  if constexpr (right_axes == 2) {
+    // times the second axis; whole quads run over into the next row, which is written after
+    const double* second = table + padded * moments_chunk;
+    for (std::size_t j = 0; j < job.count; ++j) {
+      double* row = right + j * right_stride;
+      const double* x = rows + j * padded;
+      for (std::size_t i = 0; i < p; ++i) {
+        const Quad factor = every(second[i * moments_chunk + j]);
+        for (std::size_t n = 0; n < padded; n += quad) store_quad(row + i * p + n, load_quad(x + n) * factor);
       }
     }
   }
 
   for (std::size_t k = 0; k < job.columns; ++k) {
-    const double* weight = job.weights + k * job.weight_stride;
+    const bool in_record = k == 0 && record_has_weight(d) && job.local_stride == record_numbers;
+    const double* weight = in_record ? point + 3 * moments_chunk : job.weights + k * job.weight_stride;
     double* to = left + k * left_rows * moments_chunk;
     if constexpr (d == 1) {
       for (std::size_t j = 0; j < job.count; ++j) to[j] = weight[j];
     } else {
-      const double* last = table + (d - 1) * p * moments_chunk;
+      const double* last = table + (d - 1) * padded * moments_chunk;
       for (std::size_t i = 0; i < p; ++i) {
         if constexpr (d == 4) {
-          const double* third = table + 2 * p * moments_chunk;
+          const double* third = table + 2 * padded * moments_chunk;
           for (std::size_t m = 0; m < p; ++m)
             for (std::size_t j = 0; j < job.count; ++j)
               to[(i * p + m) * moments_chunk + j] =
@@ -259,11 +459,13 @@ template <int d, int vectors>
 FGTD_INLINE void interpolate_at(const InterpolateJob& job, std::size_t first, std::size_t size) {
   const std::size_t p = static_cast<std::size_t>(job.basis.nodes);
   const double* g[d];
+  double* point = job.scratch + d * p * vectors * lanes;
+  bring_apart<d>(job.local + first * job.local_stride, job.local_stride, size, point, 2 * 8);
   for (std::size_t l = 0; l < d; ++l) {
     double* table = job.scratch + l * p * vectors * lanes;
     g[l] = table;
     for (std::size_t v = 0; v < vectors; ++v)
-      lagrange(job.basis, local_of<d>(job.local, job.count, first + v * lanes, l), table + v * lanes, vectors * lanes);
+      evaluate_basis(job.basis, load(point + l * 2 * 8 + v * lanes), table + v * lanes, vectors * lanes);
   }
   const double* coefficients = job.coefficients;
   for (std::size_t q = 0; q < job.outputs; ++q) {

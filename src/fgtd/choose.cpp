@@ -28,11 +28,12 @@ Proposal<d> propose_direct(const Situation<d>& at) {
 template <int d>
 Proposal<d> choose(const Buffer<double>& position, std::size_t count, std::size_t columns, double sigma,
                    const Options& options) {
-  const Situation<d> at = look_at<d>(position, count, columns, sigma, options);
+  Situation<d> at = look_at<d>(position, count, columns, sigma, options);
   const Method asked = options.hermite ? Method::hermite : options.method;
   Proposal<d> best = propose_direct<d>(at);
   const auto consider = [&](Method method, auto propose) {
     if (count == 0 || (asked != Method::automatic && asked != method)) return;
+    if (asked == Method::automatic) at.to_beat = best.choice.seconds;
     std::optional<Proposal<d>> proposal = propose(at);
     if (proposal && (asked == method || proposal->choice.seconds < best.choice.seconds)) best = std::move(*proposal);
   };
@@ -42,8 +43,8 @@ Proposal<d> choose(const Buffer<double>& position, std::size_t count, std::size_
   if (worth(Method::cells, cost::cells_search)) consider(Method::cells, propose_cells<d>);
   if (worth(Method::outer, cost::outer_search)) consider(Method::outer, propose_outer<d>);
   if (worth(Method::spread, cost::spread_search)) consider(Method::spread, propose_spread<d>);
-  if (worth(Method::hermite, cost::hermite_search)) consider(Method::hermite, propose_hermite<d>);
   if (worth(Method::chebyshev, cost::chebyshev_search)) consider(Method::chebyshev, propose_chebyshev<d>);
+  if (worth(Method::hermite, cost::hermite_search)) consider(Method::hermite, propose_hermite<d>);
 
   best.choice.tolerance = options.hermite ? 0 : options.tolerance;
   best.choice.sources = count;

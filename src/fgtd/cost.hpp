@@ -21,8 +21,8 @@ constexpr double grid_value = 2e-9;        // one value of the result: fresh mem
 constexpr double cells_search = 0.03e-3;
 constexpr double outer_search = 0.03e-3;
 constexpr double spread_search = 0.1e-3;
-constexpr double hermite_search = 0.5e-3;
-constexpr double chebyshev_search = 0.7e-3;
+constexpr double hermite_search = 1e-3;
+constexpr double chebyshev_search = 0.2e-3;
 
 // cells and outer, with bench_sharp
 constexpr double cells_source_sort = 35e-9;  // one source brought to its cell
@@ -54,6 +54,11 @@ constexpr double chebyshev_link = 8e-9;       // one box in it
 constexpr double chebyshev_fetch = 0.3e-9;    // one number of it, if all boxes exceed the cache
 constexpr double chebyshev_cache = 5e5;       // numbers that the cache keeps
 constexpr double chebyshev_table = 3e-9;      // one value of the Gaussian between nodes
+constexpr double chebyshev_block_sort = 9e-9;       // few boxes: one point brought to its box within a block
+constexpr double chebyshev_block_basis = 0.6e-9;    // one value of a polynomial there
+constexpr double chebyshev_block_run = 60e-9;       // the points of one box in one block
+constexpr double chebyshev_block_moment = 0.055e-9;  // one coefficient of one source
+constexpr double chebyshev_block_value = 0.1e-9;    // one coefficient at one target
 
 // spread, with bench_spread
 constexpr double spread_sort = 40e-9;     // one source or target brought to its tile

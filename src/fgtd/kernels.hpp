@@ -125,6 +125,7 @@ struct SpreadJob {
 };
 
 struct LocateJob;  // chebyshev_jobs.hpp
+struct SortBlockJob;
 struct MomentsJob;
 struct InterpolateJob;
 struct ChainJob;
@@ -140,6 +141,7 @@ struct Kernels {
   void (*cells)(const CellsJob&);
   void (*outer)(const OuterJob&);
   void (*locate)(const LocateJob&);
+  void (*sort_block)(const SortBlockJob&);
   void (*moments)(const MomentsJob&);
   void (*interpolate)(const InterpolateJob&);
   void (*chain)(const ChainJob&);

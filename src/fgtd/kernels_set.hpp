@@ -13,6 +13,7 @@ void spread(const SpreadJob& job);
 void cells(const CellsJob& job);
 void outer(const OuterJob& job);
 void locate(const LocateJob& job);
+void sort_block(const SortBlockJob& job);
 void moments(const MomentsJob& job);
 void interpolate(const InterpolateJob& job);
 void chain(const ChainJob& job);

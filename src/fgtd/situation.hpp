@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "fgtd/buffer.hpp"
@@ -20,7 +21,8 @@ struct Situation {
   const Buffer<double>& position;  // of all sources, [d][N]
   Buffer<double> sample;           // of some of them, [d][sample_count]
   std::size_t sample_count;
-  std::array<double, d> low{}, extent{};  // the bounding box of the sources
+  std::array<double, d> low{}, extent{};                     // the bounding box of the sources
+  double to_beat = std::numeric_limits<double>::infinity();  // seconds: a method that cannot be faster need not search
 };
 
 template <int d>

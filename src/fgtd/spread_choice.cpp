@@ -89,9 +89,7 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
     windows.emplace_back(spread_seconds<d>(at, {extent}, {at.low}, width, spacing / root, reach), width);
   }
   std::sort(windows.begin(), windows.end());
-  const double direct_seconds = at.sources * at.targets * at.columns * cost::direct_pair[d - 1] *
-                                (order > 0 ? cost::direct_derivative_factor : 1);
-  if (!asked && windows[0].first > direct_seconds) return std::nullopt;
+  if (windows[0].first > at.to_beat) return std::nullopt;
 
   std::shared_ptr<const SpreadFilter> filter;
   for (const auto& [seconds, width] : windows)

@@ -90,7 +90,7 @@ class SweepTask {
 
   /// What is chosen and predicted.
   fgtd::Choice predict(fgtd::Method method) const {
-    std::vector<double> position(static_cast<std::size_t>(sources_.size()));
+    fgtd::detail::Buffer<double> position(static_cast<std::size_t>(sources_.size()));
     for (Eigen::Index j = 0; j < sources_.cols(); ++j)
       for (int l = 0; l < d; ++l) position[static_cast<std::size_t>(l * sources_.cols() + j)] = sources_(l, j);
     return fgtd::detail::choose<d>(position, static_cast<std::size_t>(sources_.cols()), 1, sigma_, options(method))
