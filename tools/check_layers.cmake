@@ -15,7 +15,7 @@ set(may_effect base expression fgtd field particle farfield)
 set(may_sim base expression fgtd field particle effect time case)
 set(may_write base particle sim case)
 set(may_render base particle sim case write)
-set(may_input base expression case)
+set(may_input base expression field case)
 set(may_study base expression fgtd farfield field particle effect time sim write render input case)
 set(may_cli base study sim write render input time case fgtd)
 

@@ -15,6 +15,9 @@ namespace gaussdrift {
 /// Named constants of `[params]`, in file order.
 using Params = std::vector<std::pair<std::string, double>>;
 
+/// Parameters of a named formula: one number, or a point as one number a dimension.
+using Arguments = std::vector<std::pair<std::string, std::vector<double>>>;
+
 struct Domain {
   int dimension = 2;            // 2 or 3
   std::array<double, 3> min{};  // entries beyond the dimension are 0
@@ -27,12 +30,12 @@ struct Domain {
 struct ExpressionVelocity {
   std::vector<std::string> components;
 };
-/// Rigid rotation u = rate (-(y - center_y), x - center_x), in 3D about the z axis; div u = 0.
-struct RotationVelocity {
-  std::array<double, 3> center{};
-  double rate = 1;  // radians a time unit, counter-clockwise
+/// field = "...": a named field (docs/cases.md gives the formulas) with all of its parameters.
+struct NamedVelocity {
+  std::string field;
+  Arguments arguments;
 };
-using VelocitySpec = std::variant<ExpressionVelocity, RotationVelocity>;
+using VelocitySpec = std::variant<ExpressionVelocity, NamedVelocity>;
 
 // --- initial density --------------------------------------------------------------------------------------------
 
@@ -40,13 +43,10 @@ using VelocitySpec = std::variant<ExpressionVelocity, RotationVelocity>;
 struct ExpressionDensity {
   std::string text;
 };
-/// A radial shape of s = |x - center| / radius (docs/cases.md gives the formulas).
+/// shape = "...": a named shape (docs/cases.md gives the formulas) with all of its parameters.
 struct ShapeDensity {
-  enum class Shape { wendland, cone, gaussian, disk };
-  Shape shape = Shape::wendland;
-  std::array<double, 3> center{};
-  double radius = 1;
-  double height = 1;
+  std::string shape;
+  Arguments arguments;
 };
 using DensitySpec = std::variant<ExpressionDensity, ShapeDensity>;
 

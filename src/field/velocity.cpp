@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace gaussdrift {
@@ -9,23 +10,6 @@ namespace gaussdrift {
 namespace {
 constexpr std::size_t block_length =
     512;  // points an expression sees at once: its arrays stay in the first-level cache
-}
-
-void RotationField::add(double /*t*/, const PointsView& x, const VectorsView& u) const {
-  const double rate = rate_, cx = center_[0], cy = center_[1];
-  const double *px = x.axis[0], *py = x.axis[1];
-  double *ux = u.axis[0], *uy = u.axis[1];
-  for (std::size_t i = 0; i < x.count; ++i) {
-    const double dx = px[i] - cx, dy = py[i] - cy;
-    ux[i] -= rate * dy;
-    uy[i] += rate * dx;
-  }
-}
-
-std::string RotationField::describe() const {
-  const std::string about = dimension_ == 2 ? fmt::format("({}, {})", center_[0], center_[1])
-                                            : fmt::format("the axis ({}, {}, z)", center_[0], center_[1]);
-  return fmt::format("rotation about {}, {} rad a time unit, div u = 0", about, rate_);
 }
 
 ExpressionField::ExpressionField(const std::vector<std::string>& components,
@@ -61,6 +45,10 @@ std::string ExpressionField::describe() const {
 
 void SumField::add(double t, const PointsView& x, const VectorsView& u) const {
   for (const auto& field : fields_) field->add(t, x, u);
+}
+
+bool SumField::is_solenoidal() const {
+  return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_solenoidal(); });
 }
 
 std::string SumField::describe() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,29 +12,19 @@
 
 namespace gaussdrift {
 
-/// A field is immutable; `add` is safe to call from several threads.
+/// A field is immutable; everything here is safe to call from several threads.
 class VelocityField {
  public:
   virtual ~VelocityField() = default;
   /// u[k][i] += u_k(x_i, t). Values that are not finite are passed on; the caller reports them with place and time.
   virtual void add(double t, const PointsView& x, const VectorsView& u) const = 0;
+  /// True if div u = 0 everywhere, by construction.
+  virtual bool is_solenoidal() const { return false; }
+  /// Position at time `to` of what is at x at time `from`, from the closed form of the flow; nothing where none is
+  /// known.
+  virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
   /// One line for people: formula and what is known of it.
   virtual std::string describe() const = 0;
-};
-
-/// Rigid rotation, counter-clockwise: u = rate (-(y - c_y), x - c_x), and 0 along z. div u = 0; the exact flow is
-/// x(t) = c + R(rate t) (x(0) - c).
-class RotationField : public VelocityField {
- public:
-  RotationField(int dimension, const Vector& center, double rate)
-      : dimension_(dimension), center_(center), rate_(rate) {}
-  void add(double t, const PointsView& x, const VectorsView& u) const override;
-  std::string describe() const override;
-
- private:
-  int dimension_;
-  Vector center_;
-  double rate_;
 };
 
 /// One expression a component, in x, y, (z,) t and the params.
@@ -54,6 +45,7 @@ class SumField : public VelocityField {
  public:
   explicit SumField(std::vector<std::unique_ptr<VelocityField>> fields) : fields_(std::move(fields)) {}
   void add(double t, const PointsView& x, const VectorsView& u) const override;
+  bool is_solenoidal() const override;
   std::string describe() const override;
 
  private:

@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 #include <tuple>
 
@@ -135,6 +136,22 @@ std::optional<Value> override_value(const std::string& text, const OverrideLocat
   return value;
 }
 
+/// The table that "velocity[2]" names: the second of several [[velocity]], or a single [velocity] as the first.
+Value* part_of(Value& table, const std::string& name) {
+  const std::size_t open = name.find('[');
+  if (open == std::string::npos || name.back() != ']') return nullptr;
+  std::size_t index = 0;
+  const char *begin = name.data() + open + 1, *end = name.data() + name.size() - 1;
+  const auto read = std::from_chars(begin, end, index);
+  Entry* entry = table.find(name.substr(0, open));
+  if (read.ec != std::errc() || read.ptr != end || index == 0 || !entry) return nullptr;
+  Value& value = entry->value;
+  if (value.kind == Value::Kind::table) return index == 1 ? &value : nullptr;
+  if (value.kind != Value::Kind::list || index > value.items.size()) return nullptr;
+  Value& item = value.items[index - 1];
+  return item.kind == Value::Kind::table ? &item : nullptr;
+}
+
 void apply_override(Value& root, int index, const std::string& text, Diagnostics& diagnostics) {
   const std::size_t equals = text.find('=');
   const Place whole{index, 1, 0, std::max<std::size_t>(1, text.size())};
@@ -157,6 +174,11 @@ void apply_override(Value& root, int index, const std::string& text, Diagnostics
   std::size_t first = 0;
   for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', first)) {
     const std::string name = key.substr(first, dot - first);
+    if (Value* part = part_of(*table, name)) {
+      table = part;
+      first = dot + 1;
+      continue;
+    }
     Entry* entry = table->find(name);
     if (!entry) {
       Value made;
@@ -165,8 +187,11 @@ void apply_override(Value& root, int index, const std::string& text, Diagnostics
       entry = &table->entries.back();
     }
     if (entry->value.kind != Value::Kind::table) {
-      diagnostics.error(key_place, fmt::format("\"{}\" is {} and has no keys of its own", key.substr(0, dot),
-                                               entry->value.description()));
+      const bool parts = !entry->value.items.empty() && entry->value.items[0].kind == Value::Kind::table;
+      diagnostics.error(
+          key_place,
+          fmt::format("\"{}\" is {} and has no keys of its own", key.substr(0, dot), entry->value.description()),
+          parts ? fmt::format("there are several [[{0}]]; name one: {0}[1]{1}", name, key.substr(dot)) : "");
       return;
     }
     table = &entry->value;

@@ -16,6 +16,8 @@
 #include "base/lattice.hpp"
 #include "base/suggest.hpp"
 #include "expression/expression.hpp"
+#include "field/named_fields.hpp"
+#include "field/shapes.hpp"
 #include "input/diagnostics.hpp"
 #include "input/document.hpp"
 #include "input/registry.hpp"
@@ -29,10 +31,6 @@ constexpr double same_time =
     1e-12;  // an output this close to the end, relative to it, is the end: "2*pi" in two spellings
 
 using Kind = Value::Kind;
-
-std::string label_of(const Key& key) {
-  return key.table.empty() ? std::string(key.name) : fmt::format("{}.{}", key.table, key.name);
-}
 
 std::string without_backticks(std::string_view text) {
   std::string plain(text);
@@ -113,7 +111,7 @@ class Reader {
     else if (!key.range.contains(value.number))
       diagnostics_.error(value.place,
                          fmt::format("this program reads version {} of the format, the file has version {}",
-                                     key.range.text(), value.whole));
+                                     range_text(key.range), value.whole));
   }
 
   void check_names() {
@@ -122,12 +120,25 @@ class Reader {
       if (entry.name == "gaussdrift") continue;
       if (std::find(known.begin(), known.end(), entry.name) == known.end())
         unknown_at_top(entry, known);
+      else if (!find_table(entry.name).kinds.empty())
+        check_parts(entry);
       else if (entry.value.kind != Kind::table)
         diagnostics_.error(entry.place, fmt::format("{} must be one table [{}], found {}", entry.name, entry.name,
                                                     entry.value.description()));
       else if (entry.name != "params")
         check_keys(entry);
     }
+  }
+
+  /// A table that may be repeated: one table, or a list of tables.
+  void check_parts(const Entry& entry) {
+    const Value& value = entry.value;
+    const bool several =
+        value.kind == Kind::list && !value.items.empty() &&
+        std::all_of(value.items.begin(), value.items.end(), [](const Value& item) { return item.kind == Kind::table; });
+    if (value.kind != Kind::table && !several)
+      diagnostics_.error(entry.place, fmt::format("{} must be a table [{}], or several tables [[{}]], found {}",
+                                                  entry.name, entry.name, entry.name, value.description()));
   }
 
   void check_tables() {
@@ -181,22 +192,32 @@ class Reader {
     return homes.empty() ? "" : fmt::format("; it belongs in {}", fmt::join(homes, " or "));
   }
 
-  const Entry* table(std::string_view name) const {
+  /// The table, or the part of it that is being read.
+  const Value* table(std::string_view name) const {
+    if (part_ && name == part_table_) return part_;
     const Entry* entry = root_.find(std::string(name));
-    return entry && entry->value.kind == Kind::table ? entry : nullptr;
+    return entry && entry->value.kind == Kind::table ? &entry->value : nullptr;
   }
 
   const Entry* find(std::string_view table_name, std::string_view name) const {
-    const Entry* entry = table(table_name);
-    return entry ? entry->value.find(std::string(name)) : nullptr;
+    const Value* home = table(table_name);
+    return home ? home->find(std::string(name)) : nullptr;
+  }
+
+  /// "velocity", or "velocity[2]" for the second of several parts.
+  std::string label_of(std::string_view table_name) const {
+    return part_ && table_name == part_table_ ? part_label_ : std::string(table_name);
+  }
+  std::string label_of(const Key& key) const {
+    return key.table.empty() ? std::string(key.name) : fmt::format("{}.{}", label_of(key.table), key.name);
   }
 
   /// The entry of a required key, or a complaint at the head of its table (a missing table has been complained about).
   const Entry* require(const Key& key) {
     const Entry* entry = find(key.table, key.name);
-    const Entry* home = table(key.table);
+    const Value* home = table(key.table);
     if (!entry && home && !is_meant(label_of(key)))
-      diagnostics_.error(home->value.place, fmt::format("{} is missing", label_of(key)), meaning_note(key));
+      diagnostics_.error(home->place, fmt::format("{} is missing", label_of(key)), meaning_note(key));
     return entry;
   }
 
@@ -204,25 +225,100 @@ class Reader {
     diagnostics_.error(value.place, fmt::format("{} must be {}, found {}", label, wanted, value.description()));
   }
 
-  /// Complains unless exactly one of two keys that exclude each other is there.
-  void check_exactly_one(std::string_view table_name, std::string_view a, std::string_view b) {
-    const Entry *first = find(table_name, a), *second = find(table_name, b), *home = table(table_name);
-    const std::string rule = fmt::format("give either \"{}\" or \"{}\"", a, b);
-    if (first && second)
-      diagnostics_.error(comes_before(first->place, second->place) ? second->place : first->place,
-                         fmt::format("[{}] has both \"{}\" and \"{}\"", table_name, a, b), rule);
-    const bool misspelt =
-        is_meant(fmt::format("{}.{}", table_name, a)) || is_meant(fmt::format("{}.{}", table_name, b));
-    if (!first && !second && home && !misspelt)
-      diagnostics_.error(home->value.place, fmt::format("[{}] has neither \"{}\" nor \"{}\"", table_name, a, b), rule);
+  /// The one key of several that exclude each other; nothing, after a complaint, if there is none or more than one.
+  std::optional<std::string_view> exactly_one(std::string_view table_name, const std::vector<std::string_view>& names) {
+    const Value* home = table(table_name);
+    std::vector<const Entry*> found;
+    bool misspelt = false;
+    for (const auto name : names) {
+      if (const Entry* entry = find(table_name, name)) found.push_back(entry);
+      misspelt = misspelt || is_meant(fmt::format("{}.{}", label_of(table_name), name));
+    }
+    if (found.size() == 1)
+      return *std::find_if(names.begin(), names.end(), [&](std::string_view name) { return name == found[0]->name; });
+    const std::string rule = fmt::format("give exactly one of {}", quoted_list(names));
+    std::sort(found.begin(), found.end(),
+              [](const Entry* a, const Entry* b) { return comes_before(a->place, b->place); });
+    if (found.size() > 1)
+      diagnostics_.error(found[1]->place,
+                         fmt::format("[{}] has both \"{}\" and \"{}\"", table_name, found[0]->name, found[1]->name),
+                         rule);
+    else if (home && !misspelt)
+      diagnostics_.error(home->place, fmt::format("[{}] has none of {}", table_name, quoted_list(names)), rule);
+    return std::nullopt;
   }
 
-  void only_with(std::string_view table_name, std::initializer_list<std::string_view> names, std::string_view needed,
-                 std::string_view present) {
-    for (const auto name : names)
-      if (const Entry* entry = find(table_name, name))
-        diagnostics_.error(entry->place,
-                           fmt::format("\"{}\" goes with \"{}\", not with \"{}\"", name, needed, present));
+  /// Calls read(kind, value of that key) for each part of a table that may be repeated. Keys that do not go with the
+  /// kind, or with the formula named there, have been complained about.
+  template <class Read>
+  void each_part(std::string_view table_name, const Read& read) {
+    const Entry* entry = root_.find(std::string(table_name));
+    if (!entry) return;
+    const Value& value = entry->value;
+    const bool several = value.kind == Kind::list;
+    const std::size_t count = several ? value.items.size() : 1;
+    for (std::size_t k = 0; k < count; ++k) {
+      part_ = several ? &value.items[k] : &value;
+      if (part_->kind != Kind::table) continue;
+      part_table_ = table_name;
+      part_label_ = count > 1 ? fmt::format("{}[{}]", table_name, k + 1) : std::string(table_name);
+      check_part(find_table(table_name), read);
+    }
+    part_ = nullptr;
+  }
+
+  template <class Read>
+  void check_part(const Table& home, const Read& read) {
+    const std::vector<std::string> all = key_names(home.name);
+    for (const Entry& entry : part_->entries) {
+      if (std::find(all.begin(), all.end(), entry.name) != all.end()) continue;
+      const auto kind = kind_of_part(home);
+      const std::vector<std::string> known =
+          kind.empty() ? all : key_names(home.name, kind, part_->find(std::string(kind))->value.text);
+      const std::string remedy = remedy_for(entry.name, known, label_of(home.name));
+      diagnostics_.error(entry.place, fmt::format("unknown key \"{}\" in [{}]{}", entry.name, home.name, remedy),
+                         fmt::format("known keys: {}", fmt::join(known, ", ")));
+    }
+    const auto kind = exactly_one(home.name, home.kinds);
+    if (!kind) return;
+    const Entry& chosen = *find(home.name, *kind);
+    const Key& key = find_key(home.name, *kind);
+    if (key.type == Type::choice && !choice_in(chosen.value, key, label_of(key))) return;
+    check_companions(key, chosen);
+    read(*kind, chosen.value);
+  }
+
+  /// The first kind that the part has, if any.
+  std::string_view kind_of_part(const Table& home) const {
+    for (const auto kind : home.kinds)
+      if (part_->find(std::string(kind))) return kind;
+    return {};
+  }
+
+  /// Complains about keys of the part that do not go with its kind.
+  void check_companions(const Key& kind, const Entry& chosen) {
+    const std::string named = kind.type == Type::choice ? chosen.value.text : "";
+    const auto known = key_names(kind.table, kind.name, named);
+    for (const Entry& entry : part_->entries) {
+      if (&entry == &chosen || std::find(known.begin(), known.end(), entry.name) != known.end()) continue;
+      std::vector<std::string> homes;
+      for (const Key& key : keys()) {
+        if (key.table != kind.table || key.name != entry.name) continue;
+        if (key.value.empty())
+          homes.push_back(fmt::format("\"{}\"", key.with));
+        else if (homes.empty())
+          homes.push_back(fmt::format("{} = \"{}\"", key.with, key.value));
+        else
+          homes.push_back(fmt::format("\"{}\"", key.value));
+      }
+      if (homes.empty()) continue;  // unknown: complained about already
+      const std::string chosen_text =
+          named.empty() ? fmt::format("\"{}\"", kind.name) : fmt::format("{} = \"{}\"", kind.name, named);
+      diagnostics_.error(
+          entry.place,
+          fmt::format("\"{}\" goes with {}, not with {}", entry.name, fmt::join(homes, " or "), chosen_text),
+          fmt::format("known keys with {}: {}", chosen_text, fmt::join(known, ", ")));
+    }
   }
 
   // --- values -----------------------------------------------------------------------------------------------------
@@ -295,15 +391,42 @@ class Reader {
       const auto read = std::from_chars(key.fallback.data(), key.fallback.data() + key.fallback.size(), value);
       return read.ec == std::errc() ? std::optional(Number{value, nullptr}) : std::nullopt;
     }
-    const auto value = number_in(entry->value, label_of(key));
-    if (!value || !check_range(key, *value, entry->value, note)) return std::nullopt;
-    return Number{*value, &entry->value};
+    const auto value = number_of(key, *entry, note);
+    return value ? std::optional(Number{*value, &entry->value}) : std::nullopt;
+  }
+
+  std::optional<double> number_of(const Key& key, const Entry& entry, const std::string& note = "") {
+    const auto value = number_in(entry.value, label_of(key));
+    return value && check_range(key, *value, entry.value, note) ? value : std::nullopt;
+  }
+
+  /// The parameters of a named formula, all of them if nothing was complained about.
+  Arguments arguments(const Key& kind, const NamedFormula& formula, const Value& written) {
+    if (dimension_ && (dimension_ < formula.least_dimension || dimension_ > formula.most_dimension))
+      diagnostics_.error(written.place, fmt::format("\"{}\" exists only in {}D; the domain has {} dimensions",
+                                                    formula.name, formula.least_dimension, dimension_));
+    Arguments given;
+    for (const NamedParameter& parameter : formula.parameters) {
+      const Key& key = find_key(kind.table, parameter.name, formula.name);
+      const Entry* entry = key.required ? require(key) : find(key.table, key.name);
+      if (!entry) continue;
+      if (key.type == Type::point) {
+        if (const auto values = point_of(key, *entry)) given.emplace_back(key.name, *values);
+      } else if (const auto value = number_of(key, *entry)) {
+        given.emplace_back(key.name, std::vector{*value});
+      }
+    }
+    if (diagnostics_.errors() > 0) return given;
+    const Arguments all = complete(formula, given, box_);
+    const std::string problem = formula.problem ? formula.problem(dimension_, all) : "";
+    if (!problem.empty()) diagnostics_.error(written.place, fmt::format("{}: {}", formula.name, problem));
+    return all;
   }
 
   bool check_range(const Key& key, double value, const Value& written, const std::string& note = "") {
     std::string rule;
     if (key.type == Type::whole && value != std::floor(value)) rule = "a whole number";
-    if (!key.range.contains(value)) rule = key.range.text();
+    if (!key.range.contains(value)) rule = range_text(key.range);
     if (rule.empty()) return true;
     diagnostics_.error(written.place,
                        fmt::format("{} must be {}, found {}", label_of(key), rule, found_number(value, written)),
@@ -327,13 +450,13 @@ class Reader {
     return valid ? std::optional(list) : std::nullopt;
   }
 
-  /// A list of as many numbers as there are dimensions.
-  void point(std::string_view table_name, std::string_view name, std::array<double, 3>& result) {
-    const Key& key = find_key(table_name, name);
-    const Entry* entry = find(table_name, name);
-    const auto list = entry ? numbers(*entry, key) : std::nullopt;
-    if (!list || (dimension_ && !has_entries(entry->value, key, "number"))) return;
-    std::copy_n(list->begin(), std::min<std::size_t>(3, list->size()), result.begin());
+  /// A list of as many numbers as there are dimensions, each in the key's range.
+  std::optional<std::vector<double>> point_of(const Key& key, const Entry& entry) {
+    const auto list = numbers(entry, key);
+    if (!list || (dimension_ && !has_entries(entry.value, key, "number"))) return std::nullopt;
+    for (std::size_t k = 0; k < list->size(); ++k)
+      if (!check_range(key, (*list)[k], entry.value.items[k])) return std::nullopt;
+    return list;
   }
 
   /// As many entries as the domain has dimensions?
@@ -422,10 +545,10 @@ class Reader {
   // --- tables, in the order of the registry -----------------------------------------------------------------------
 
   void read_params(Params& params) {
-    const Entry* home = table("params");
+    const Value* home = table("params");
     if (!home) return;
-    for (const Entry& entry : home->value.entries) later_params_.push_back(entry.name);
-    for (const Entry& entry : home->value.entries) {
+    for (const Entry& entry : home->entries) later_params_.push_back(entry.name);
+    for (const Entry& entry : home->entries) {
       const bool named = check_param_name(entry);
       const auto value = number_in(entry.value, fmt::format("params.{}", entry.name));
       std::erase(later_params_, entry.name);
@@ -488,6 +611,7 @@ class Reader {
                          "min must be less than max on every axis");
     }
     domain_valid_ = valid;
+    box_ = {domain.dimension, domain.min, domain.max};
   }
 
   bool is_corner(const Value& value, const Key& key) {
@@ -498,48 +622,35 @@ class Reader {
   }
 
   void read_velocity(std::vector<VelocitySpec>& velocity) {
-    check_exactly_one("velocity", "u", "field");
-    if (const Entry* field = find("velocity", "field")) {
-      RotationVelocity rotation;
-      choice_in(field->value, find_key("velocity", "field"), "velocity.field");
-      point("velocity", "center", rotation.center);
-      if (const auto rate = number("velocity", "rate")) rotation.rate = rate->number;
-      velocity.emplace_back(rotation);
-    } else if (find("velocity", "u")) {
-      only_with("velocity", {"center", "rate"}, "field", "u");
-    }
-    if (const Entry* u = find("velocity", "u")) velocity.emplace_back(expression_velocity(u->value));
+    each_part("velocity", [&](std::string_view kind, const Value& value) {
+      if (kind == "u") velocity.emplace_back(expression_velocity(value));
+      if (kind == "field")
+        velocity.emplace_back(NamedVelocity{
+            value.text, arguments(find_key("velocity", kind), find_named_field(value.text).about, value)});
+    });
   }
 
   ExpressionVelocity expression_velocity(const Value& value) {
     const Key& key = find_key("velocity", "u");
+    const std::string label = label_of(key);
     ExpressionVelocity field;
     if (value.kind != Kind::list) {
-      wrong_type(value, "velocity.u", type_text(key));
+      wrong_type(value, label, type_text(key));
       return field;
     }
     if (dimension_) has_entries(value, key, "expression");
     for (std::size_t k = 0; k < value.items.size(); ++k)
-      field.components.push_back(field_expression(value.items[k], fmt::format("entry {} of velocity.u", k + 1), true));
+      field.components.push_back(field_expression(value.items[k], fmt::format("entry {} of {}", k + 1, label), true));
     return field;
   }
 
   void read_density(std::vector<DensitySpec>& density) {
-    check_exactly_one("density", "expression", "shape");
-    if (const Entry* form = find("density", "shape")) {
-      ShapeDensity shape;
-      if (const auto index = choice_in(form->value, find_key("density", "shape"), "density.shape"))
-        shape.shape = static_cast<ShapeDensity::Shape>(*index);
-      for (const char* name : {"center", "radius"}) require(find_key("density", name));
-      point("density", "center", shape.center);
-      if (const auto radius = number("density", "radius")) shape.radius = radius->number;
-      if (const auto height = number("density", "height")) shape.height = height->number;
-      density.emplace_back(shape);
-    } else if (find("density", "expression")) {
-      only_with("density", {"center", "radius", "height"}, "shape", "expression");
-    }
-    if (const Entry* expression = find("density", "expression"))
-      density.emplace_back(ExpressionDensity{field_expression(expression->value, "density.expression", false)});
+    each_part("density", [&](std::string_view kind, const Value& value) {
+      const Key& key = find_key("density", kind);
+      if (kind == "expression") density.emplace_back(ExpressionDensity{field_expression(value, label_of(key), false)});
+      if (kind == "shape")
+        density.emplace_back(ShapeDensity{value.text, arguments(key, find_named_shape(value.text).about, value)});
+    });
   }
 
   void read_particles(ParticleSpec& particles, const Domain& domain) {
@@ -650,7 +761,7 @@ class Reader {
         times->place.override_index != frames->place.override_index)  // the later one replaces the other
       (times->place.override_index > frames->place.override_index ? frames : times) = nullptr;
     if (times && frames)
-      check_exactly_one("output", "times", "frames");
+      exactly_one("output", {"times", "frames"});
     else if (times)
       read_times(*times, output.times);
     else if (const auto count = number("output", "frames"); count && end_)
@@ -719,6 +830,10 @@ class Reader {
   std::vector<std::string> later_params_;  // not read yet
   int dimension_ = 0;                      // 0: not known because of an error
   bool domain_valid_ = false;
+  Box box_;                      // the domain, if it is valid
+  std::string_view part_table_;  // of a table that may be repeated: the part that is being read
+  std::string part_label_;
+  const Value* part_ = nullptr;
   std::optional<double> end_;
   std::vector<std::string> meant_;  // tables and keys that a misspelt name was taken for: not missing, then
 };

@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "expression/expression.hpp"
+#include "field/named_fields.hpp"
+#include "field/shapes.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -27,21 +29,59 @@ std::string joined(const std::vector<std::string_view>& words) {
 
 const std::vector<Table>& tables() {
   static const std::vector<Table> list = {
-      {"case", false, "what the case is called and where it comes from"},
-      {"params", false, "names for numbers: `R = 0.25`; later ones may use earlier ones"},
-      {"domain", true, "the box on which density is evaluated and particles start"},
-      {"velocity", true, "the prescribed velocity u: either `u` or `field`"},
-      {"density", true, "the density rho_0 at t = 0: either `expression` or `shape`"},
-      {"particles", true, "the lattice on which particles start, and the blob each carries"},
-      {"time", true, "how long, and in which steps"},
-      {"evaluate", false, "the lattice on which density is summed for output"},
-      {"output", false, "when to write, and what: either `times` or `frames`"},
+      {.name = "case", .required = false, .meaning = "what the case is called and where it comes from"},
+      {.name = "params",
+       .required = false,
+       .meaning = "names for numbers: `R = 0.25`; later ones may use earlier ones"},
+      {.name = "domain", .required = true, .meaning = "the box on which density is evaluated and particles start"},
+      {.name = "velocity",
+       .required = true,
+       .meaning = "the prescribed velocity u; several `[[velocity]]` add up",
+       .kinds = {"u", "field"}},
+      {.name = "density",
+       .required = true,
+       .meaning = "the density rho_0 at t = 0; several `[[density]]` add up",
+       .kinds = {"expression", "shape"}},
+      {.name = "particles",
+       .required = true,
+       .meaning = "the lattice on which particles start, and the blob each carries"},
+      {.name = "time", .required = true, .meaning = "how long, and in which steps"},
+      {.name = "evaluate", .required = false, .meaning = "the lattice on which density is summed for output"},
+      {.name = "output", .required = false, .meaning = "when to write, and what: either `times` or `frames`"},
   };
   return list;
 }
 
-const std::vector<Key>& keys() {
-  static const std::vector<Key> list = {
+namespace {
+
+/// The parameters of the named formulas that a key chooses from.
+template <class Named>
+void add_parameters(std::vector<Key>& list, std::string_view table, std::string_view with,
+                    const std::vector<Named>& all) {
+  for (const Named& one : all)
+    for (const NamedParameter& parameter : one.about.parameters)
+      list.push_back({.table = table,
+                      .name = parameter.name,
+                      .type = parameter.kind == NamedParameter::Kind::point ? Type::point : Type::number,
+                      .required = parameter.fallback.empty(),
+                      .fallback = parameter.fallback,
+                      .range = parameter.range,
+                      .unit = parameter.unit,
+                      .symbol = parameter.symbol,
+                      .meaning = parameter.meaning,
+                      .with = with,
+                      .value = one.about.name});
+}
+
+template <class Named>
+std::vector<std::string_view> names_of(const std::vector<Named>& all) {
+  std::vector<std::string_view> names;
+  for (const Named& one : all) names.push_back(one.about.name);
+  return names;
+}
+
+std::vector<Key> written_keys() {
+  return {
       {.table = "",
        .name = "gaussdrift",
        .type = Type::whole,
@@ -74,20 +114,8 @@ const std::vector<Key>& keys() {
       {.table = "velocity",
        .name = "field",
        .type = Type::choice,
-       .choices = {"rotation"},
-       .meaning = "a named field: rigid rotation, in 3D about the z axis"},
-      {.table = "velocity",
-       .name = "center",
-       .type = Type::point,
-       .fallback = "origin",
-       .unit = "length",
-       .meaning = "centre of the rotation; only with `field`"},
-      {.table = "velocity",
-       .name = "rate",
-       .type = Type::number,
-       .fallback = "1",
-       .unit = "radians / time",
-       .meaning = "angular velocity, counter-clockwise; only with `field`"},
+       .choices = names_of(named_fields()),
+       .meaning = "a named field, with its parameters beside it"},
 
       {.table = "density",
        .name = "expression",
@@ -97,24 +125,8 @@ const std::vector<Key>& keys() {
       {.table = "density",
        .name = "shape",
        .type = Type::choice,
-       .choices = {"wendland", "cone", "gaussian", "disk"},
-       .meaning = "a radial shape"},
-      {.table = "density",
-       .name = "center",
-       .type = Type::point,
-       .unit = "length",
-       .meaning = "centre of the shape; needed with `shape`"},
-      {.table = "density",
-       .name = "radius",
-       .type = Type::number,
-       .range = {0, infinity, true},
-       .unit = "length",
-       .meaning = "radius of the shape; needed with `shape`"},
-      {.table = "density",
-       .name = "height",
-       .type = Type::number,
-       .fallback = "1",
-       .meaning = "density at the centre; only with `shape`"},
+       .choices = names_of(named_shapes()),
+       .meaning = "a named shape, with its parameters beside it"},
 
       {.table = "particles",
        .name = "per_axis",
@@ -206,14 +218,27 @@ const std::vector<Key>& keys() {
        .choices = {"surface", "contour", "heatmap"},
        .meaning = "pictures; in 3D none yet, and `[]` is the default there"},
   };
+}
+
+}  // namespace
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> list = [] {
+    std::vector<Key> all;
+    for (Key& key : written_keys()) {
+      all.push_back(std::move(key));
+      if (all.back().table == "velocity" && all.back().name == "field")
+        add_parameters(all, "velocity", "field", named_fields());
+      if (all.back().table == "density" && all.back().name == "shape")
+        add_parameters(all, "density", "shape", named_shapes());
+    }
+    return all;
+  }();
   return list;
 }
 
-bool Range::contains(double value) const {
-  return (least_open ? value > least : value >= least) && (most_open ? value < most : value <= most);
-}
-
-std::string Range::text() const {
+std::string range_text(const Range& range) {
+  const auto& [least, most, least_open, most_open] = range;
   const bool below = std::isfinite(least), above = std::isfinite(most);
   const std::string lower = fmt::format("{} {}", least_open ? "greater than" : "at least", least);
   const std::string upper = fmt::format("{} {}", most_open ? "less than" : "at most", most);
@@ -222,16 +247,30 @@ std::string Range::text() const {
   return below ? lower : above ? upper : "";
 }
 
-const Key& find_key(std::string_view table, std::string_view name) {
+const Key& find_key(std::string_view table, std::string_view name, std::string_view value) {
   for (const Key& key : keys())
-    if (key.table == table && key.name == name) return key;
+    if (key.table == table && key.name == name && key.value == value) return key;
   throw std::logic_error(fmt::format("no key {}.{} in the registry", table, name));
+}
+
+const Table& find_table(std::string_view name) {
+  for (const Table& table : tables())
+    if (table.name == name) return table;
+  throw std::logic_error(fmt::format("no table {} in the registry", name));
 }
 
 std::vector<std::string> key_names(std::string_view table) {
   std::vector<std::string> names;
   for (const Key& key : keys())
-    if (key.table == table) names.emplace_back(key.name);
+    if (key.table == table && std::find(names.begin(), names.end(), key.name) == names.end())
+      names.emplace_back(key.name);
+  return names;
+}
+
+std::vector<std::string> key_names(std::string_view table, std::string_view kind, std::string_view value) {
+  std::vector<std::string> names;
+  for (const Key& key : keys())
+    if (key.table == table && key.belongs(kind, value)) names.emplace_back(key.name);
   return names;
 }
 
@@ -265,23 +304,57 @@ std::string type_text(const Key& key) {
   return "";
 }
 
+namespace {
+
+std::string capital(std::string_view text) {
+  return text.empty() ? "" : fmt::format("{}{}", static_cast<char>(std::toupper(text[0])), text.substr(1));
+}
+
+/// The keys of a table that go with a kind and a value (both empty: those of no named formula).
+std::string keys_markdown(std::string_view table, std::string_view with, std::string_view value) {
+  std::string text;
+  for (const Key& key : keys()) {
+    if (key.table != table || key.value != value || (!value.empty() && key.with != with)) continue;
+    if (text.empty())
+      text = "\n| key | what | type and range | default | unit | symbol |\n| --- | --- | --- | --- | --- | --- |\n";
+    const std::string range = range_text(key.range);
+    std::string fallback = key.required ? "required" : std::string(key.fallback);
+    if (key.type == Type::choice && !fallback.empty()) fallback = quoted(fallback);
+    if (key.type == Type::choices) fallback = fmt::format("[{}]", fallback);
+    const std::string with_text = value.empty() && !key.with.empty() ? fmt::format("; goes with `{}`", key.with) : "";
+    text += fmt::format("| `{}` | {}{} | {}{}{} | {} | {} | {} |\n", key.name, key.meaning, with_text, type_text(key),
+                        range.empty() ? "" : ", ", range, fallback, key.unit, key.symbol);
+  }
+  return text;
+}
+
+std::string formula_markdown(std::string_view with, const NamedFormula& formula) {
+  const std::string where = formula.least_dimension == 3 ? " (3D)" : formula.most_dimension == 2 ? " (2D)" : "";
+  return fmt::format("\n#### `{} = \"{}\"`{}\n\n{}.\n\n* value: {}\n", with, formula.name, where,
+                     capital(formula.meaning), formula.formula);
+}
+
+}  // namespace
+
 std::string registry_markdown() {
   const Key& version = find_key("", "gaussdrift");
   std::string text = fmt::format("`{}` at the top of the file, required: {}.\n", version.name, version.meaning);
   for (const Table& table : tables()) {
-    text += fmt::format("\n### `[{}]`\n\n{}{}.\n", table.name, static_cast<char>(std::toupper(table.meaning[0])),
-                        table.meaning.substr(1));
-    if (key_names(table.name).empty()) continue;
-    text += "\n| key | what | type and range | default | unit | symbol |\n| --- | --- | --- | --- | --- | --- |\n";
-    for (const Key& key : keys()) {
-      if (key.table != table.name) continue;
-      const std::string range = key.range.text();
-      std::string fallback = key.required ? "required" : std::string(key.fallback);
-      if (key.type == Type::choice && !fallback.empty()) fallback = quoted(fallback);
-      if (key.type == Type::choices) fallback = fmt::format("[{}]", fallback);
-      text += fmt::format("| `{}` | {} | {}{}{} | {} | {} | {} |\n", key.name, key.meaning, type_text(key),
-                          range.empty() ? "" : ", ", range, fallback, key.unit, key.symbol);
+    text += fmt::format("\n### `[{}]`\n\n{}.\n", table.name, capital(table.meaning));
+    if (!table.kinds.empty()) {
+      std::vector<std::string> kinds;
+      for (const auto kind : table.kinds) kinds.push_back(fmt::format("`{}`", kind));
+      text += fmt::format("\nEach has exactly one of {}.\n", fmt::join(kinds, ", "));
     }
+    text += keys_markdown(table.name, "", "");
+    if (table.name == "velocity")
+      for (const NamedField& field : named_fields())
+        text += formula_markdown("field", field.about) +
+                fmt::format("* divergence: {}\n* exact flow: {}\n", field.divergence, field.exact_flow) +
+                keys_markdown("velocity", "field", field.about.name);
+    if (table.name == "density")
+      for (const NamedShape& shape : named_shapes())
+        text += formula_markdown("shape", shape.about) + keys_markdown("density", "shape", shape.about.name);
   }
   return text;
 }

@@ -2,10 +2,11 @@
 // docs/cases.md are driven by it, so that they cannot disagree.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/named.hpp"
 
 namespace gaussdrift::input {
 
@@ -21,17 +22,6 @@ enum class Type {
   choices       // a list of some of `choices`
 };
 
-/// Numbers from `least` to `most`; an end that is `open` is not among them.
-struct Range {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  bool least_open = false, most_open = false;
-
-  bool contains(double value) const;
-  /// "at least 2", "greater than 0", "between 1e-14 and 1, 1 excluded"; empty without ends.
-  std::string text() const;
-};
-
 struct Key {
   std::string_view table;  // empty: the top of the file
   std::string_view name;
@@ -43,25 +33,41 @@ struct Key {
   std::string_view unit = {};
   std::string_view symbol = {};  // in the thesis
   std::string_view meaning = {};
+  std::string_view with = {};   // the key that it goes with: "file", "field", ...; empty: it stands by itself
+  std::string_view value = {};  // and the value of that key: "rotation", ...; empty: any
+
+  /// Does it go with the kind of a part ("field") and the value named there ("rotation")?
+  bool belongs(std::string_view kind, std::string_view named) const {
+    return with.empty() || (with == kind && (value.empty() || value == named));
+  }
 };
 
 struct Table {
   std::string_view name;
   bool required = false;
   std::string_view meaning = {};
+  std::vector<std::string_view> kinds = {};  // keys of which a table has exactly one; the table may then be repeated,
+                                             // [[velocity]], and its parts add up
 };
 
 /// In the order of a well-written case file.
 const std::vector<Table>& tables();
 const std::vector<Key>& keys();
 
-/// Throws std::logic_error if there is no such key.
-const Key& find_key(std::string_view table, std::string_view name);
+/// Throws std::logic_error if there is no such key. Named formulas have keys of the same name: `value` is the
+/// formula's.
+const Key& find_key(std::string_view table, std::string_view name, std::string_view value = {});
+const Table& find_table(std::string_view name);
+/// Each once, in the order of the registry.
 std::vector<std::string> key_names(std::string_view table);
+/// Those that go with a kind and the value named there.
+std::vector<std::string> key_names(std::string_view table, std::string_view kind, std::string_view value);
 std::vector<std::string> table_names();
 
 /// "number", "list of 2 or 3 numbers", ... for people.
 std::string type_text(const Key& key);
+/// "at least 2", "greater than 0", "at least 1e-14 and less than 1"; empty without ends.
+std::string range_text(const Range& range);
 
 /// The tables of keys and of functions, as docs/cases.md shows them.
 std::string registry_markdown();

@@ -60,6 +60,17 @@ std::vector<std::string> choices(std::string_view name, const std::vector<Enum>&
 class Writer {
  public:
   void table(std::string_view name) { text_ += fmt::format("\n[{}]\n", name); }
+  /// One of `count` parts of a table that may be repeated.
+  void part(std::string_view name, std::size_t count) {
+    text_ += count == 1 ? fmt::format("\n[{}]\n", name) : fmt::format("\n[[{}]]\n", name);
+  }
+  /// Parameters of a named formula; an infinite one is the default "none".
+  void arguments(std::string_view table, const std::string& named, const Arguments& list) {
+    for (const auto& [name, values] : list) {
+      const bool single = find_key(table, name, named).type == Type::number;
+      if (!single || std::isfinite(values[0])) entry(name, single ? written(values[0]) : written(values));
+    }
+  }
   void entry(std::string_view name, const std::string& value) { text_ += fmt::format("{} = {}\n", name, value); }
   const std::string& text() const { return text_; }
 
@@ -70,8 +81,11 @@ class Writer {
 // Numbers are written as values, so only the parameters that expressions of fields mention are still needed.
 Params params_in_use(const Case& scene) {
   std::vector<std::string> texts;
-  if (const auto* velocity = std::get_if<ExpressionVelocity>(&scene.velocity[0])) texts = velocity->components;
-  if (const auto* density = std::get_if<ExpressionDensity>(&scene.density[0])) texts.push_back(density->text);
+  for (const auto& part : scene.velocity)
+    if (const auto* velocity = std::get_if<ExpressionVelocity>(&part))
+      texts.insert(texts.end(), velocity->components.begin(), velocity->components.end());
+  for (const auto& part : scene.density)
+    if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
   std::set<std::string> mentioned;
   for (const std::string& text : texts) {
     const Expression expression(text, {"x", "y", "z", "t"}, scene.params);
@@ -86,9 +100,6 @@ Params params_in_use(const Case& scene) {
 }  // namespace
 
 std::string resolved_toml(const Case& scene) {
-  if (scene.velocity.size() != 1 || scene.density.size() != 1)
-    throw InputError(fmt::format("a case file has one velocity and one density; this case has {} and {}",
-                                 scene.velocity.size(), scene.density.size()));
   const int dimension = scene.domain.dimension;
   Writer out;
   out.entry("gaussdrift", "1");
@@ -101,22 +112,23 @@ std::string resolved_toml(const Case& scene) {
   out.table("domain");
   out.entry("min", written_point(scene.domain.min, dimension));
   out.entry("max", written_point(scene.domain.max, dimension));
-  out.table("velocity");
-  if (const auto* field = std::get_if<ExpressionVelocity>(&scene.velocity[0])) {
-    out.entry("u", written(field->components));
-  } else if (const auto* rotation = std::get_if<RotationVelocity>(&scene.velocity[0])) {
-    out.entry("field", written(std::string("rotation")));
-    out.entry("center", written_point(rotation->center, dimension));
-    out.entry("rate", written(rotation->rate));
+  for (const auto& part : scene.velocity) {
+    out.part("velocity", scene.velocity.size());
+    if (const auto* field = std::get_if<ExpressionVelocity>(&part)) {
+      out.entry("u", written(field->components));
+    } else if (const auto* named = std::get_if<NamedVelocity>(&part)) {
+      out.entry("field", written(named->field));
+      out.arguments("velocity", named->field, named->arguments);
+    }
   }
-  out.table("density");
-  if (const auto* field = std::get_if<ExpressionDensity>(&scene.density[0])) {
-    out.entry("expression", written(field->text));
-  } else if (const auto* shape = std::get_if<ShapeDensity>(&scene.density[0])) {
-    out.entry("shape", written(choice("density", "shape", shape->shape)));
-    out.entry("center", written_point(shape->center, dimension));
-    out.entry("radius", written(shape->radius));
-    out.entry("height", written(shape->height));
+  for (const auto& part : scene.density) {
+    out.part("density", scene.density.size());
+    if (const auto* field = std::get_if<ExpressionDensity>(&part)) {
+      out.entry("expression", written(field->text));
+    } else if (const auto* shape = std::get_if<ShapeDensity>(&part)) {
+      out.entry("shape", written(shape->shape));
+      out.arguments("density", shape->shape, shape->arguments);
+    }
   }
   out.table("particles");
   out.entry("per_axis", fmt::format("{}", scene.particles.per_axis));

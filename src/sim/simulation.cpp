@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "particle/seeding.hpp"
+#include "sim/make_fields.hpp"
 #include "sim/stepper.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
@@ -16,46 +17,6 @@
 namespace gaussdrift {
 
 namespace {
-
-std::unique_ptr<VelocityField> make_velocity(const Case& description) {
-  std::vector<std::unique_ptr<VelocityField>> fields;
-  for (const VelocitySpec& spec : description.velocity) {
-    if (const auto* written = std::get_if<ExpressionVelocity>(&spec))
-      fields.push_back(std::make_unique<ExpressionField>(written->components, description.params));
-    else if (const auto* rotation = std::get_if<RotationVelocity>(&spec))
-      fields.push_back(std::make_unique<RotationField>(description.domain.dimension, rotation->center, rotation->rate));
-  }
-  if (fields.size() == 1) return std::move(fields.front());
-  return std::make_unique<SumField>(std::move(fields));
-}
-
-RadialDensity::Profile profile_of(ShapeDensity::Shape shape) {
-  switch (shape) {
-    case ShapeDensity::Shape::wendland:
-      return RadialDensity::Profile::wendland;
-    case ShapeDensity::Shape::cone:
-      return RadialDensity::Profile::cone;
-    case ShapeDensity::Shape::gaussian:
-      return RadialDensity::Profile::gaussian;
-    case ShapeDensity::Shape::disk:
-      return RadialDensity::Profile::disk;
-  }
-  throw Error(ExitCode::internal, "a density shape without a profile");
-}
-
-std::unique_ptr<InitialDensity> make_density(const Case& description) {
-  std::vector<std::unique_ptr<InitialDensity>> parts;
-  for (const DensitySpec& spec : description.density) {
-    if (const auto* written = std::get_if<ExpressionDensity>(&spec))
-      parts.push_back(
-          std::make_unique<WrittenDensity>(written->text, description.domain.dimension, description.params));
-    else if (const auto* shape = std::get_if<ShapeDensity>(&spec))
-      parts.push_back(std::make_unique<RadialDensity>(profile_of(shape->shape), description.domain.dimension,
-                                                      shape->center, shape->radius, shape->height));
-  }
-  if (parts.size() == 1) return std::move(parts.front());
-  return std::make_unique<SumDensity>(std::move(parts));
-}
 
 // Times at which steps must land: the outputs, and the end.
 std::vector<double> landings(const Case& description) {

@@ -10,7 +10,7 @@
 
 #include "base/stopwatch.hpp"
 #include "field/density.hpp"
-#include "field/velocity.hpp"
+#include "field/named_fields.hpp"
 #include "particle/seeding.hpp"
 #include "sim/density.hpp"
 #include "sim/stepper.hpp"
@@ -115,8 +115,8 @@ ConeReproduction reproduce_cone(int threads, const std::function<void(std::size_
 
   // The paper takes floor(t / tau) full steps and stops short of t; the heights show it.
   Cone cone = seed_cone(300, threads);
-  const RotationField rotation(2, {}, 1);
-  const Stepper stepper(rotation, time::find_tableau("rk4"), threads);
+  const auto rotation = make_named_field("rotation", {.dimension = 2});
+  const Stepper stepper(*rotation, time::find_tableau("rk4"), threads);
   const std::array<double, 3> turns{0, 1, 10};
   const std::array<std::string, 3> names{"0", "2 pi", "20 pi"};
   std::size_t taken = 0;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "field/velocity.hpp"
+#include "field/named_fields.hpp"
 #include "sim/stepper.hpp"
 
 namespace gaussdrift {
@@ -51,14 +51,14 @@ class Rk4OnARotation : public ::testing::TestWithParam<Turn> {};
 
 TEST_P(Rk4OnARotation, HasThePredictedAmplitudeAndPhaseAfterOneTurn) {
   const double end = 2 * std::numbers::pi;
-  const RotationField rotation(2, {}, 1);
+  const auto rotation = make_named_field("rotation", {.dimension = 2});
   const time::Interval interval(0, end, GetParam().step);
   Particles particles;
   particles.position[0] = {1};
   particles.position[1] = {0};
   particles.alpha = {1};
   particles.id = {0};
-  Stepper(rotation, time::find_tableau("rk4"), 1).advance(particles, interval, 0, interval.steps(), 0);
+  Stepper(*rotation, time::find_tableau("rk4"), 1).advance(particles, interval, 0, interval.steps(), 0);
   const double x = particles.position[0][0], y = particles.position[1][0];
 
   // |A| = 1 - theta^6/144 and a phase error of -theta^5/120 a step, theta the step: summed over the steps taken.

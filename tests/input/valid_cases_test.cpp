@@ -29,27 +29,27 @@ void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.domain.dimension, b.domain.dimension);
   EXPECT_EQ(a.domain.min, b.domain.min);
   EXPECT_EQ(a.domain.max, b.domain.max);
-  ASSERT_EQ(a.velocity.size(), 1u);
-  ASSERT_EQ(b.velocity.size(), 1u);
-  ASSERT_EQ(a.velocity[0].index(), b.velocity[0].index());
-  if (const auto* u = std::get_if<ExpressionVelocity>(&a.velocity[0])) {
-    EXPECT_EQ(u->components, std::get<ExpressionVelocity>(b.velocity[0]).components);
-  } else {
-    const auto &p = std::get<RotationVelocity>(a.velocity[0]), &q = std::get<RotationVelocity>(b.velocity[0]);
-    EXPECT_EQ(p.center, q.center);
-    EXPECT_EQ(p.rate, q.rate);
+  ASSERT_EQ(a.velocity.size(), b.velocity.size());
+  for (std::size_t k = 0; k < a.velocity.size(); ++k) {
+    ASSERT_EQ(a.velocity[k].index(), b.velocity[k].index());
+    if (const auto* u = std::get_if<ExpressionVelocity>(&a.velocity[k])) {
+      EXPECT_EQ(u->components, std::get<ExpressionVelocity>(b.velocity[k]).components);
+    }
+    if (const auto* named = std::get_if<NamedVelocity>(&a.velocity[k])) {
+      EXPECT_EQ(named->field, std::get<NamedVelocity>(b.velocity[k]).field);
+      EXPECT_EQ(named->arguments, std::get<NamedVelocity>(b.velocity[k]).arguments);
+    }
   }
-  ASSERT_EQ(a.density.size(), 1u);
-  ASSERT_EQ(b.density.size(), 1u);
-  ASSERT_EQ(a.density[0].index(), b.density[0].index());
-  if (const auto* expression = std::get_if<ExpressionDensity>(&a.density[0])) {
-    EXPECT_EQ(expression->text, std::get<ExpressionDensity>(b.density[0]).text);
-  } else {
-    const auto &p = std::get<ShapeDensity>(a.density[0]), &q = std::get<ShapeDensity>(b.density[0]);
-    EXPECT_EQ(p.shape, q.shape);
-    EXPECT_EQ(p.center, q.center);
-    EXPECT_EQ(p.radius, q.radius);
-    EXPECT_EQ(p.height, q.height);
+  ASSERT_EQ(a.density.size(), b.density.size());
+  for (std::size_t k = 0; k < a.density.size(); ++k) {
+    ASSERT_EQ(a.density[k].index(), b.density[k].index());
+    if (const auto* expression = std::get_if<ExpressionDensity>(&a.density[k])) {
+      EXPECT_EQ(expression->text, std::get<ExpressionDensity>(b.density[k]).text);
+    }
+    if (const auto* shape = std::get_if<ShapeDensity>(&a.density[k])) {
+      EXPECT_EQ(shape->shape, std::get<ShapeDensity>(b.density[k]).shape);
+      EXPECT_EQ(shape->arguments, std::get<ShapeDensity>(b.density[k]).arguments);
+    }
   }
   EXPECT_EQ(a.particles.per_axis, b.particles.per_axis);
   EXPECT_EQ(a.particles.overlap, b.particles.overlap);
@@ -77,10 +77,8 @@ TEST(Case, HasWhatTheFileSays) {
   EXPECT_EQ(scene.domain.min, (std::array<double, 3>{-1, -1, 0}));
   EXPECT_EQ(std::get<ExpressionVelocity>(scene.velocity.at(0)).components, (std::vector<std::string>{"-y", "x"}));
   const auto& shape = std::get<ShapeDensity>(scene.density.at(0));
-  EXPECT_EQ(shape.shape, ShapeDensity::Shape::wendland);
-  EXPECT_EQ(shape.center, (std::array<double, 3>{0.5, 0, 0}));
-  EXPECT_EQ(shape.radius, 0.25);
-  EXPECT_EQ(shape.height, 1.5);
+  EXPECT_EQ(shape.shape, "wendland");
+  EXPECT_EQ(shape.arguments, (Arguments{{"center", {0.5, 0}}, {"radius", {0.25}}, {"height", {1.5}}}));
   EXPECT_EQ(scene.time.end, turn);
   EXPECT_EQ(scene.output.times, (std::vector<double>{0, turn / 4, turn}));
 }
@@ -105,11 +103,10 @@ TEST(Case, TakesItsDefaultsFromTheRegistryAndTheyAreValid) {
   const Case flat = parse(with(cone, "images = [\"surface\"]\n", ""));
   EXPECT_EQ(flat.output.images, output.images);
   const auto rotation =
-      std::get<RotationVelocity>(parse(with(cone, "u = [\"-y\", \"x\"]", "field = \"rotation\"")).velocity.at(0));
-  EXPECT_EQ(rotation.rate, RotationVelocity{}.rate);
-  EXPECT_EQ(rotation.center, RotationVelocity{}.center);
-  EXPECT_EQ(std::get<ShapeDensity>(parse(with(cone, "height = 1.5\n", "")).density.at(0)).height,
-            ShapeDensity{}.height);
+      std::get<NamedVelocity>(parse(with(cone, "u = [\"-y\", \"x\"]", "field = \"rotation\"")).velocity.at(0));
+  EXPECT_EQ(rotation.arguments, (Arguments{{"center", {0, 0}}, {"rate", {1}}}));
+  EXPECT_EQ(number(std::get<ShapeDensity>(parse(with(cone, "height = 1.5\n", "")).density.at(0)).arguments, "height"),
+            1);
 }
 
 TEST(Case, TakesExpressionsWhereverANumberStands) {
@@ -121,14 +118,28 @@ TEST(Case, TakesExpressionsWhereverANumberStands) {
   EXPECT_EQ(scene.particles.per_axis, 300);
   EXPECT_EQ(scene.domain.max, (std::array<double, 3>{1, 1, 0}));
   EXPECT_DOUBLE_EQ(scene.evaluate.tolerance, 1e-6);
-  EXPECT_EQ(std::get<RotationVelocity>(scene.velocity.at(0)).rate, 2 * std::numbers::pi);
-  EXPECT_EQ(std::get<RotationVelocity>(scene.velocity.at(0)).center, (std::array<double, 3>{0.125, 0, 0}));
+  EXPECT_EQ(std::get<NamedVelocity>(scene.velocity.at(0)).arguments,
+            (Arguments{{"center", {0.125, 0}}, {"rate", {2 * std::numbers::pi}}}));
 }
 
 TEST(Case, TakesPlainNumbersAsVelocityAndDensity) {
   const Case scene = parse(with(with(least, "\"y\", \"z*t\", \"x\"", "1, 0.5, \"x\""), "\"exp(-x^2-y^2-z^2)\"", "1"));
   EXPECT_EQ(std::get<ExpressionVelocity>(scene.velocity.at(0)).components, (std::vector<std::string>{"1", "0.5", "x"}));
   EXPECT_EQ(std::get<ExpressionDensity>(scene.density.at(0)).text, "1");
+}
+
+TEST(Case, AddsUpSeveralVelocitiesAndDensities) {
+  const Case scene = parse(with(with(cone, "[velocity]\nu = [\"-y\", \"x\"]",
+                                     "[[velocity]]\nu = [\"-y\", \"x\"]\n[[velocity]]\nfield = \"rotation\""),
+                                "[density]", "[[density]]\nexpression = \"x\"\n[[density]]"),
+                           {"velocity[2].rate=3", "density[2].height=4"});
+  ASSERT_EQ(scene.velocity.size(), 2u);
+  EXPECT_EQ(std::get<ExpressionVelocity>(scene.velocity[0]).components, (std::vector<std::string>{"-y", "x"}));
+  EXPECT_EQ(number(std::get<NamedVelocity>(scene.velocity[1]).arguments, "rate"), 3);
+  ASSERT_EQ(scene.density.size(), 2u);
+  EXPECT_EQ(std::get<ExpressionDensity>(scene.density[0]).text, "x");
+  EXPECT_EQ(number(std::get<ShapeDensity>(scene.density[1]).arguments, "height"), 4);
+  expect_same(parse(resolved_toml(scene)), scene);
 }
 
 TEST(Case, SpreadsFramesEvenlyAndEndsExactly) {
@@ -161,7 +172,8 @@ TEST(Overrides, HaveTheTypesOfTheFile) {
   EXPECT_EQ(scene.time.end, std::numbers::pi);
   EXPECT_EQ(scene.output.times, (std::vector<double>{0, std::numbers::pi}));
   EXPECT_EQ(scene.title, "a = b");
-  EXPECT_EQ(std::get<ShapeDensity>(scene.density.at(0)).radius, 0.5) << "expressions see the parameter that was set";
+  EXPECT_EQ(number(std::get<ShapeDensity>(scene.density.at(0)).arguments, "radius"), 0.5)
+      << "expressions see the parameter that was set";
   EXPECT_EQ(scene.evaluate.method, "direct");
 }
 
@@ -286,13 +298,16 @@ TEST(CaseGuide, ShowsCasesThatAreValid) {
 TEST(Registry, KnowsEveryKeyOnceInATableThatExists) {
   std::vector<std::string> seen;
   for (const Key& key : keys()) {
-    const std::string label = std::string(key.table) + "." + std::string(key.name);
+    const std::string label = std::string(key.table) + "." + std::string(key.name) + " " + std::string(key.value);
     EXPECT_EQ(std::count(seen.begin(), seen.end(), label), 0) << label;
     seen.push_back(label);
     const auto known = table_names();
     EXPECT_TRUE(key.table.empty() || std::count(known.begin(), known.end(), key.table) == 1) << label;
     EXPECT_FALSE(key.meaning.empty()) << label;
-    EXPECT_EQ(&find_key(key.table, key.name), &key);
+    EXPECT_EQ(&find_key(key.table, key.name, key.value), &key);
+    if (!key.with.empty()) {
+      EXPECT_NO_THROW(find_key(key.table, key.with)) << label;
+    }
   }
   EXPECT_THROW(find_key("time", "stpe"), std::logic_error);
 }

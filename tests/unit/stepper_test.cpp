@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "field/velocity.hpp"
+#include "field/named_fields.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -38,11 +38,11 @@ TEST(Stepper, MovesTheSameForAnyThreadsAndBatches) {
 
 TEST(Stepper, WrittenAndNamedRotationAgreeToTheLastBit) {
   const ExpressionField written({"-y", "x"}, {});
-  const RotationField named(2, {}, 1);
+  const auto named = make_named_field("rotation", {.dimension = 2});
   const time::Interval interval(0, 1, 0.01);
   Particles a = some_particles(300), b = a;
   Stepper(written, rk4, 0).advance(a, interval, 0, interval.steps(), 0);
-  Stepper(named, rk4, 0).advance(b, interval, 0, interval.steps(), 0);
+  Stepper(*named, rk4, 0).advance(b, interval, 0, interval.steps(), 0);
   EXPECT_EQ(a.position, b.position);
 }
 

@@ -1,0 +1,35 @@
+// Velocity fields by name, `field = "..."` of a case file: each in a file of its own in field/named/, with its facts.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "base/named.hpp"
+#include "field/velocity.hpp"
+
+namespace gaussdrift {
+
+struct NamedField {
+  NamedFormula about;
+  std::string_view divergence;  // formula, for people
+  std::string_view exact_flow;  // formula of VelocityField::flow, or why there is none
+  /// From complete arguments.
+  std::function<std::unique_ptr<VelocityField>(int dimension, const Arguments& arguments)> make;
+};
+
+/// In the order of docs/cases.md.
+const std::vector<NamedField>& named_fields();
+
+/// Throws std::out_of_range for an unknown name.
+const NamedField& find_named_field(std::string_view name);
+
+/// The field in the domain, with defaults for what is not given. Throws as find_named_field and complete do.
+std::unique_ptr<VelocityField> make_named_field(std::string_view name, const Box& domain, const Arguments& given = {});
+
+namespace named {
+NamedField rotation();
+}  // namespace named
+
+}  // namespace gaussdrift

@@ -1,0 +1,54 @@
+#include "sim/make_fields.hpp"
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "field/named_fields.hpp"
+#include "field/shapes.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+Box box_of(const Domain& domain) { return {domain.dimension, domain.min, domain.max}; }
+
+std::unique_ptr<VelocityField> make_part(const ExpressionVelocity& spec, const Case& description) {
+  return std::make_unique<ExpressionField>(spec.components, description.params);
+}
+
+std::unique_ptr<VelocityField> make_part(const NamedVelocity& spec, const Case& description) {
+  return make_named_field(spec.field, box_of(description.domain), spec.arguments);
+}
+
+std::unique_ptr<InitialDensity> make_part(const ExpressionDensity& spec, const Case& description) {
+  return std::make_unique<WrittenDensity>(spec.text, description.domain.dimension, description.params);
+}
+
+std::unique_ptr<InitialDensity> make_part(const ShapeDensity& spec, const Case& description) {
+  const NamedShape& shape = find_named_shape(spec.shape);
+  return shape.make(description.domain.dimension, complete(shape.about, spec.arguments, box_of(description.domain)));
+}
+
+/// The parts of a case; Sum adds several up.
+template <class Sum, class Part, class Spec>
+std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& description) {
+  std::vector<std::unique_ptr<Part>> parts;
+  for (const Spec& spec : specs)
+    parts.push_back(std::visit([&](const auto& one) { return make_part(one, description); }, spec));
+  if (parts.size() == 1) return std::move(parts.front());
+  return std::make_unique<Sum>(std::move(parts));
+}
+
+}  // namespace
+
+std::unique_ptr<VelocityField> make_velocity(const Case& description) {
+  return make_sum<SumField, VelocityField>(description.velocity, description);
+}
+
+std::unique_ptr<InitialDensity> make_density(const Case& description) {
+  return make_sum<SumDensity, InitialDensity>(description.density, description);
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,18 @@
+// The velocity and the initial density that a case describes.
+#pragma once
+
+#include <memory>
+
+#include "field/density.hpp"
+#include "field/velocity.hpp"
+#include "gaussdrift/case.hpp"
+
+namespace gaussdrift {
+
+/// The sum of all [[velocity]]. The case must be valid, as `input` leaves it.
+std::unique_ptr<VelocityField> make_velocity(const Case& description);
+
+/// The sum of all [[density]].
+std::unique_ptr<InitialDensity> make_density(const Case& description);
+
+}  // namespace gaussdrift
