@@ -269,8 +269,12 @@ std::vector<std::string> key_names(std::string_view table) {
 
 std::vector<std::string> key_names(std::string_view table, std::string_view kind, std::string_view value) {
   std::vector<std::string> names;
+  const auto& kinds = find_table(table).kinds;
+  const auto excluded = [&](std::string_view name) {
+    return name != kind && std::find(kinds.begin(), kinds.end(), name) != kinds.end();
+  };
   for (const Key& key : keys())
-    if (key.table == table && key.belongs(kind, value)) names.emplace_back(key.name);
+    if (key.table == table && key.belongs(kind, value) && !excluded(key.name)) names.emplace_back(key.name);
   return names;
 }
 

@@ -149,8 +149,6 @@ const std::vector<Wrong> wrongs = {
      tables_note},
     {"[particles]", "[particle]", 24, "particle", "unknown table [particle]; did you mean [particles]?", tables_note},
     {"[particles]", "[[particles]]", 24, "particles", "particles must be one table [particles], found a list"},
-    {"[velocity]\nu = [\"-y\", \"x\"]", "velocity = []", 15, "velocity",
-     "velocity must be a table [velocity], or several tables [[velocity]], found a list"},
     {"[velocity]\nu = [\"-y\", \"x\"]", "[[velocity]]\nu = [1, 2]\n[[velocity]]\nfield = \"rotation\"\nrate = true", 19,
      "true", "velocity[2].rate must be a number or an expression, found true"},
     {"[time]\nend", "[effects.diffusion]\nD = 1\n[time]\nend", 29, "effects", "unknown table [effects]", tables_note},
@@ -221,7 +219,7 @@ const std::vector<Wrong> wrongs = {
      "known values: \"wendland\", \"wendland4\", \"wendland6\", \"cone\", \"gaussian\", \"cosine_bell\", \"disk\", "
      "\"slotted_disk\", \"box\""},
     {"shape = \"wendland\"", "shape = \"wendland\"\nexpression = \"x\"", 20, "expression",
-     "[density] has both \"expression\" and \"shape\"", "give exactly one of \"expression\", \"shape\""},
+     "[density] has both \"shape\" and \"expression\"", "give exactly one of \"expression\", \"shape\""},
     {"radius = \"R\"\n", "", 18, "[density]", "density.radius is missing", "radius: radius of the shape"},
     {"radius = \"R\"", "radius = \"R-R\"", 21, "\"R-R\"",
      "density.radius must be greater than 0, found 0 (from \"R-R\")", "radius: radius of the shape"},
@@ -307,6 +305,19 @@ TEST(CaseFile, RefusesEachWrongInputWithPlaceRuleAndRemedy) {
     const std::string text = with(cone, wrong.old_part, wrong.new_part);
     EXPECT_EQ(errors(text), expected(text, wrong));
   }
+}
+
+TEST(CaseFile, RefusesAVelocityThatIsNoTable) {
+  const std::string text =
+      with(with(cone, "[velocity]\nu = [\"-y\", \"x\"]", ""), "gaussdrift = 1", "gaussdrift = 1\nvelocity = []");
+  EXPECT_EQ(errors(text),
+            R"text(error: velocity must be a table [velocity], or several tables [[velocity]], found a list
+ --> cone.toml:2:1
+  |
+2 | velocity = []
+  | ^^^^^^^^
+
+1 error in cone.toml)text");
 }
 
 TEST(CaseFile, RefusesPicturesOf3DScenes) {
