@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -72,10 +73,27 @@ struct EvaluateSpec {
 
 struct OutputSpec {
   enum class Vtk { density, particles };
-  enum class Image { surface, contour, heatmap };
+  enum class Image { surface, contour, heatmap, slices, projection, isosurface, error };
   std::vector<double> times;  // ascending, 0 <= t <= end
   std::vector<Vtk> vtk{Vtk::density, Vtk::particles};
   std::vector<Image> images{Image::surface};
+};
+
+// --- what the results are compared with -------------------------------------------------------------------------
+
+struct ReferenceSpec {
+  enum class Kind { characteristics, exact, none };
+  Kind kind = Kind::none;
+  std::string rho;  // exact: an expression in x, y, z, t and the params
+};
+
+/// A bound on a number of the outputs. The norms of the error are relative to those of the exact density at the same
+/// time, the mass to that at the start.
+struct CheckSpec {
+  enum class Quantity { linf, l1, l2, mass };
+  Quantity what = Quantity::linf;
+  std::optional<double> max{}, min{};  // at least one of them
+  std::optional<double> at{};          // one of the output times; none: all of them
 };
 
 struct Case {
@@ -92,6 +110,8 @@ struct Case {
   TimeSpec time;
   EvaluateSpec evaluate;
   OutputSpec output;
+  ReferenceSpec reference;
+  std::vector<CheckSpec> checks;
 };
 
 }  // namespace gaussdrift

@@ -43,13 +43,26 @@ std::vector<render::Style> styles_of(const Case& scene) {
       case OutputSpec::Image::heatmap:
         styles.push_back(render::Style::heatmap);
         break;
+      case OutputSpec::Image::slices:
+        styles.push_back(render::Style::slices);
+        break;
+      case OutputSpec::Image::projection:
+        styles.push_back(render::Style::projection);
+        break;
+      case OutputSpec::Image::isosurface:
+        styles.push_back(render::Style::isosurface);
+        break;
+      case OutputSpec::Image::error:
+        styles.push_back(render::Style::error);
+        break;
     }
   }
   return styles;
 }
 
 void add_observers(Simulation& simulation, const Case& scene, const fs::path& folder) {
-  simulation.observe(write::series_table(folder, scene.domain.dimension));
+  simulation.observe(
+      write::series_table(folder, scene.domain.dimension, scene.reference.kind != ReferenceSpec::Kind::none));
   for (const OutputSpec::Vtk kind : scene.output.vtk)
     simulation.observe(kind == OutputSpec::Vtk::density ? write::density_files(folder) : write::particle_files(folder));
   if (const auto styles = styles_of(scene); !styles.empty()) {
@@ -67,15 +80,22 @@ double seconds_of(const RunSummary& summary, const std::string& beginning) {
   return total;
 }
 
+std::string place_text(const Vector& place, int dimension) {
+  std::string text;
+  for (int k = 0; k < dimension; ++k)
+    text += fmt::format("{}{:.4g}", k ? ", " : "(", place[static_cast<std::size_t>(k)]);
+  return text + ")";
+}
+
 void print_ending(const Case& scene, const RunSummary& summary, const fs::path& folder) {
   double worst = 0;
   for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
   fmt::print(
-      "done   {} particles, {} steps, {} frames in {:.2f} s on {} threads (transport {:.2f}, density {:.2f}, files "
-      "{:.2f}, pictures {:.2f})\n",
+      "done   {} particles, {} steps, {} frames in {:.2f} s on {} threads (transport {:.2f}, density {:.2f}, "
+      "reference {:.2f}, files {:.2f}, pictures {:.2f})\n",
       summary.particles, summary.steps, summary.frames.size(), summary.seconds, summary.threads,
-      seconds_of(summary, "transport"), seconds_of(summary, "density"), seconds_of(summary, "write"),
-      seconds_of(summary, "pictures"));
+      seconds_of(summary, "transport"), seconds_of(summary, "density"), seconds_of(summary, "reference"),
+      seconds_of(summary, "write"), seconds_of(summary, "pictures"));
   if (!summary.frames.empty()) {
     const auto extremes = [](const FrameNumbers& numbers) {
       return numbers.minimum < 0 ? fmt::format("rho in [{:.6g}, {:.6g}]", numbers.minimum, numbers.maximum)
@@ -85,9 +105,16 @@ void print_ending(const Case& scene, const RunSummary& summary, const fs::path& 
     const auto& [t1, last] = summary.frames.back();
     std::string heights = fmt::format("{} at t = {:.4g}", extremes(first), t0);
     if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {:.4g}", extremes(last), t1);
-    fmt::print("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights, last.mass,
-               worst, scene.evaluate.tolerance);
+    fmt::print("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights,
+               last.mass, worst, scene.evaluate.tolerance);
   }
+  if (!summary.frames.empty() && summary.frames.back().second.error) {
+    const auto& [time, numbers] = summary.frames.back();
+    fmt::print("error  at t = {:.4g}, relative to the exact density: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", time,
+               numbers.error->l1, numbers.error->l2, numbers.error->linf);
+  }
+  for (const CheckResult& result : summary.checks)
+    fmt::print("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
   const bool pictures = fs::exists(folder / "images");
   const bool density = fs::exists(folder / "density.pvd");
   fmt::print("open   {}{}{}\n",
@@ -117,13 +144,26 @@ ExitCode run(const RunOptions& options) {
                "warning: evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
                "{:.1e} of max rho\n",
                scene.evaluate.tolerance, summary.transform_achievable);
+  if (summary.reference.untraced > 0)
+    fmt::print(
+        stderr,
+        "warning: the exact density is not known at {} grid points of all outputs (one is {}: {}); the norms of the "
+        "error leave them out\n",
+        summary.reference.untraced, place_text(summary.reference.first_untraced, scene.domain.dimension),
+        summary.reference.trouble);
   const std::string json = write::summary_json(scene, summary);
   write::write_text(folder / "summary.json", json);
   if (options.scene.json)
     fmt::print("{}", json);
   else
     print_ending(scene, summary, folder);
-  return ExitCode::ok;
+  bool failed = false;
+  for (const CheckResult& result : summary.checks) {
+    if (result.passed) continue;
+    failed = true;
+    fmt::print(stderr, "check failed: {}\n", result.text);
+  }
+  return failed ? ExitCode::check : ExitCode::ok;
 }
 
 ExitCode check(const CaseOptions& options) {

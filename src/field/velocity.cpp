@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 namespace gaussdrift {
 
@@ -11,6 +12,15 @@ namespace {
 constexpr std::size_t block_length =
     512;  // points an expression sees at once: its arrays stay in the first-level cache
 }
+
+namespace {
+
+bool mentions(const Expression& expression, std::string_view variable) {
+  const auto& names = expression.used_names();
+  return std::find(names.begin(), names.end(), variable) != names.end();
+}
+
+}  // namespace
 
 ExpressionField::ExpressionField(const std::vector<std::string>& components,
                                  const std::vector<std::pair<std::string, double>>& params) {
@@ -37,6 +47,18 @@ void ExpressionField::add(double t, const PointsView& x, const VectorsView& u) c
   }
 }
 
+bool ExpressionField::is_solenoidal() const {
+  constexpr std::array coordinates{"x", "y", "z"};
+  for (std::size_t k = 0; k < components_.size(); ++k)
+    if (mentions(components_[k], coordinates[k])) return false;
+  return true;
+}
+
+bool ExpressionField::is_steady() const {
+  return std::none_of(components_.begin(), components_.end(),
+                      [](const Expression& component) { return mentions(component, "t"); });
+}
+
 std::string ExpressionField::describe() const {
   std::string text = "u = (";
   for (std::size_t k = 0; k < components_.size(); ++k) text += (k ? ", " : "") + components_[k].text();
@@ -49,6 +71,10 @@ void SumField::add(double t, const PointsView& x, const VectorsView& u) const {
 
 bool SumField::is_solenoidal() const {
   return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_solenoidal(); });
+}
+
+bool SumField::is_steady() const {
+  return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_steady(); });
 }
 
 std::string SumField::describe() const {

@@ -23,6 +23,8 @@ class VelocityField {
   /// Position at time `to` of what is at x at time `from`, from the closed form of the flow; nothing where none is
   /// known.
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
+  /// True if u does not depend on t.
+  virtual bool is_steady() const { return false; }
   /// One line for people: formula and what is known of it.
   virtual std::string describe() const = 0;
 };
@@ -34,6 +36,9 @@ class ExpressionField : public VelocityField {
   ExpressionField(const std::vector<std::string>& components,
                   const std::vector<std::pair<std::string, double>>& params);
   void add(double t, const PointsView& x, const VectorsView& u) const override;
+  /// Known where no component mentions its own coordinate.
+  bool is_solenoidal() const override;
+  bool is_steady() const override;
   std::string describe() const override;
 
  private:
@@ -46,6 +51,7 @@ class SumField : public VelocityField {
   explicit SumField(std::vector<std::unique_ptr<VelocityField>> fields) : fields_(std::move(fields)) {}
   void add(double t, const PointsView& x, const VectorsView& u) const override;
   bool is_solenoidal() const override;
+  bool is_steady() const override;
   std::string describe() const override;
 
  private:

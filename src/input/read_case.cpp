@@ -87,6 +87,8 @@ class Reader {
     read_time(scene.time);
     read_evaluate(scene.evaluate, scene.domain);
     read_output(scene.output, scene.time);
+    read_reference(scene);
+    read_checks(scene);
     if (diagnostics_.errors() == 0) warn_unused_params();
     return scene;
   }
@@ -769,13 +771,89 @@ class Reader {
 
     choices("vtk", output.vtk);
     choices("images", output.images);
-    if (dimension_ != 3) return;
+    if (dimension_) check_images(output.images);
+  }
+
+  static bool shows(OutputSpec::Image image, int dimension) {
+    using Image = OutputSpec::Image;
+    const bool flat = image == Image::surface || image == Image::contour || image == Image::heatmap;
+    return image == Image::error || flat == (dimension == 2);
+  }
+
+  /// Complains about styles of the other dimension; of the defaults only those of this one are kept.
+  void check_images(std::vector<OutputSpec::Image>& images) {
+    const Key& key = find_key("output", "images");
+    if (const Entry* entry = find("output", "images")) {
+      std::vector<std::string_view> possible;
+      for (std::size_t k = 0; k < key.choices.size(); ++k)
+        if (shows(static_cast<OutputSpec::Image>(k), dimension_)) possible.push_back(key.choices[k]);
+      for (const Value& item : entry->value.items) {
+        const auto found = std::find(key.choices.begin(), key.choices.end(), item.text);
+        if (item.kind != Kind::text || found == key.choices.end()) continue;  // complained about
+        if (!shows(static_cast<OutputSpec::Image>(found - key.choices.begin()), dimension_))
+          diagnostics_.error(item.place,
+                             fmt::format("\"{}\" shows scenes in {}D; the domain has {} dimensions", item.text,
+                                         5 - dimension_, dimension_),
+                             fmt::format("pictures in {}D: {}", dimension_, quoted_list(possible)));
+      }
+    }
+    std::erase_if(images, [&](OutputSpec::Image image) { return !shows(image, dimension_); });
+  }
+
+  void read_reference(Case& scene) {
+    ReferenceSpec& reference = scene.reference;
+    const Key& key = find_key("reference", "kind");
+    const Entry *kind = find("reference", "kind"), *rho = find("reference", "rho");
+    const std::string chosen = choice("reference", "kind");
+    const auto index = std::find(key.choices.begin(), key.choices.end(), chosen) - key.choices.begin();
+    reference.kind = static_cast<ReferenceSpec::Kind>(index);
+    if (reference.kind == ReferenceSpec::Kind::exact && !rho && !is_meant("reference.rho"))
+      diagnostics_.error(kind->value.place, "kind = \"exact\" needs the exact density as \"rho\"",
+                         "rho = \"...\": an expression in x, y, z, t and the params");
+    if (rho && reference.kind != ReferenceSpec::Kind::exact)
+      diagnostics_.error(rho->place, fmt::format("\"rho\" goes with kind = \"exact\", not with \"{}\"", chosen));
+    if (rho) reference.rho = field_expression(rho->value, "reference.rho", true);
+    if (reference.kind != ReferenceSpec::Kind::none) return;
     const Entry* images = find("output", "images");
-    if (images && !output.images.empty())
-      diagnostics_.error(images->value.place,
-                         "there are no pictures of 3D scenes yet; output.images must be [] or left out",
-                         "output.vtk = [\"density\", \"particles\"] opens in ParaView");
-    output.images.clear();
+    if (!images) return;
+    for (const Value& item : images->value.items)
+      if (item.kind == Kind::text && item.text == "error")
+        diagnostics_.error(item.place, "the picture \"error\" needs an exact density, but reference.kind is \"none\"",
+                           "leave out reference.kind, or the picture");
+  }
+
+  void read_checks(Case& scene) {
+    each_part("check", [&](std::string_view, const Value& value) {
+      CheckSpec check;
+      const auto& names = find_key("check", "what").choices;
+      check.what = static_cast<CheckSpec::Quantity>(std::find(names.begin(), names.end(), value.text) - names.begin());
+      if (const auto max = number("check", "max")) check.max = max->number;
+      if (const auto min = number("check", "min")) check.min = min->number;
+      const Entry *max = find("check", "max"), *min = find("check", "min");
+      if (!max && !min)
+        diagnostics_.error(value.place, "a check needs \"max\" or \"min\", or both", "max = 0.03: at most 0.03");
+      if (check.max && check.min && *check.min > *check.max)
+        diagnostics_.error(min->value.place,
+                           fmt::format("no number is at least {} and at most {}", *check.min, *check.max));
+      if (check.what != CheckSpec::Quantity::mass && scene.reference.kind == ReferenceSpec::Kind::none)
+        diagnostics_.error(value.place,
+                           fmt::format("{} needs an exact density, but reference.kind is \"none\"", value.text));
+      if (const auto at = number("check", "at")) check.at = output_time(*at, scene);
+      scene.checks.push_back(check);
+    });
+  }
+
+  /// The output time that a number means, exactly as the outputs have it; a complaint if there is none.
+  double output_time(const Number& at, const Case& scene) {
+    const auto& times = scene.output.times;
+    for (const double time : times)
+      if (std::abs(time - at.number) <= same_time * scene.time.end) return time;
+    if (!times.empty() && end_)
+      diagnostics_.error(at.written->place,
+                         fmt::format("check.at = {} is none of the output times", found_number(at.number, *at.written)),
+                         times.size() <= 10 ? fmt::format("output times: {:.6g}", fmt::join(times, ", "))
+                                            : "give one of output.times");
+    return at.number;
   }
 
   void spread_frames(const Number& count, double end, std::vector<double>& times) {

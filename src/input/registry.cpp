@@ -48,6 +48,15 @@ const std::vector<Table>& tables() {
       {.name = "time", .required = true, .meaning = "how long, and in which steps"},
       {.name = "evaluate", .required = false, .meaning = "the lattice on which density is summed for output"},
       {.name = "output", .required = false, .meaning = "when to write, and what: either `times` or `frames`"},
+      {.name = "reference",
+       .required = false,
+       .meaning =
+           "the exact density that every output is compared with: norms, and the arrays `rho_exact` and `error`"},
+      {.name = "check",
+       .required = false,
+       .meaning =
+           "a bound that the results have to keep, or the run ends with exit code 5; several `[[check]]` are possible",
+       .kinds = {"what"}},
   };
   return list;
 }
@@ -214,9 +223,39 @@ std::vector<Key> written_keys() {
       {.table = "output",
        .name = "images",
        .type = Type::choices,
-       .fallback = "surface",
-       .choices = {"surface", "contour", "heatmap"},
-       .meaning = "pictures; in 3D none yet, and `[]` is the default there"},
+       .fallback = "surface, slices",
+       .choices = {"surface", "contour", "heatmap", "slices", "projection", "isosurface", "error"},
+       .meaning =
+           "pictures. In 2D `surface`, `contour`, `heatmap`; in 3D `slices`, `projection`, `isosurface`; in both "
+           "`error`, which needs a reference. Of the defaults the one for the dimension"},
+
+      {.table = "reference",
+       .name = "kind",
+       .type = Type::choice,
+       .fallback = "characteristics",
+       .choices = {"characteristics", "exact", "none"},
+       .meaning = "`characteristics` traces every grid point back to the start; `exact` is a formula; `none` compares "
+                  "with nothing and costs nothing"},
+      {.table = "reference",
+       .name = "rho",
+       .type = Type::expression,
+       .symbol = "rho",
+       .meaning = "the exact density in x, y, z, t and params; with `kind = \"exact\"`"},
+
+      {.table = "check",
+       .name = "what",
+       .type = Type::choice,
+       .required = true,
+       .choices = {"Linf", "L1", "L2", "mass"},
+       .meaning = "a norm of the error relative to that of the exact density, or the mass relative to that at "
+                  "the start"},
+      {.table = "check", .name = "max", .type = Type::number, .meaning = "it must not be larger"},
+      {.table = "check", .name = "min", .type = Type::number, .meaning = "it must not be smaller"},
+      {.table = "check",
+       .name = "at",
+       .type = Type::number,
+       .unit = "time",
+       .meaning = "only at this output time; without it at all of them"},
   };
 }
 

@@ -86,6 +86,7 @@ Params params_in_use(const Case& scene) {
       texts.insert(texts.end(), velocity->components.begin(), velocity->components.end());
   for (const auto& part : scene.density)
     if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
+  if (scene.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(scene.reference.rho);
   std::set<std::string> mentioned;
   for (const std::string& text : texts) {
     const Expression expression(text, {"x", "y", "z", "t"}, scene.params);
@@ -146,6 +147,16 @@ std::string resolved_toml(const Case& scene) {
   out.entry("times", written(scene.output.times));
   out.entry("vtk", written(choices("vtk", scene.output.vtk)));
   out.entry("images", written(choices("images", scene.output.images)));
+  out.table("reference");
+  out.entry("kind", written(choice("reference", "kind", scene.reference.kind)));
+  if (scene.reference.kind == ReferenceSpec::Kind::exact) out.entry("rho", written(scene.reference.rho));
+  for (const CheckSpec& check : scene.checks) {
+    out.part("check", scene.checks.size());
+    out.entry("what", written(choice("check", "what", check.what)));
+    if (check.max) out.entry("max", written(*check.max));
+    if (check.min) out.entry("min", written(*check.min));
+    if (check.at) out.entry("at", written(*check.at));
+  }
   return out.text();
 }
 

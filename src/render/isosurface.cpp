@@ -132,13 +132,16 @@ class Surfaces {
 };
 
 /// On either side of 0 as far as the range reaches: a solid one at 3/4 of the largest density, others outside.
+/// Overshoots below a tenth of the range's larger end get none.
 std::vector<Level> levels_of(const ColourRange& range) {
+  const double least = 0.1 * std::max(std::abs(range.min), std::abs(range.max));
   std::vector<Level> levels;
   for (const double end : {range.min, range.max}) {
     const bool outwards = end == range.max ? end > 0 : end < 0;
     if (!outwards) continue;
     for (const auto& [part, opacity] : {std::pair{0.15, 0.2}, {0.45, 0.35}, {0.75, 1.}})
-      if (const double value = part * end; value > range.min && value < range.max) levels.push_back({value, opacity});
+      if (const double value = part * end; value > range.min && value < range.max && std::abs(value) > least)
+        levels.push_back({value, opacity});
   }
   return levels;
 }

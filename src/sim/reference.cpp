@@ -28,6 +28,11 @@ void fill_coordinates(const Lattice& lattice, std::size_t first, std::size_t cou
   }
 }
 
+double longest_side(const Lattice& lattice) {
+  const auto& points = lattice.points;
+  return lattice.spacing * static_cast<double>(std::max({points[0], points[1], points[2]}) - 1);
+}
+
 PointsView view_of(int dimension, std::size_t count, const double* axis) {
   PointsView view{dimension, count, {}};
   for (int k = 0; k < dimension; ++k) view.axis[k] = axis + static_cast<std::size_t>(k) * count;
@@ -44,15 +49,14 @@ class Characteristics : public Reference {
         lattice_(lattice),
         options_(options),
         components_(static_cast<std::size_t>(lattice.dimension) + (growth_ ? 1 : 0)) {
-    double longest = 0;
-    for (int k = 0; k < lattice.dimension; ++k)
-      longest = std::max(longest, lattice.spacing * static_cast<double>(lattice.points[k] - 1));
+    const double longest = longest_side(lattice);
     // Coordinates far from the origin are rounded by more than the tolerance. A quarter of the domain at a time, so
     // that no step can fly over what is there.
     const time::StepBound position{options.tolerance * longest, 4 * std::numeric_limits<double>::epsilon(),
                                    longest / 4};
     bounds_.components.assign(static_cast<std::size_t>(lattice.dimension), position);
     if (growth_) bounds_.components.push_back({options.tolerance, options.tolerance, 0});
+    bounds_.most_steps = options.most_steps;
     if (!options.steady) bounds_.longest_step = options.end / 32;
   }
 
@@ -202,6 +206,41 @@ class Formula : public Reference {
 };
 
 }  // namespace
+
+ScalarRate divergence_by_differences(const VelocityField& velocity, const Lattice& lattice) {
+  const double step = longest_side(lattice) / 200;
+  return [&velocity, step](double t, const PointsView& x, double* values) {
+    constexpr std::array<double, 4> weights{4. / 5, -1. / 5, 4. / 105, -1. / 280};
+    const auto dimension = static_cast<std::size_t>(x.dimension);
+    std::vector<double> moved(x.count), u(dimension * x.count);
+    VectorsView out{x.dimension, x.count, {}};
+    for (std::size_t k = 0; k < dimension; ++k) out.axis[k] = u.data() + k * x.count;
+    for (std::size_t k = 0; k < dimension; ++k) {
+      PointsView places = x;
+      places.axis[k] = moved.data();
+      for (std::size_t n = 0; n < weights.size(); ++n)
+        for (const double side : {1., -1.}) {
+          const double shift = side * static_cast<double>(n + 1) * step;
+          for (std::size_t i = 0; i < x.count; ++i) moved[i] = x.axis[k][i] + shift;
+          std::fill(u.begin(), u.end(), 0.0);
+          velocity.add(t, places, out);
+          for (std::size_t i = 0; i < x.count; ++i) values[i] += side * weights[n] / step * out.axis[k][i];
+        }
+    }
+  };
+}
+
+std::string to_string(ReferenceSpec::Kind kind) {
+  switch (kind) {
+    case ReferenceSpec::Kind::characteristics:
+      return "characteristics";
+    case ReferenceSpec::Kind::exact:
+      return "exact";
+    case ReferenceSpec::Kind::none:
+      return "none";
+  }
+  return "";
+}
 
 std::unique_ptr<Reference> characteristics(const VelocityField& velocity, const InitialDensity& density,
                                            ScalarRate growth, const Lattice& lattice,

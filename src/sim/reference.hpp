@@ -13,9 +13,13 @@
 #include "expression/expression.hpp"
 #include "field/density.hpp"
 #include "field/velocity.hpp"
+#include "gaussdrift/case.hpp"
 #include "sim/frame.hpp"
 
 namespace gaussdrift {
+
+/// "characteristics", "exact", "none".
+std::string to_string(ReferenceSpec::Kind kind);
 
 /// What was done for one output.
 struct ReferenceReport {
@@ -35,10 +39,15 @@ class Reference {
 /// values[i] += g(x_i, t).
 using ScalarRate = std::function<void(double t, const PointsView& x, double* values)>;
 
+/// div u by central differences of order 8 over a 200th of the lattice's longest side: right to about 1e-13 |u| / side
+/// where u is smooth on that length.
+ScalarRate divergence_by_differences(const VelocityField& velocity, const Lattice& lattice);
+
 struct CharacteristicsOptions {
   double tolerance = 1e-12;  // of a step: of the foot relative to the longest side of the lattice, and of the exponent
   bool steady = false;       // u and g do not depend on t: each output goes on from the feet of the one before
   double end = 0;            // of the run; without `steady` no step is longer than a 32nd of it
+  std::size_t most_steps = 10'000;  // from one output to the next (not steady: to the start), taken or rejected
   int threads = 0;
 };
 

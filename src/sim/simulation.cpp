@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -57,6 +58,25 @@ Scene make_scene(const Case& description) {
   return scene;
 }
 
+std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads) {
+  switch (description.reference.kind) {
+    case ReferenceSpec::Kind::none:
+      return nullptr;
+    case ReferenceSpec::Kind::exact:
+      return formula(description.reference.rho, description.params, scene.evaluation);
+    case ReferenceSpec::Kind::characteristics: {
+      ScalarRate growth;
+      if (!scene.velocity->is_solenoidal()) growth = divergence_by_differences(*scene.velocity, scene.evaluation);
+      return characteristics(*scene.velocity, *scene.density, growth, scene.evaluation,
+                             {.steady = scene.velocity->is_steady(),
+                              .end = description.time.end,
+                              .most_steps = 10'000 + total_steps(description),
+                              .threads = threads});
+    }
+  }
+  return nullptr;
+}
+
 Particles seed_scene(const Scene& scene, int threads) {
   Particles particles = seed(
       scene.seeding, [&](const PointsView& x, double* values) { scene.density->add(x, values); }, threads);
@@ -79,12 +99,16 @@ std::size_t total_steps(const Case& description) {
 }
 
 Simulation::Simulation(const Case& description, int threads)
-    : case_(description), threads_(base::resolve_threads(threads)), scene_(make_scene(case_)) {}
+    : case_(description),
+      threads_(base::resolve_threads(threads)),
+      scene_(make_scene(case_)),
+      reference_(make_reference(case_, scene_, threads_)) {}
 
 void Simulation::prepare() {
   const base::Stopwatch seeding;
   particles_ = seed_scene(scene_, threads_);
   seed_seconds_ = seeding.seconds();
+  mass_at_start_ = std::accumulate(particles_.alpha.begin(), particles_.alpha.end(), 0.0);
   velocity_at_particles(0);
 }
 
@@ -151,6 +175,19 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   frame.numbers.transform_error = report.measured_error;
   frame.numbers.transform_tolerance = report.requested_tolerance;
   frame.numbers.evaluate_seconds = report.evaluate_seconds;
+  std::vector<double> exact;
+  if (reference_) {
+    summary.stages.run("reference", [&] {
+      const ReferenceReport traced = reference_->evaluate(time, exact);
+      frame.exact = &exact;
+      frame.numbers.error = compare(density.rho, exact);
+      frame.numbers.untraced = traced.untraced;
+      if (summary.reference.untraced == 0)
+        summary.reference = traced;
+      else
+        summary.reference.untraced += traced.untraced;
+    });
+  }
   summary.frames.emplace_back(time, frame.numbers);
   for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->frame(frame); });
 }
@@ -180,6 +217,7 @@ RunSummary Simulation::run() {
     if (std::find(outputs.begin(), outputs.end(), landing) != outputs.end()) show_frame(index++, landing, summary);
   }
   for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->finish(); });
+  summary.checks = judge(case_.checks, mass_at_start_, summary.frames);
   summary.steps = steps_done_;
   summary.seconds = watch_.seconds();
   return summary;

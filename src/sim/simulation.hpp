@@ -14,8 +14,10 @@
 #include "field/velocity.hpp"
 #include "gaussdrift/case.hpp"
 #include "particle/cutoff.hpp"
+#include "sim/checks.hpp"
 #include "sim/density.hpp"
 #include "sim/frame.hpp"
+#include "sim/reference.hpp"
 
 namespace gaussdrift {
 
@@ -30,6 +32,9 @@ struct Scene {
 };
 
 Scene make_scene(const Case& description);
+
+/// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.
+std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads);
 
 /// Particles of the scene at t = 0. Throws NumericalError where rho_0 is not finite, InputError if it is 0 everywhere.
 Particles seed_scene(const Scene& scene, int threads);
@@ -54,6 +59,8 @@ struct RunSummary {
   double transform_achievable = 0;   // worst frame; above the tolerance only where that cannot be promised
   std::vector<std::string> effects;  // that ran: what the scene called for, nothing else
   std::vector<std::pair<double, FrameNumbers>> frames;
+  ReferenceReport reference;  // points of all outputs whose exact density is not known
+  std::vector<CheckResult> checks;
   base::StageTimes stages;
   double seconds = 0;
 };
@@ -85,7 +92,8 @@ class Simulation {
   int threads_;
   Scene scene_;
   Particles particles_;
-  double seed_seconds_ = 0;
+  std::unique_ptr<Reference> reference_;  // null for none
+  double seed_seconds_ = 0, mass_at_start_ = 0;
   std::vector<std::unique_ptr<Observer>> observers_;
   std::function<void(const Progress&)> progress_;
   base::Stopwatch watch_;

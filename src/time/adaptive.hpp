@@ -22,7 +22,7 @@ struct StepBound {
 };
 
 struct AdaptiveOptions {
-  std::vector<StepBound> components;
+  std::vector<StepBound> components{};
   double longest_step = 0;           // 0: any
   std::size_t most_steps = 100'000;  // taken or rejected
 };

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace gaussdrift::write {
 
 std::string summary_json(const Case& scene, const RunSummary& summary) {
@@ -10,6 +12,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
   for (const auto& [stage, value] : summary.stages.stages()) seconds[stage] = value;
   seconds["total"] = summary.seconds;
 
+  const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
   json frames = json::array();
   for (const auto& [time, n] : summary.frames) {
     json centroid = json::array();
@@ -21,7 +24,26 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
                       {"centroid", centroid},
                       {"transform_error", n.transform_error},
                       {"evaluate_seconds", n.evaluate_seconds}});
+    if (n.error) {
+      frames.back()["L1"] = number(n.error->l1);
+      frames.back()["L2"] = number(n.error->l2);
+      frames.back()["Linf"] = number(n.error->linf);
+      frames.back()["untraced"] = n.untraced;
+    }
   }
+
+  json checks = json::array();
+  for (const CheckResult& result : summary.checks)
+    checks.push_back({{"what", to_string(result.check.what)},
+                      {"value", number(result.value)},
+                      {"t", result.time},
+                      {"max", result.check.max ? json(*result.check.max) : json(nullptr)},
+                      {"min", result.check.min ? json(*result.check.min) : json(nullptr)},
+                      {"passed", result.passed}});
+
+  json reference{{"kind", to_string(scene.reference.kind)}};
+  if (scene.reference.kind != ReferenceSpec::Kind::none) reference["untraced"] = summary.reference.untraced;
+  if (summary.reference.untraced > 0) reference["trouble"] = summary.reference.trouble;
 
   json document{
       {"case", scene.name},
@@ -40,6 +62,8 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
         {"tolerance", summary.transform_tolerance},
         {"achievable", summary.transform_achievable},
         {"chosen", summary.transform_choice}}},
+      {"reference", reference},
+      {"checks", checks},
       {"threads", summary.threads},
       {"seconds", seconds},
       {"frames", frames},

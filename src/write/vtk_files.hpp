@@ -11,8 +11,10 @@
 
 namespace gaussdrift::write {
 
-/// density/density_0000.vti: image data with the point array "rho" and TimeValue. Throws FileError.
-void write_density(const std::filesystem::path& file, const DensityGrid& density, double time);
+/// density/density_0000.vti: image data with the point array "rho" and TimeValue; where the exact density is known also
+/// "rho_exact" and "error" = rho - rho_exact, NaN at points where it is not. Throws FileError.
+void write_density(const std::filesystem::path& file, const DensityGrid& density, double time,
+                   const std::vector<double>* exact = nullptr);
 
 /// particles/particles_0000.vtp: points with id (Int64), alpha, u; vertex cells; TimeValue. Throws FileError.
 /// velocity [j][dimension]; points and u are padded with 0 to three components.

@@ -63,6 +63,15 @@ void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.output.times, b.output.times);
   EXPECT_EQ(a.output.vtk, b.output.vtk);
   EXPECT_EQ(a.output.images, b.output.images);
+  EXPECT_EQ(a.reference.kind, b.reference.kind);
+  EXPECT_EQ(a.reference.rho, b.reference.rho);
+  ASSERT_EQ(a.checks.size(), b.checks.size());
+  for (std::size_t k = 0; k < a.checks.size(); ++k) {
+    EXPECT_EQ(a.checks[k].what, b.checks[k].what);
+    EXPECT_EQ(a.checks[k].max, b.checks[k].max);
+    EXPECT_EQ(a.checks[k].min, b.checks[k].min);
+    EXPECT_EQ(a.checks[k].at, b.checks[k].at);
+  }
 }
 
 TEST(Case, HasWhatTheFileSays) {
@@ -83,6 +92,41 @@ TEST(Case, HasWhatTheFileSays) {
   EXPECT_EQ(scene.output.times, (std::vector<double>{0, turn / 4, turn}));
 }
 
+TEST(Case, SaysWhatItsResultsAreComparedWith) {
+  const Case exact = parse(cone + R"text([reference]
+kind = "exact"
+rho = "exp(-R*(x^2 + y^2) - t)"
+[[check]]
+what = "Linf"
+max = "R/10"
+[[check]]
+what = "mass"
+min = 0.5
+max = 1.5
+at = "pi/2"
+)text");
+  EXPECT_EQ(exact.reference.kind, ReferenceSpec::Kind::exact);
+  EXPECT_EQ(exact.reference.rho, "exp(-R*(x^2 + y^2) - t)");
+  ASSERT_EQ(exact.checks.size(), 2u);
+  EXPECT_EQ(exact.checks[0].what, CheckSpec::Quantity::linf);
+  EXPECT_EQ(exact.checks[0].max, 0.025);
+  EXPECT_FALSE(exact.checks[0].min.has_value() || exact.checks[0].at.has_value());
+  EXPECT_EQ(exact.checks[1].what, CheckSpec::Quantity::mass);
+  EXPECT_EQ(exact.checks[1].min, 0.5);
+  EXPECT_EQ(exact.checks[1].at, exact.output.times[1]) << "exactly the output time";
+  const Case none = parse(cone + "[reference]\nkind = \"none\"\n[check]\nwhat = \"mass\"\nmin = 1\n");
+  EXPECT_EQ(none.reference.kind, ReferenceSpec::Kind::none);
+  EXPECT_EQ(none.checks.size(), 1u);
+}
+
+TEST(Case, TakesPicturesOfItsDimension) {
+  using Image = OutputSpec::Image;
+  EXPECT_EQ(parse(least + "[output]\nimages = [\"isosurface\", \"projection\", \"error\"]\n").output.images,
+            (std::vector{Image::isosurface, Image::projection, Image::error}));
+  EXPECT_EQ(parse(with(cone, "images = [\"surface\"]", "images = [\"error\", \"heatmap\"]")).output.images,
+            (std::vector{Image::error, Image::heatmap}));
+}
+
 TEST(Case, TakesItsDefaultsFromTheRegistryAndTheyAreValid) {
   const ReadResult result = parse_case(least, "least.toml");
   EXPECT_TRUE(result.warnings.empty());
@@ -99,7 +143,9 @@ TEST(Case, TakesItsDefaultsFromTheRegistryAndTheyAreValid) {
   EXPECT_EQ(scene.evaluate.method, evaluate.method);
   EXPECT_EQ(scene.output.times, (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
   EXPECT_EQ(scene.output.vtk, output.vtk);
-  EXPECT_TRUE(scene.output.images.empty()) << "no pictures in 3D";
+  EXPECT_EQ(scene.output.images, std::vector{OutputSpec::Image::slices});
+  EXPECT_EQ(scene.reference.kind, ReferenceSpec::Kind::characteristics);
+  EXPECT_TRUE(scene.checks.empty());
   const Case flat = parse(with(cone, "images = [\"surface\"]\n", ""));
   EXPECT_EQ(flat.output.images, output.images);
   const auto rotation =
@@ -206,7 +252,11 @@ TEST(ResolvedCase, IsTheSameCaseAgain) {
       with(cone, "vtk = [\"density\", \"particles\"]", "vtk = []"),
       with(cone, "R = 0.25",
            "R = 0.25\ntiny = 4.9e-324\nhuge = 1.7976931348623157e308\nthird = \"1/3\"\nmillion = 1e20"),
-      with(least, "exp(-x^2-y^2-z^2)", "x < 0.5 && y > 0 || z == 1 ? 1 : 0")};
+      with(least, "exp(-x^2-y^2-z^2)", "x < 0.5 && y > 0 || z == 1 ? 1 : 0"),
+      cone + "[reference]\nkind = \"exact\"\nrho = \"R*x*t\"\n[[check]]\nwhat = \"L1\"\nmax = 0.1\n",
+      cone +
+          "[reference]\nkind = \"none\"\n[[check]]\nwhat = \"mass\"\nmin = \"R\"\nmax = 1\n"
+          "[[check]]\nwhat = \"mass\"\nmin = 1\nat = \"turn\"\n"};
   for (const std::string& text : texts) {
     const Case scene = parse(text);
     const std::string resolved = resolved_toml(scene);
@@ -252,7 +302,10 @@ method = "auto"
 [output]
 times = [0, 0.16666666666666666, 0.3333333333333333, 0.5, 0.6666666666666666]
 vtk = ["density", "particles"]
-images = []
+images = ["slices"]
+
+[reference]
+kind = "characteristics"
 )text");
 }
 

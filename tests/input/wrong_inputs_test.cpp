@@ -134,7 +134,7 @@ std::string expected(const std::string& text, const Wrong& wrong) {
 const char* const step_note = "step: time step; the last one before an output is shortened to land on it";
 const char* const names_note = "reserved names: x, y, z, t, pi, e and the functions";
 const char* const tables_note =
-    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output";
+    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, check";
 
 const std::vector<Wrong> wrongs = {
     // version and structure
@@ -212,7 +212,7 @@ const std::vector<Wrong> wrongs = {
     {"u = [\"-y\", \"x\"]", "field = \"rotation\"\ncenter = [0, 0, 0]", 17, "[0, 0, 0]",
      "velocity.center needs 2 numbers, one a dimension of the domain, found 3"},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nstreamfunction = \"x\"", 17, "streamfunction",
-     "unknown key \"streamfunction\" in [velocity]", "known keys: u, field"},
+     "unknown key \"streamfunction\" in [velocity]", "known keys: u"},
     // density
     {"shape = \"wendland\"", "shape = \"wendlnad\"", 19, "\"wendlnad\"",
      "unknown value \"wendlnad\" for density.shape; did you mean \"wendland\"?",
@@ -294,9 +294,14 @@ const std::vector<Wrong> wrongs = {
     {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"density\"]", 41, "\"density\"",
      "\"density\" appears twice in output.vtk"},
     {"images = [\"surface\"]", "images = \"surface\"", 42, "\"surface\"",
-     "output.images must be a list of some of \"surface\", \"contour\", \"heatmap\", found the string \"surface\""},
-    {"images = [\"surface\"]", "images = [\"error\"]", 42, "\"error\"",
-     "unknown value \"error\" for entry 1 of output.images", "known values: \"surface\", \"contour\", \"heatmap\""},
+     "output.images must be a list of some of \"surface\", \"contour\", \"heatmap\", \"slices\", \"projection\", "
+     "\"isosurface\", \"error\", found the string \"surface\""},
+    {"images = [\"surface\"]", "images = [\"colour\"]", 42, "\"colour\"",
+     "unknown value \"colour\" for entry 1 of output.images; did you mean \"contour\"?",
+     "known values: \"surface\", \"contour\", \"heatmap\", \"slices\", \"projection\", \"isosurface\", \"error\""},
+    {"images = [\"surface\"]", "images = [\"surface\", \"slices\"]", 42, "\"slices\"",
+     "\"slices\" shows scenes in 3D; the domain has 2 dimensions",
+     "pictures in 2D: \"surface\", \"contour\", \"heatmap\", \"error\""},
 };
 
 TEST(CaseFile, RefusesEachWrongInputWithPlaceRuleAndRemedy) {
@@ -320,17 +325,53 @@ TEST(CaseFile, RefusesAVelocityThatIsNoTable) {
 1 error in cone.toml)text");
 }
 
-TEST(CaseFile, RefusesPicturesOf3DScenes) {
-  EXPECT_EQ(errors(least + "[output]\nimages = [\"contour\"]\n"),
-            R"text(error: there are no pictures of 3D scenes yet; output.images must be [] or left out
-  --> cone.toml:15:10
+TEST(CaseFile, RefusesPicturesOfTheOtherDimension) {
+  EXPECT_EQ(errors(least + "[output]\nimages = [\"slices\", \"contour\"]\n"),
+            R"text(error: "contour" shows scenes in 2D; the domain has 3 dimensions
+  --> cone.toml:15:21
    |
-15 | images = ["contour"]
-   |          ^^^^^^^^^^^
-   = output.vtk = ["density", "particles"] opens in ParaView
+15 | images = ["slices", "contour"]
+   |                     ^^^^^^^^^
+   = pictures in 3D: "slices", "projection", "isosurface", "error"
 
 1 error in cone.toml)text");
   EXPECT_EQ(errors(least + "[output]\nimages = []\n"), "");
+}
+
+/// A table that follows the cone's, and the message about it.
+struct WrongEnd {
+  std::string tables, message;
+};
+
+TEST(CaseFile, RefusesAReferenceThatContradictsItself) {
+  for (const WrongEnd& wrong : std::vector<WrongEnd>{
+           {"[reference]\nkind = \"exact\"\n", "kind = \"exact\" needs the exact density as \"rho\""},
+           {"[reference]\nrho = \"x\"\n", "\"rho\" goes with kind = \"exact\", not with \"characteristics\""},
+           {"[reference]\nkind = \"none\"\nrho = \"x\"\n", "\"rho\" goes with kind = \"exact\", not with \"none\""},
+           {"[reference]\nkind = \"exact\"\nrho = \"x +\"\n", "--> cone.toml:45:"},
+           {"[reference]\nkind = \"exact\"\nrho = \"z\"\n", "z exists only in 3D; the domain has 2 dimensions"},
+           {"[reference]\nkind = \"characteristic\"\n", "did you mean \"characteristics\"?"},
+           {"[reference]\nmethod = 1\n", "unknown key \"method\" in [reference]; it belongs in [time] or [evaluate]"}})
+    EXPECT_NE(errors(cone + wrong.tables).find(wrong.message), std::string::npos) << errors(cone + wrong.tables);
+  const std::string pictures = with(cone, "images = [\"surface\"]", "images = [\"error\"]");
+  EXPECT_EQ(errors(pictures), "");
+  EXPECT_NE(errors(pictures + "[reference]\nkind = \"none\"\n")
+                .find("the picture \"error\" needs an exact density, but reference.kind is \"none\""),
+            std::string::npos);
+}
+
+TEST(CaseFile, RefusesChecksThatCannotBeJudged) {
+  for (const WrongEnd& wrong : std::vector<WrongEnd>{
+           {"[[check]]\nmax = 1\n", "[check] has none of \"what\""},
+           {"[[check]]\nwhat = \"L3\"\nmax = 1\n", "unknown value \"L3\" for check.what"},
+           {"[[check]]\nwhat = \"L2\"\n", "a check needs \"max\" or \"min\", or both"},
+           {"[[check]]\nwhat = \"L2\"\nmax = 1\nmin = 2\n", "no number is at least 2 and at most 1"},
+           {"[[check]]\nwhat = \"L2\"\nmaximum = 1\n", "unknown key \"maximum\" in [check]"},
+           {"[[check]]\nwhat = \"L2\"\nmax = 1\nat = 0.1\n", "check.at = 0.1 is none of the output times"},
+           {"[[check]]\nwhat = \"L2\"\nmax = 1\n[reference]\nkind = \"none\"\n",
+            "L2 needs an exact density, but reference.kind is \"none\""}})
+    EXPECT_NE(errors(cone + wrong.tables).find(wrong.message), std::string::npos) << errors(cone + wrong.tables);
+  EXPECT_EQ(errors(cone + "[[check]]\nwhat = \"mass\"\nmin = 1\n[reference]\nkind = \"none\"\n"), "");
 }
 
 TEST(CaseFile, RefusesALatticeThatRoundingWouldSwallow) {

@@ -54,7 +54,8 @@ std::string csv(const std::string& header, const Rows& rows) {
   return text;
 }
 
-/// d^n/dx^n exp(-sigma x^2) = (-1)^n sigma^(n/2) H_n(sqrt(sigma) x) exp(-sigma x^2),  H_{n+1}(t) = 2 t H_n - 2 n H_{n-1}
+/// d^n/dx^n exp(-sigma x^2) = (-1)^n sigma^(n/2) H_n(sqrt(sigma) x) exp(-sigma x^2),  H_{n+1}(t) = 2 t H_n - 2 n
+/// H_{n-1}
 double gaussian(double x, double sigma, int n) {
   const double t = std::sqrt(sigma) * x;
   double before = 0, now = 1;
@@ -100,8 +101,9 @@ TEST(Sum, MatchesTheFormulaInOneToFourDimensions) {
     std::string list = std::to_string(mixed[0]), plain = "0";
     for (int k = 1; k < d; ++k) list.append(",").append(std::to_string(mixed[k])), plain.append(",0");
     const double sigma = 3;
-    const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --targets T.csv --sigma 3 --tolerance 1e-9 --derivative " +
-                                                  list + " --derivative " + plain);
+    const Outcome sum =
+        gaussdrift_in(folder, "sum --sources S.csv --targets T.csv --sigma 3 --tolerance 1e-9 --derivative " + list +
+                                  " --derivative " + plain);
     ASSERT_EQ(sum.exit_code, 0) << sum.err;
     const Table table = table_of(sum.out);
     ASSERT_EQ(table.rows.size(), targets.size());
@@ -118,8 +120,12 @@ TEST(Sum, NamesColumnsByDerivativeAndKeepsTheirOrder) {
   const ScratchFolder folder;
   write_file(folder / "S.csv", csv(headers[3], points(5, 4)));
   EXPECT_EQ(table_of(gaussdrift_in(folder, "sum --sources S.csv --sigma 2").out).header, "d_0_0_0");
-  EXPECT_EQ(table_of(gaussdrift_in(folder, "sum --sources S.csv --sigma 2 --derivative 0,1,2 --derivative=10,0,0 --derivative 0,0,0").out).header,
-            "d_0_1_2,d_10_0_0,d_0_0_0");
+  EXPECT_EQ(
+      table_of(gaussdrift_in(folder,
+                             "sum --sources S.csv --sigma 2 --derivative 0,1,2 --derivative=10,0,0 --derivative 0,0,0")
+                   .out)
+          .header,
+      "d_0_1_2,d_10_0_0,d_0_0_0");
 }
 
 TEST(Sum, TakesTheSourcesAsTargets) {
@@ -130,7 +136,7 @@ TEST(Sum, TakesTheSourcesAsTargets) {
   ASSERT_EQ(two.exit_code, 0) << two.err;
   const Table table = table_of(two.out);
   ASSERT_EQ(table.rows.size(), 2u);
-  EXPECT_NEAR(table.rows[0][0], 2 - std::exp(-1), 1e-15);      // distance 1/2, each source counts for itself: rounding
+  EXPECT_NEAR(table.rows[0][0], 2 - std::exp(-1), 1e-15);  // distance 1/2, each source counts for itself: rounding
   EXPECT_NEAR(table.rows[1][0], -1 + 2 * std::exp(-1), 1e-15);
 }
 
@@ -138,7 +144,8 @@ TEST(Sum, RunsAlongTheFirstAxisOfAGridFastest) {
   const ScratchFolder folder;
   const Rows sources = points(30, 3);
   write_file(folder / "S.csv", csv(headers[2], sources));
-  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --grid=-1:1:5,0:3:4 --sigma 2 --derivative 1,0 --tolerance 1e-11");
+  const Outcome sum =
+      gaussdrift_in(folder, "sum --sources S.csv --grid=-1:1:5,0:3:4 --sigma 2 --derivative 1,0 --tolerance 1e-11");
   ASSERT_EQ(sum.exit_code, 0) << sum.err;
   const Table table = table_of(sum.out);
   ASSERT_EQ(table.rows.size(), 20u);
@@ -161,14 +168,16 @@ TEST(Sum, KeepsThePromiseWithEveryMethod) {
   int methods = 0;
   for (std::string name; names >> name; ++methods) {
     if (name.back() == ',') name.pop_back();
-    const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 30 --tolerance 1e-8 --derivative 1,1 --out V.csv --json --method " + name);
+    const Outcome sum = gaussdrift_in(
+        folder, "sum --sources S.csv --sigma 30 --tolerance 1e-8 --derivative 1,1 --out V.csv --json --method " + name);
     ASSERT_EQ(sum.exit_code, 0) << name << sum.err;
     EXPECT_EQ(nlohmann::json::parse(sum.out)["method_asked"], name);
     const Table table = table_of(read_file(folder / "V.csv"));
     ASSERT_EQ(table.rows.size(), sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i)
       EXPECT_NEAR(table.rows[i][0], exact(sources, sources[i], 30, {1, 1}),
-                  1e-8 * weight_total(sources) * scale(30, {1, 1})) << name;  // the promise
+                  1e-8 * weight_total(sources) * scale(30, {1, 1}))
+          << name;  // the promise
   }
   EXPECT_GE(methods, 3);  // auto, direct, hermite
 }
@@ -194,7 +203,9 @@ TEST(Sum, TellsWhatWasChosenAsJson) {
   const ScratchFolder folder;
   const Rows sources = points(500, 3);
   write_file(folder / "S.csv", csv(headers[2], sources));
-  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --grid=0:1:40,0:1:30 --sigma 100 --derivative 2,0 --method hermite --tolerance 1e-7 --threads 1 --out V.csv --json");
+  const Outcome sum = gaussdrift_in(folder,
+                                    "sum --sources S.csv --grid=0:1:40,0:1:30 --sigma 100 --derivative 2,0 --method "
+                                    "hermite --tolerance 1e-7 --threads 1 --out V.csv --json");
   ASSERT_EQ(sum.exit_code, 0) << sum.err;
   EXPECT_EQ(sum.err, "");
   const auto json = nlohmann::json::parse(sum.out);
@@ -211,7 +222,8 @@ TEST(Sum, TellsWhatWasChosenAsJson) {
   const double total = weight_total(sources);
   EXPECT_NEAR(json["Q"].get<double>(), total, 1e-12 * total);  // rounding of 500 terms
   EXPECT_LE(json["error_bounds"]["d_2_0"].get<double>(), (1e-7 + 3e-14) * total * scale(100, {2, 0}) * (1 + 1e-9));
-  for (const char* stage : {"read", "prepare", "evaluate", "write"}) EXPECT_GE(json["seconds"][stage].get<double>(), 0) << stage;
+  for (const char* stage : {"read", "prepare", "evaluate", "write"})
+    EXPECT_GE(json["seconds"][stage].get<double>(), 0) << stage;
   EXPECT_EQ(table_of(read_file(folder / "V.csv")).rows.size(), 1200u);
 }
 
@@ -229,7 +241,8 @@ TEST(Sum, ReplacesAnEarlierResultAndLeavesNothingBeside) {
 TEST(Sum, WritesIntoPipesAndDevicesWithoutReplacingThem) {
   const ScratchFolder folder;
   write_file(folder / "S.csv", "x,weight\n0,1\n");
-  const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 1 --out pipe >said & cat pipe; wait", "mkfifo pipe;");
+  const Outcome sum =
+      gaussdrift_in(folder, "sum --sources S.csv --sigma 1 --out pipe >said & cat pipe; wait", "mkfifo pipe;");
   ASSERT_EQ(sum.exit_code, 0) << sum.err;
   EXPECT_EQ(sum.out, "d_0\n1\n");
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
@@ -251,12 +264,14 @@ TEST(Sum, RefusesAWrongCommandLine) {
       {"--sources S.csv --sigma 2 --tolerance 1", "--tolerance 1: must lie in"},
       {"--sources S.csv --sigma 2 --tolerance -1e-3", "--tolerance -0.001: must lie in"},
       {"--sources S.csv --sigma 2 --threads 0", "--threads"},
-      {"--sources S.csv --sigma 2 --derivative 0,1,2", "--derivative 0,1,2 has 3 numbers, but the sources have 2 (x, y)"},
+      {"--sources S.csv --sigma 2 --derivative 0,1,2",
+       "--derivative 0,1,2 has 3 numbers, but the sources have 2 (x, y)"},
       {"--sources S.csv --sigma 2 --derivative 1", "--derivative 1 has 1 number, but"},
       {"--sources S.csv --sigma 2 --derivative=-1,0", "\"-1\" in \"-1,0\" is not an order"},
       {"--sources S.csv --sigma 2 --derivative 1,,0", "\"\" in \"1,,0\" is not an order"},
       {"--sources S.csv --sigma 2 --derivative 1.5,0", "\"1.5\" in \"1.5,0\" is not an order"},
-      {"--sources S.csv --sigma 2 --derivative 1,0 --derivative 0,0 --derivative 1,0", "--derivative 1,0 is there twice"},
+      {"--sources S.csv --sigma 2 --derivative 1,0 --derivative 0,0 --derivative 1,0",
+       "--derivative 1,0 is there twice"},
       {"--sources S.csv --sigma 2 --derivative 2000000000,2000000000", "must lie in 0 .. 16"},
       {"--sources S.csv --sigma 1e300 --derivative 8,8", "fgtd: "},
       {"--sources S.csv --sigma 2 --grid=0:1:3", "--grid has 1 axis, but"},
@@ -330,8 +345,9 @@ TEST(Sum, ExitsWith6WhereFilesFail) {
   write_file(folder / "S.csv", "x,weight\n0,1\n");
   write_file(folder / "file", "");
   fs::create_directory(folder / "folder");
-  for (const char* arguments : {"--sources none.csv", "--sources folder", "--sources S.csv --targets none.csv", "--sources S.csv --out folder",
-                                "--sources S.csv --out file/V.csv", "--sources S.csv --out /dev/full", "--sources S.csv >/dev/full"}) {
+  for (const char* arguments :
+       {"--sources none.csv", "--sources folder", "--sources S.csv --targets none.csv", "--sources S.csv --out folder",
+        "--sources S.csv --out file/V.csv", "--sources S.csv --out /dev/full", "--sources S.csv >/dev/full"}) {
     const Outcome refused = gaussdrift_in(folder, std::string("sum --sigma 2 ") + arguments);
     EXPECT_EQ(refused.exit_code, 6) << arguments << "\n" << refused.err;
     EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;

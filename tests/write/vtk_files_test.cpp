@@ -120,6 +120,27 @@ TEST(DensityFile, OfThreeDimensionsIsReadBack) {
   EXPECT_NE(text.find("array rho double 1" + numbers(density.rho) + "\n"), std::string::npos) << text;
 }
 
+TEST(DensityFile, HasTheExactDensityAndTheErrorBesideIt) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  const Folder folder;
+  const auto density = some_density(2, {0, 0, 0}, {1, 0.5, 0}, 5);
+  std::vector<double> exact, error;
+  for (const double value : density.rho) {
+    exact.push_back(0.9 * value);
+    error.push_back(value - exact.back());
+  }
+  write_density(folder / "rho.vti", density, 0, &exact);
+  Collection(folder / "rho.pvd").add(0, folder / "rho.vti");
+  const std::string text = read_series(python, folder / "rho.pvd");
+  EXPECT_NE(text.find("scalars rho\n"), std::string::npos) << "what ParaView shows first";
+  EXPECT_NE(text.find("array rho double 1" + numbers(density.rho) + "\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("array rho_exact double 1" + numbers(exact) + "\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("array error double 1" + numbers(error) + "\n"), std::string::npos) << text;
+  exact.pop_back();
+  EXPECT_THROW(write_density(folder / "rho.vti", density, 0, &exact), Error);
+}
+
 TEST(ParticleFile, IsReadByParaViewsReaderDigitByDigit) {
   const std::string python = python_with_vtk();
   if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
@@ -171,7 +192,8 @@ TEST(VtkFiles, AreWellFormedXmlThroughout) {
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(text.find("AppendedData"), std::string::npos);
   EXPECT_EQ(text.find("compressor"), std::string::npos);
-  EXPECT_TRUE(std::all_of(text.begin(), text.end(), [](unsigned char c) { return c == '\n' || (c >= ' ' && c < 127); }));
+  EXPECT_TRUE(
+      std::all_of(text.begin(), text.end(), [](unsigned char c) { return c == '\n' || (c >= ' ' && c < 127); }));
 }
 
 TEST(VtkFiles, RefuseArraysOfTheWrongLength) {

@@ -26,6 +26,7 @@ class Rotation : public VelocityField {
   }
 
   bool is_solenoidal() const override { return true; }
+  bool is_steady() const override { return true; }
 
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
     const double angle = rate_ * (to - from), c = std::cos(angle), s = std::sin(angle);

@@ -1,0 +1,29 @@
+// What a case says its results have to be: every [[check]] against the numbers of the outputs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gaussdrift/case.hpp"
+#include "sim/frame.hpp"
+
+namespace gaussdrift {
+
+struct CheckResult {
+  CheckSpec check;
+  double value = 0;  // farthest beyond a limit, or nearest to it if none is passed; NaN where it cannot be judged
+  double time = 0;   // of that output
+  bool passed = false;
+  std::string text;  // "Linf = 0.0261 at t = 6.28319, at most 0.03"
+};
+
+/// "Linf", "L1", "L2", "mass".
+std::string to_string(CheckSpec::Quantity quantity);
+
+/// One result a check, over all outputs or the one it names. A norm that is not known, or that leaves out points
+/// without a past, fails. `frames`: time and numbers of each output, the first one being the start that "mass" is
+/// relative to.
+std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass_at_start,
+                               const std::vector<std::pair<double, FrameNumbers>>& frames);
+
+}  // namespace gaussdrift
