@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "base/error.hpp"
@@ -104,6 +105,26 @@ double time_steps(const Case& description, const Scene& scene, const Particles& 
   return fastest;
 }
 
+// Seconds of the reference of all outputs, from tracing a thousand points of a coarser grid to the last one.
+double time_reference(const Case& description, int threads) {
+  if (description.reference.kind == ReferenceSpec::Kind::none) return 0;
+  Case coarse = description;
+  coarse.evaluate.per_axis = std::min(description.evaluate.per_axis, description.domain.dimension == 2 ? 32 : 10);
+  const Scene scene = make_scene(coarse);
+  const auto reference = make_reference(coarse, scene, threads);
+  const auto& times = description.output.times;
+  std::vector<double> rho;
+  const base::Stopwatch watch;
+  reference->evaluate(times.back(), rho);
+  double outputs = 1;  // in units of the last one: a flow that depends on t is traced to the start for each
+  if (description.reference.kind == ReferenceSpec::Kind::exact)
+    outputs = static_cast<double>(times.size());
+  else if (!scene.velocity->is_steady() && times.back() > 0)
+    outputs = std::accumulate(times.begin(), times.end(), 0.0) / times.back();
+  const Lattice full = make_scene(description).evaluation;
+  return watch.seconds() * outputs * static_cast<double>(full.size()) / static_cast<double>(scene.evaluation.size());
+}
+
 bool wants(const Case& scene, OutputSpec::Vtk kind) {
   return std::find(scene.output.vtk.begin(), scene.output.vtk.end(), kind) != scene.output.vtk.end();
 }
@@ -133,6 +154,7 @@ Description describe(const Case& description, int threads) {
   const Scene scene = make_scene(description);
   const Particles particles = seed_scene(scene, threads);
   result.velocity = scene.velocity->describe();
+  result.initial_density = scene.density->describe();
   result.lattice_points = scene.seeding.size();
   result.particles = particles.size();
   result.grid_points = scene.evaluation.size();
@@ -149,6 +171,7 @@ Description describe(const Case& description, int threads) {
   const DensityGrid density = evaluate_density(particles, scene.cutoff, scene.evaluation, options, &result.density);
   result.density_maximum = *std::max_element(density.rho.begin(), density.rho.end());
   result.step_seconds = time_steps(description, scene, particles, threads);
+  result.reference_seconds = time_reference(description, threads);
   result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
 
   const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
@@ -157,7 +180,7 @@ Description describe(const Case& description, int threads) {
   const auto frames = static_cast<double>(result.frames), n = static_cast<double>(result.particles),
              m = static_cast<double>(result.grid_points), d = static_cast<double>(description.domain.dimension);
   result.seconds = static_cast<double>(result.steps) * result.step_seconds + frames * result.evaluate_seconds +
-                   result.picture_seconds;
+                   result.reference_seconds + result.picture_seconds;
   // Positions, weights, ids, a stepped copy, the sorted copy of the transform; density, its transform's result and
   // sample.
   result.memory_bytes = n * 8 * (4 * d + 6) + m * 8 * 3 + (pictures > 0 ? 3e8 + frames * m * 4 : 0);
@@ -182,6 +205,7 @@ std::string to_text(const Case& scene, const Description& r) {
   if (!scene.title.empty())
     text += fmt::format("title      {}{}\n", scene.title, scene.cite.empty() ? "" : ", after " + scene.cite);
   text += fmt::format("velocity   {}\n", r.velocity);
+  text += fmt::format("density    {}\n", r.initial_density);
   text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n",
                       grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
                       scene.particles.cutoff, grouped(r.particles));
@@ -192,15 +216,14 @@ std::string to_text(const Case& scene, const Description& r) {
   if (r.density.achievable > scene.evaluate.tolerance)
     text +=
         fmt::format("           this tolerance cannot be promised here: the bound is {:.1e}\n", r.density.achievable);
-  text += fmt::format("density    max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum,
+  text += fmt::format("           max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum,
                       grouped(r.grid_points));
   text += fmt::format(
       "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (steps {:.2g}, density "
-      "{:.2g}, "
-      "pictures {:.2g}); memory {}; disk {}\n",
+      "{:.2g}, reference {:.2g}, pictures {:.2g}); memory {}; disk {}\n",
       grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads,
       static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
-      r.picture_seconds, bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
+      r.reference_seconds, r.picture_seconds, bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
   return text;
 }
 
@@ -208,6 +231,8 @@ std::string to_json(const Case& scene, const Description& r) {
   const nlohmann::ordered_json document{{"case", scene.name},
                                         {"dimension", scene.domain.dimension},
                                         {"velocity", r.velocity},
+                                        {"density", r.initial_density},
+                                        {"reference", to_string(scene.reference.kind)},
                                         {"largest_speed", r.largest_speed},
                                         {"largest_divergence", r.largest_divergence},
                                         {"effects", {"transport"}},
@@ -225,6 +250,7 @@ std::string to_json(const Case& scene, const Description& r) {
                                           {"achievable", r.density.achievable}}},
                                         {"predicted",
                                          {{"seconds", r.seconds},
+                                          {"reference_seconds", r.reference_seconds},
                                           {"memory_bytes", r.memory_bytes},
                                           {"disk_bytes", r.disk_bytes},
                                           {"threads", r.threads}}}};

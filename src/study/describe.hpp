@@ -11,6 +11,7 @@ namespace gaussdrift::study {
 
 struct Description {
   std::string velocity;           // formula
+  std::string initial_density;    // formula, smoothness, mass where it is known
   double largest_speed = 0;       // of |u| at the particles, over sampled times
   double largest_divergence = 0;  // of |div u| there, by central differences
   double divergence_noise = 0;    // what those differences cannot tell from 0
@@ -19,7 +20,7 @@ struct Description {
   DensityReport density;       // of a trial evaluation at t = 0
   double density_maximum = 0;  // rho_eps^h on the grid at t = 0
   // Predictions
-  double step_seconds = 0, evaluate_seconds = 0, picture_seconds = 0, seconds = 0;
+  double step_seconds = 0, evaluate_seconds = 0, reference_seconds = 0, picture_seconds = 0, seconds = 0;
   double memory_bytes = 0, disk_bytes = 0;
   int threads = 1;
 };
