@@ -44,6 +44,18 @@ std::array<Panel, 3> arrange(const Canvas& canvas, const Lattice& lattice) {
       {{0, 1, {x, y, side(0), side(1)}}, {0, 2, {x, above, side(0), side(2)}}, {2, 1, {beside, y, side(2), side(1)}}}};
 }
 
+/// Leaves every second tick where the numbers would run into each other.
+Axis spaced(Axis axis, double pixels, const Scale& scale) {
+  std::vector<Tick>& ticks = axis.ticks.list;
+  double widest = 0;
+  for (const Tick& tick : ticks) widest = std::max(widest, Canvas::text_width(tick.label, scale.font(18)));
+  const double apart = pixels * axis.ticks.step / (axis.max - axis.min);
+  if (ticks.size() > 2 && apart < widest + scale(8))
+    std::erase_if(
+        ticks, [&](const Tick& tick) { return std::lround((tick.at - axis.ticks.offset) / axis.ticks.step) % 2 != 0; });
+  return axis;
+}
+
 void draw_panel(Canvas& canvas, const Panel& panel, const Plane& plane, const ColourRange& range,
                 const std::string& caption) {
   const Scale scale(canvas);
@@ -57,8 +69,9 @@ void draw_panel(Canvas& canvas, const Panel& panel, const Plane& plane, const Co
 
   const auto intervals = [&](double length) { return std::clamp(static_cast<int>(length / scale(75)), 1, 6); };
   draw_axes(canvas, room,
-            short_axis(axis_names[static_cast<std::size_t>(panel.across)], field.x_min,
-                       field.x_min + field.width * field.length, intervals(room.width)),
+            spaced(short_axis(axis_names[static_cast<std::size_t>(panel.across)], field.x_min,
+                              field.x_min + field.width * field.length, intervals(room.width)),
+                   room.width, scale),
             short_axis(axis_names[static_cast<std::size_t>(panel.up)], field.y_min,
                        field.y_min + field.depth * field.length, intervals(room.height)));
   canvas.text({room.x, room.top() + scale(9)}, caption,

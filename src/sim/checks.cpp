@@ -37,9 +37,8 @@ double excess(const CheckSpec& check, double value) {
 }
 
 std::string limits_text(const CheckSpec& check) {
-  if (check.min && check.max) return fmt::format("between {:.10g} and {:.10g}", *check.min, *check.max);
-  return check.max ? fmt::format("at most {:.10g}", *check.max)
-                   : fmt::format("at least {:.10g}", check.min.value_or(0));
+  if (check.min && check.max) return fmt::format("between {} and {}", *check.min, *check.max);
+  return check.max ? fmt::format("at most {}", *check.max) : fmt::format("at least {}", check.min.value_or(0));
 }
 
 }  // namespace
@@ -76,7 +75,7 @@ std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass
     if (!seen) result.value = nan;
     result.passed = seen && worst <= 0;
     // Enough digits that a value and the limit it missed do not look the same.
-    result.text = fmt::format("{} = {:.10g} at t = {:.6g}, {} {}", to_string(check.what), result.value, result.time,
+    result.text = fmt::format("{} = {:.15g} at t = {:.6g}, {} {}", to_string(check.what), result.value, result.time,
                               result.passed ? "is" : "must be", limits_text(check));
     if (std::isnan(result.value)) result.text += "; it is not known there";
     results.push_back(std::move(result));
