@@ -94,7 +94,7 @@ struct HermiteParameters {
 
 struct Options {
   double tolerance = 1e-6;            // of each Gaussian term, see Plan; smallest_tolerance <= tolerance < 1
-  int derivative_order = 0;           // highest |alpha| that evaluate() can return
+  int derivative_order = 0;           // highest |alpha| that evaluate() can return; above 12 for tolerance <= 1e-4
   Method method = Method::automatic;  //
   int threads = 0;                    // 0: all
   std::size_t memory_limit = std::size_t{8} << 30;  // bytes that plan and evaluation may hold together

@@ -104,6 +104,11 @@ void check_options(const Options& options, std::size_t dimension) {
     throw InvalidArgument("fgtd: Options::derivative_order = " + std::to_string(options.derivative_order) +
                           ", must lie in 0 .. " + std::to_string(max_derivative_order));
   }
+  if (options.derivative_order > any_tolerance_order && tolerance > high_order_tolerance && !options.hermite) {
+    throw ToleranceError("fgtd: Options::tolerance = " + text(tolerance) +
+                         " cannot be promised for derivatives above order " + std::to_string(any_tolerance_order) +
+                         ", must be at most " + text(high_order_tolerance) + " there");
+  }
   if (options.threads < 0) {
     throw InvalidArgument("fgtd: Options::threads = " + std::to_string(options.threads) +
                           ", must be positive, or 0 for all");

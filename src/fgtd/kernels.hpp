@@ -12,9 +12,14 @@ constexpr std::size_t group_size = 16;
 /// The largest dimension of a Plan.
 constexpr int max_dimension = 4;
 
-/// Highest derivative_order. Up to here no factor overflows, and terms beyond the range of exp() fade fast enough for
-/// the promise.
+/// Highest derivative_order: no factor overflows up to here.
 constexpr int max_derivative_order = 16;
+
+/// Beyond the range of exp(), sigma r^2 > 708, a term counts as 0. That fades as promised if |E_alpha(t)| exp(t^2), a
+/// polynomial, is at most tolerance exp(L) = exp(40) / tolerance as long as the term is above the smallest double, which is
+/// until t^2 = 1500. It is below 8e16 for orders up to 12, and below 2e21 up to 16.
+constexpr int any_tolerance_order = 12;
+constexpr double high_order_tolerance = 1e-4;
 
 /// Factors of the recurrence of the scaled Hermite functions h~_n = h_n / sqrt(2^n n!):
 ///   h~_{n+1}(t) = up[n] t h~_n(t) - back[n] h~_{n-1}(t),   up[n] = sqrt(2/(n+1)), back[n] = sqrt(n/(n+1))

@@ -103,8 +103,9 @@ struct Errors {
 /// What fgtd promises for one term of scale N_alpha at sigma r^2 = squared. `rounding`: 3e-14 N_alpha, which fades too;
 /// far away relative to the term.
 inline double promised(double tolerance, double scale, double squared, double exact, double rounding = 3e-14) {
-  const double limit = 2 * std::log(1 / tolerance) + 40;
-  return (tolerance + rounding) * scale * std::exp(std::min(0.0, limit - squared)) + 1e-12 * std::abs(exact) + 1e-300;
+  const long double limit = 2 * std::log(1 / tolerance) + 40;  // long: a large scale outlasts what a double fades to
+  const long double fading = std::exp(std::min(0.0L, limit - squared));
+  return static_cast<double>((tolerance + rounding) * scale * fading) + 1e-12 * std::abs(exact) + 1e-300;
 }
 
 /// values [points][watched], a block of the result of a Plan with Scene::weights().

@@ -83,6 +83,11 @@ TEST(FgtdInput, OptionsAreInTheirRanges) {
   Arguments arguments;
   arguments.options.derivative_order = -1;
   EXPECT_EQ(refusal(arguments), "fgtd: Options::derivative_order = -1, must lie in 0 .. 16");
+  arguments.options.derivative_order = 13;
+  arguments.options.tolerance = 1e-3;
+  EXPECT_EQ(message<fgtd::ToleranceError>([&] { arguments.plan(); }),
+            "fgtd: Options::tolerance = 0.001 cannot be promised for derivatives above order 12, must be at most 1e-04 "
+            "there");
   arguments.options = {};
   arguments.options.threads = -2;
   EXPECT_EQ(refusal(arguments), "fgtd: Options::threads = -2, must be positive, or 0 for all");

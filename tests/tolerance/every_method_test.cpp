@@ -244,7 +244,7 @@ TEST_P(EveryMethod, KeepsItsPromiseForHighDerivatives) {
       square.run(tolerance, {alpha}, grid);
       grid = !grid;
     }
-    line.run(tolerance, {{16}}, grid);
+    line.run(std::min(tolerance, 1e-4), {{16}}, grid);  // what may be asked for above order 12
     cube.run(tolerance, {{0, 5, 1}}, grid);
   }
   report(GetParam(), record);
