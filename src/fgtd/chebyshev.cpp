@@ -153,35 +153,51 @@ AxisMatrices grid_matrices(const std::vector<double>& nodes, const std::vector<d
   return matrices;
 }
 
-/// Lowest and highest coordinates of points [count][d], count > 0. Several points side by side, so that no comparison
-/// waits for the one before.
+/// Lowest and highest coordinates.
 template <int d>
-std::pair<std::array<double, d>, std::array<double, d>> bounding_box(const double* points, std::size_t count) {
-  constexpr std::size_t together = 4;
-  double low[together * d], high[together * d];
-  for (std::size_t i = 0; i < together * d; ++i) low[i] = high[i] = points[i % d];
-  std::size_t j = 0;
-  for (; j + together <= count; j += together)
-    for (std::size_t i = 0; i < together * d; ++i) {
-      const double x = points[j * d + i];
-      low[i] = x < low[i] ? x : low[i];
-      high[i] = x > high[i] ? x : high[i];
-    }
-  for (; j < count; ++j)
+struct BoundingBox {
+  std::array<double, d> low, high;
+
+  void include(const double* point) {
     for (std::size_t l = 0; l < d; ++l) {
-      low[l] = std::min(low[l], points[j * d + l]);
-      high[l] = std::max(high[l], points[j * d + l]);
-    }
-  std::pair<std::array<double, d>, std::array<double, d>> box;
-  for (std::size_t l = 0; l < d; ++l) {
-    box.first[l] = low[l];
-    box.second[l] = high[l];
-    for (std::size_t i = l; i < together * d; i += d) {
-      box.first[l] = std::min(box.first[l], low[i]);
-      box.second[l] = std::max(box.second[l], high[i]);
+      low[l] = std::min(low[l], point[l]);
+      high[l] = std::max(high[l], point[l]);
     }
   }
-  return box;
+};
+
+/// Of points [count][d], count > 0. Several points side by side, so that no comparison waits for the one before.
+template <int d>
+BoundingBox<d> bounding_box(const double* points, std::size_t count, int threads) {
+  constexpr std::size_t together = 4, piece_points = 1 << 15;
+  const std::size_t pieces = (count + piece_points - 1) / piece_points;
+  std::vector<BoundingBox<d>> part(pieces);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
+    const double* from = points + piece * piece_points * d;
+    const std::size_t size = std::min(piece_points, count - piece * piece_points);
+    double low[together * d], high[together * d];
+    for (std::size_t i = 0; i < together * d; ++i) low[i] = high[i] = from[i % d];
+    std::size_t j = 0;
+    for (; j + together <= size; j += together)
+      for (std::size_t i = 0; i < together * d; ++i) {
+        const double x = from[j * d + i];
+        low[i] = x < low[i] ? x : low[i];
+        high[i] = x > high[i] ? x : high[i];
+      }
+    BoundingBox<d>& box = part[piece];
+    std::copy_n(low, d, box.low.begin());
+    std::copy_n(high, d, box.high.begin());
+    for (std::size_t k = 1; k < together; ++k) {
+      box.include(low + k * d);
+      box.include(high + k * d);
+    }
+    for (; j < size; ++j) box.include(from + j * d);
+  });
+  for (const BoundingBox<d>& box : part) {
+    part[0].include(box.low.data());
+    part[0].include(box.high.data());
+  }
+  return part[0];
 }
 
 /// Numbers of target boxes that are computed at a time.
@@ -426,7 +442,7 @@ template <int d>
 void ChebyshevSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count,
                                double* values) const {
   if (request.combinations.size() * columns_ == 0 || count == 0) return;
-  const auto [low, high] = bounding_box<d>(targets, count);
+  const auto [low, high] = bounding_box<d>(targets, count, threads_);
   // boxes that hold targets, as far as sources are in their reach
   BoxRange<d> range{{}, {}, axes_downwards<d>()};
   for (std::size_t l = 0; l < d; ++l) {
@@ -521,7 +537,7 @@ void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const double* ta
   const std::size_t outputs = request.combinations.size() * columns_;
   const Lattice<d>& lattice = plan_.lattice;
   const std::array<AxisMatrices, d> matrices = matrices_between_boxes(request);
-  const auto [lowest, highest] = bounding_box<d>(targets, count);
+  const auto [lowest, highest] = bounding_box<d>(targets, count, threads_);
   BoxIndex<d> low, high;
   for (std::size_t l = 0; l < d; ++l) {
     const std::int64_t n = neighbours(l);

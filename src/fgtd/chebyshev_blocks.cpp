@@ -91,10 +91,11 @@ class Block {
         const BoxIndex<d>* most)
       : boxes_(static_cast<std::size_t>(range.count())),
         first_(boxes_ + 2),
-        order_(columns == 0 ? block_points : 0),
-        key_(block_points + sort_padding),
-        local_(record_numbers * (2 * block_points + sort_padding)),
-        weight_(columns * block_points) {
+        points_(block_points(range.count())),
+        order_(columns == 0 ? points_ : 0),
+        key_(points_ + sort_padding),
+        local_(record_numbers * (2 * points_ + sort_padding)),
+        weight_(columns * points_) {
     double step = 1;
     for (std::size_t j = d; j-- > 0;) {
       const std::size_t l = static_cast<std::size_t>(range.axis[j]);
@@ -110,7 +111,7 @@ class Block {
     job_.dimension = d;
     job_.boxes = boxes_;
     job_.columns = columns;
-    job_.weight_stride = block_points;
+    job_.weight_stride = points_;
   }
 
   void sort(const PointView& points, std::size_t begin, std::size_t count, const double* weights) {
@@ -118,7 +119,7 @@ class Block {
     job_.order = job_.columns == 0 ? order_.data() : nullptr;
     job_.key = key_.data();
     job_.local = local_.data();
-    job_.unsorted = local_.data() + record_numbers * block_points;
+    job_.unsorted = local_.data() + record_numbers * points_;
     job_.weight = weight_.data();
     job_.count = count;
     job_.coordinate = points.data + begin * points.point_stride;
@@ -129,7 +130,7 @@ class Block {
     kernels().sort_block(job_);
   }
 
-  std::size_t boxes() const { return boxes_; }
+  std::size_t points() const { return points_; }
   std::size_t first(std::size_t box) const { return first_[box]; }
   const double* local(std::size_t j) const { return local_.data() + record_numbers * j; }
   const double* weight(std::size_t j) const { return weight_.data() + j; }
@@ -139,6 +140,7 @@ class Block {
   SortBlockJob job_{};
   std::size_t boxes_;
   std::vector<std::uint32_t> first_;
+  std::size_t points_;  // of a block
   Buffer<std::uint32_t> order_, key_;
   Buffer<double> local_, weight_;
 };
@@ -199,8 +201,8 @@ void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int node
     std::fill_n(sum, all, 0.0);
     Block<d>& block = scratch.block;
     const std::size_t end = points.count * (piece + 1) / pieces;
-    for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block_points) {
-      block.sort(points, begin, std::min(block_points, end - begin), weights);
+    for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block.points()) {
+      block.sort(points, begin, std::min(block.points(), end - begin), weights);
       for (std::size_t box = 0; box < boxes; ++box)
         for (std::size_t j = block.first(box); j < block.first(box + 1); j += moments_chunk)
           kernels().moments({.dimension = d,
@@ -210,7 +212,7 @@ void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int node
                              .local_stride = record_numbers,
                              .columns = columns,
                              .weights = block.weight(j),
-                             .weight_stride = block_points,
+                             .weight_stride = block.points(),
                              .moments = sum + box * columns * box_numbers,
                              .scratch = scratch.numbers.data()});
     }
@@ -244,7 +246,7 @@ void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const Box
       to_polynomials(at_nodes + at * box_numbers, coefficients.data() + at * box_numbers, scratch.data());
   });
 
-  const std::size_t blocks = (points.count + block_points - 1) / block_points;
+  const std::size_t blocks = (points.count + block_points(range.count()) - 1) / block_points(range.count());
   const std::size_t pieces = std::min<std::size_t>(blocks, 64);
   struct Scratch {
     Block<d> block;
@@ -258,8 +260,8 @@ void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const Box
     Block<d>& block = scratch.block;
     double* found = scratch.found.data();
     const std::size_t end = points.count * (piece + 1) / pieces;
-    for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block_points) {
-      const std::size_t size = std::min(block_points, end - begin);
+    for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block.points()) {
+      const std::size_t size = std::min(block.points(), end - begin);
       block.sort(points, begin, size, nullptr);
       for (std::size_t box = 0; box < boxes; ++box)
         for (std::size_t j = block.first(box); j < block.first(box + 1); j += run_points) {
@@ -286,7 +288,7 @@ void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const Box
 
 namespace {
 double block_bytes(double boxes, double columns) {
-  return static_cast<double>(block_points) * (2 * 4 + 8.0 * (2 * record_numbers + columns)) + 4 * (boxes + 2) + 1024;
+  return static_cast<double>(block_points(boxes)) * (2 * 4 + 8.0 * (2 * record_numbers + columns)) + 4 * (boxes + 2) + 1024;
 }
 }  // namespace
 

@@ -89,7 +89,7 @@ double chebyshev_seconds(const Situation<d>& at, const ChebyshevPlan<d>& plan, c
   const double right = d == 1 ? 0 : std::min(p * p, numbers);
   // points sorted a block at a time into few boxes, and what follows for those boxes
   const auto by_blocks = [&](double points, double all_boxes) {
-    const double runs = std::min(points, (points / block_points + 1) * all_boxes);
+    const double runs = std::min(points, (points / static_cast<double>(block_points(all_boxes)) + 1) * all_boxes);
     return points * (cost::chebyshev_block_sort + d * p * cost::chebyshev_block_basis) +
            runs * cost::chebyshev_block_run;
   };
@@ -136,6 +136,7 @@ double chebyshev_seconds(const Situation<d>& at, const ChebyshevPlan<d>& plan, c
     const double filled = std::ceil(width / 8) * 8 / width;  // lanes paid for one used
     const double products = l == 0 ? 1 : above;
     const double multiplications = l == 0 ? above * p * std::ceil(rows / 8) * 8 : above * rows * p * width * filled;
+    seconds += derivatives * at.columns * outputs * cost::chebyshev_contraction;
     seconds += derivatives * at.columns * outputs * near *
                (links * multiplications * cost::chebyshev_product +
                 products * (cost::chebyshev_call + links * (cost::chebyshev_link + fetch * p * width)));

@@ -139,6 +139,12 @@ std::optional<Decision> cheapest(const Situation<d>& at) {
     if (p > largest_terms) continue;
     const int n = static_cast<int>(std::ceil(reach / scaled_side));
 
+    // At the least every source has its moments and, if scattered, every target one box.
+    const double moments = std::pow(p, d);
+    const double least = at.sources * (cost::point_sort + at.columns * moments * cost::moment_step) +
+                         (at.options.expected_grid ? 0 : targets * at.columns * moments * cost::contract_step);
+    if (least >= std::min(at.to_beat, best.choice.seconds)) continue;
+
     const Occupation<d> seen = count_boxes<d>(at.sample, at.sample_count, side);
     std::array<double, d> nodes;
     for (std::size_t l = 0; l < d; ++l)

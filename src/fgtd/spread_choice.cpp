@@ -13,6 +13,7 @@ namespace fgtd::detail {
 namespace {
 
 constexpr double finest_tolerance = 3e-14;    // below it rounding takes what the window leaves
+constexpr double glance_error = 4;            // factor by which a prediction without a look at the points may be too high
 constexpr double narrow_windows_from = 3e-7;  // tolerances below which a window of one node less serves
 
 /// Nodes of the lattice along each axis.
@@ -89,7 +90,7 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
     windows.emplace_back(spread_seconds<d>(at, {extent}, {at.low}, width, spacing / root, reach), width);
   }
   std::sort(windows.begin(), windows.end());
-  if (windows[0].first > at.to_beat) return std::nullopt;
+  if (windows[0].first > glance_error * at.to_beat) return std::nullopt;
 
   std::shared_ptr<const SpreadFilter> filter;
   for (const auto& [seconds, width] : windows)

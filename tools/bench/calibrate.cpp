@@ -22,7 +22,7 @@
 namespace {
 
 constexpr double limit = 1.0;           // seconds that a run may be predicted to take
-constexpr double shortest = 50e-6;      // below, the clock and the choice itself are measured
+constexpr double shortest = 0.3e-3;     // below, the clock and the choice itself are measured
 constexpr double damping = 0.5;         // of points: keeps what the sweep does not see
 constexpr double step = 0.05;           // of ln c_k in a difference
 constexpr double largest_change = 1.1;  // of ln c_k in a round
