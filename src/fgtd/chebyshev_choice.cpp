@@ -21,8 +21,8 @@ constexpr std::size_t points_looked_at = 1024;
 constexpr double glance_error = 2;        // factor by which a prediction from a glance may be too high
 constexpr double most_neighbours = 2048;  // of which a table is made
 
-/// Occupied boxes of a lattice by a look at the sample: leading[j] counts the distinct (i_0, ..., i_j), trailing[j] the
-/// distinct (i_j, ..., i_{d-1}).
+/// Occupied boxes of a lattice by a look at the sample: leading[j] counts the distinct (i_0, ..., i_j) of sources,
+/// trailing[j] the distinct (i_j, ..., i_{d-1}) of targets that lie like the sources.
 template <int d>
 struct Occupied {
   std::array<double, d> leading, trailing;
@@ -68,7 +68,7 @@ Occupied<d> occupied(const Situation<d>& at, const Lattice<d>& lattice, std::siz
     }
     for (std::size_t l = 0; l < d; ++l) {
       double& all = upwards ? into[l] : into[d - 1 - l];
-      all = std::min(all, extrapolate(distinct[l], static_cast<double>(looked_at), at.sources));
+      all = std::min(all, extrapolate(distinct[l], static_cast<double>(looked_at), upwards ? at.sources : at.targets));
     }
   };
   count(true, found.leading);

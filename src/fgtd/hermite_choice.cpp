@@ -35,10 +35,11 @@ Buffer<double> corners(const Situation<d>& at) {
   return points;
 }
 
-/// Predicted seconds of moments and evaluation.
+/// Predicted seconds of moments and evaluation. nodes: of the tree of sources; target_boxes: that scattered targets
+/// occupy.
 template <int d>
 double hermite_seconds(const Situation<d>& at, double side, int p, double reach, const std::array<double, d>& nodes,
-                       double targets) {
+                       double target_boxes, double targets) {
   const double reach_distance = reach / std::sqrt(at.sigma);
   const double moments = std::pow(p, d);
   const double derivatives = at.options.derivative_order > 0 ? 2 : 1;
@@ -66,7 +67,7 @@ double hermite_seconds(const Situation<d>& at, double side, int p, double reach,
     return seconds + targets * at.columns * cost::grid_value;
   }
   const double near = boxes_within<d>(at, side, reach_distance, nodes[0]);
-  const double a_box = std::max(1.0, targets / nodes[0]);
+  const double a_box = std::max(1.0, targets / target_boxes);
   const double lanes = 8 * std::ceil(a_box / 8) / a_box;  // lanes paid for one used
   const double at_box = derivatives * at.columns * moments * cost::contract_step + d * (p + 8) * cost::hermite_value;
   return seconds + targets * (cost::point_sort + lanes * near * at_box);
@@ -107,8 +108,9 @@ std::optional<Decision> by_hand(const Situation<d>& at) {
   for (std::size_t l = 0; l < d; ++l)
     nodes[l] = extrapolate(seen.nodes[l], static_cast<double>(at.sample_count), at.sources);
   const double sides = given.neighbours < 0 ? 1e9 : given.neighbours + 0.5;
-  choice.seconds = hermite_seconds<d>(at, choice.box_side, given.expansion_order,
-                                      sides * choice.box_side * std::sqrt(at.sigma), nodes, targets);
+  choice.seconds =
+      hermite_seconds<d>(at, choice.box_side, given.expansion_order, sides * choice.box_side * std::sqrt(at.sigma),
+                         nodes, extrapolate(seen.nodes[0], static_cast<double>(at.sample_count), targets), targets);
   choice.cost = thesis_cost<d>(at.sources, targets, given.expansion_order, given.neighbours, nodes[0]);
   choice.method = Method::hermite;
   return decision;
@@ -153,7 +155,8 @@ std::optional<Decision> cheapest(const Situation<d>& at) {
     smallest_memory = std::min(smallest_memory, memory);
     if (memory > static_cast<double>(at.options.memory_limit)) continue;
 
-    const double seconds = hermite_seconds<d>(at, side, p, reach, nodes, targets);
+    const double seconds = hermite_seconds<d>(
+        at, side, p, reach, nodes, extrapolate(seen.nodes[0], static_cast<double>(at.sample_count), targets), targets);
     if (seconds >= best.choice.seconds) continue;
     best.hermite = {r, p, n, reach};
     best.plan_bytes = memory;
