@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "fgtd/buffer.hpp"
 #include "fgtd/hermite.hpp"
 #include "workloads.hpp"
 
@@ -39,7 +40,7 @@ int main(int, char** arguments) {
   const fgtd::detail::HermitePlan plan{
       .box_scale = side, .terms = 9, .neighbours = fgtd::HermiteParameters::all_boxes};  // r = side sqrt(sigma/2)
   const auto request = fgtd::detail::make_request<3>({{{{0, 1, 2}, 1.0}}}, sigma, 3);
-  std::vector<double> position;  // [3][sources]
+  fgtd::detail::Buffer<double> position;  // [3][sources]
   for (int l = 0; l < 3; ++l)
     for (Eigen::Index j = 0; j < sources.cols(); ++j) position.push_back(sources(l, j));
   std::vector<double> values(count);
