@@ -63,7 +63,14 @@ ExitCode dispatch(int argc, char** argv) {
   app.footer(
       "Exit codes: 0 ok, 1 internal error, 2 command line, 3 input invalid, 4 numerical failure, 5 a check failed, 6 "
       "files.\n"
-      "Start with: gaussdrift run cases/rotating_cone.toml");
+      "Start with: gaussdrift new rotating_cone, then gaussdrift run rotating_cone.toml");
+
+  NewOptions new_options;
+  CLI::App* new_verb = app.add_subcommand("new", "list the built-in examples, or write one to start from");
+  new_verb->add_option("name", new_options.name, "the example (none: a list)")->type_name("NAME");
+  new_verb->add_option("--out", new_options.folder, "folder for the file; this one by default")->type_name("DIR");
+  new_verb->add_flag("--force", new_options.force, "replace a file of that name");
+  new_verb->add_flag("--json", new_options.json, "results as JSON on standard output");
 
   RunOptions run_options;
   CLI::App* run_verb = app.add_subcommand("run", "run a case: files, pictures and numbers in output/<name>/");
@@ -93,13 +100,30 @@ ExitCode dispatch(int argc, char** argv) {
       ->type_name("N");
   reproduce_verb->add_flag("--json", reproduce_options.json, "results as JSON on standard output");
 
+  ExplainOptions explain_options;
+  CLI::App* explain_verb =
+      app.add_subcommand("explain", "what a key of the case file means: type, default, range, unit, symbol");
+  CLI::Option* word = explain_verb->add_option("key", explain_options.word,
+                                               "a key, table, field, shape, function, value or symbol of the thesis "
+                                               "(n_g, alpha_j); none: all keys");
+  word->type_name("KEY");
+  CLI::Option* schema = explain_verb->add_flag("--schema", explain_options.schema, "the JSON schema of a case");
+  explain_verb->add_flag("--json", explain_options.json, "results as JSON on standard output");
+  explain_verb
+      ->add_option("--markdown", explain_options.guide, "write the generated parts of docs/cases.md (FILE) anew")
+      ->type_name("FILE")
+      ->excludes(word)
+      ->excludes(schema);
+  schema->excludes(word);
+
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> verbs;
     for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
     if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) {
       const std::optional<std::string> near = base::suggest(argv[1], verbs);
-      throw CommandLineError(fmt::format("there is no verb \"{}\"{}; gaussdrift --help shows the verbs and their options",
-                                         argv[1], near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+      throw CommandLineError(
+          fmt::format("there is no verb \"{}\"{}; gaussdrift --help shows the verbs and their options", argv[1],
+                      near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
     }
   }
   try {
@@ -110,6 +134,8 @@ ExitCode dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw CommandLineError(fmt::format("{}; gaussdrift --help shows the verbs and their options", error.what()));
   }
+  if (new_verb->parsed()) return new_case(new_options);
+  if (explain_verb->parsed()) return explain(explain_options);
   if (run_verb->parsed()) return run(run_options);
   if (check_verb->parsed()) return check(check_options);
   if (sum_verb->parsed()) return sum(sum_options);
@@ -131,9 +157,7 @@ int main_verbs(int argc, char** argv) {
     fmt::print(stderr, "error: {}\n", error.what());
     return exit_code(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(
-        stderr,
-        "error: out of memory; lower particles.per_axis or evaluate.per_axis\n");
+    fmt::print(stderr, "error: out of memory; lower particles.per_axis or evaluate.per_axis\n");
     return exit_code(ExitCode::input);
   } catch (const std::exception& error) {
     fmt::print(stderr, "internal error: {}\n", error.what());

@@ -36,6 +36,22 @@ struct SumOptions {
   bool json = false;          // what was chosen as JSON on stdout
 };
 
+struct NewOptions {
+  std::string name;              // empty: a list
+  std::filesystem::path folder;  // --out; empty: here
+  bool force = false;
+  bool json = false;
+};
+
+struct ExplainOptions {
+  std::string word;             // empty: all keys
+  bool schema = false;          // the JSON schema instead
+  std::filesystem::path guide;  // --markdown; docs/cases.md, whose generated parts are written anew
+  bool json = false;
+};
+
+ExitCode new_case(const NewOptions& options);
+ExitCode explain(const ExplainOptions& options);
 ExitCode run(const RunOptions& options);
 ExitCode check(const CaseOptions& options);
 struct ReproduceOptions {

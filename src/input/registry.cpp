@@ -276,6 +276,26 @@ const std::vector<Key>& keys() {
   return list;
 }
 
+const std::vector<Quantity>& quantities() {
+  static const std::vector<Quantity> list = {
+      {"d", "dimension of the scene, 2 or 3", "", "", "domain.min, domain.max"},
+      {"h", "spacing of the lattice on which particles start, the same on all axes",
+       "h = L / (n_g - 1), L the longest side of the domain", "length", "particles.per_axis, domain"},
+      {"eps", "core radius: the width of a blob", "eps = c h", "length", "particles.overlap, particles.per_axis"},
+      {"sigma", "sharpness of the Gaussians that are summed, exp(-sigma r^2)", "sigma = 1 / eps^2", "1 / length^2",
+       "particles.overlap, particles.per_axis"},
+      {"zeta_eps", "the blob of core radius eps", "zeta_eps(x) = eps^-d zeta(x / eps)", "1 / length^d",
+       "particles.cutoff, particles.overlap"},
+      {"x_j", "where particle j starts: a point of the lattice", "", "length", "particles.per_axis, domain"},
+      {"X_j", "where particle j is at time t", "X_j' = u(X_j, t), X_j(0) = x_j", "length", "velocity"},
+      {"alpha_j", "weight of particle j, the mass that it carries; particles with alpha_j = 0 are left out",
+       "alpha_j = h^d rho_0(x_j)", "density length^d", "density, particles.per_axis"},
+      {"rho_eps^h", "the density of all blobs, which is what a run computes",
+       "rho_eps^h(x, t) = sum_j alpha_j zeta_eps(x - X_j(t))", "density", ""},
+  };
+  return list;
+}
+
 std::string range_text(const Range& range) {
   const auto& [least, most, least_open, most_open] = range;
   const bool below = std::isfinite(least), above = std::isfinite(most);
@@ -362,8 +382,8 @@ std::string keys_markdown(std::string_view table, std::string_view with, std::st
       text = "\n| key | what | type and range | default | unit | symbol |\n| --- | --- | --- | --- | --- | --- |\n";
     const std::string range = range_text(key.range);
     std::string fallback = key.required ? "required" : std::string(key.fallback);
-    if (key.type == Type::choice && !fallback.empty()) fallback = quoted(fallback);
-    if (key.type == Type::choices) fallback = fmt::format("[{}]", fallback);
+    if (key.type == Type::choice && !key.fallback.empty()) fallback = quoted(fallback);
+    if (key.type == Type::choices && !key.fallback.empty()) fallback = fmt::format("[{}]", fallback);
     const std::string with_text = value.empty() && !key.with.empty() ? fmt::format("; goes with `{}`", key.with) : "";
     text += fmt::format("| `{}` | {}{} | {}{}{} | {} | {} | {} |\n", key.name, key.meaning, with_text, type_text(key),
                         range.empty() ? "" : ", ", range, fallback, key.unit, key.symbol);
@@ -399,6 +419,13 @@ std::string registry_markdown() {
       for (const NamedShape& shape : named_shapes())
         text += formula_markdown("shape", shape.about) + keys_markdown("density", "shape", shape.about.name);
   }
+  text +=
+      "\n### What follows from the keys\n\nSymbols of the thesis that are no keys.\n\n"
+      "| symbol | what | formula | unit | set by |\n| --- | --- | --- | --- | --- |\n";
+  for (const Quantity& quantity : quantities())
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", quantity.symbol, quantity.meaning,
+                        quantity.formula.empty() ? "" : fmt::format("`{}`", quantity.formula), quantity.unit,
+                        quantity.set_by);
   return text;
 }
 

@@ -1,5 +1,5 @@
-// Every key of a case file: its type, default, range, symbol and meaning, in one table. The reader, its messages and
-// docs/cases.md are driven by it, so that they cannot disagree.
+// Every key of a case file: its type, default, range, symbol and meaning, in one table. The reader, its messages,
+// `gaussdrift explain`, the JSON schema and docs/cases.md are driven by it, so that they cannot disagree.
 #pragma once
 
 #include <string>
@@ -50,9 +50,19 @@ struct Table {
                                              // [[velocity]], and its parts add up
 };
 
+/// A quantity of the thesis that is no key: it follows from keys.
+struct Quantity {
+  std::string_view symbol;
+  std::string_view meaning;
+  std::string_view formula = {};
+  std::string_view unit = {};
+  std::string_view set_by = {};  // the keys that it follows from
+};
+
 /// In the order of a well-written case file.
 const std::vector<Table>& tables();
 const std::vector<Key>& keys();
+const std::vector<Quantity>& quantities();
 
 /// Throws std::logic_error if there is no such key. Named formulas have keys of the same name: `value` is the
 /// formula's.

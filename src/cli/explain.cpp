@@ -1,0 +1,63 @@
+// gaussdrift explain: the keys of the case file, and the words that go with them.
+#include "input/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "cli/verbs.hpp"
+#include "input/registry.hpp"
+#include "write/atomic_file.hpp"
+
+namespace gaussdrift::cli {
+
+namespace {
+
+/// Replaces what stands between "<!-- mark: begin" and "<!-- mark: end -->".
+void replace_part(std::string& guide, const std::filesystem::path& file, const std::string& mark,
+                  const std::string& generated) {
+  const std::size_t begin = guide.find("<!-- " + mark + ": begin"), end = guide.find("<!-- " + mark + ": end -->");
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw InputError(
+        fmt::format("{} has no lines \"<!-- {}: begin -->\" and \"<!-- {}: end -->\"", file.string(), mark, mark));
+  const std::size_t first = guide.find('\n', begin) + 1;
+  guide.replace(first, end - first, generated);
+}
+
+void write_guide(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FileError(fmt::format("{} cannot be read", file.string()));
+  std::ostringstream text;
+  text << in.rdbuf();
+  std::string guide = text.str();
+  replace_part(guide, file, "keys", fmt::format("\n{}\n", input::registry_markdown()));
+  replace_part(guide, file, "functions", fmt::format("\n{}\n", input::functions_markdown()));
+  write::write_text(file, guide);
+}
+
+}  // namespace
+
+ExitCode explain(const ExplainOptions& options) {
+  if (!options.guide.empty()) {
+    write_guide(options.guide);
+  } else if (options.schema) {
+    fmt::print("{}", input::schema_json());
+  } else if (options.word.empty()) {
+    fmt::print("{}", options.json ? input::keys_json() : input::overview_text());
+  } else {
+    const auto found = input::explain(options.word);
+    if (found.empty()) {
+      const auto near = input::suggest_word(options.word);
+      throw CommandLineError(
+          fmt::format("\"{}\" is no key, table, field, shape, function or symbol{}; gaussdrift "
+                      "explain shows the keys",
+                      options.word, near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+    }
+    fmt::print("{}", options.json ? input::to_json(options.word, found) : input::to_text(found));
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace gaussdrift::cli

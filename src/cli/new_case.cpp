@@ -1,0 +1,85 @@
+// gaussdrift new: the built-in examples, listed or written.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "base/suggest.hpp"
+#include "cli/verbs.hpp"
+#include "input/examples.hpp"
+#include "input/read_case.hpp"
+#include "write/atomic_file.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_case(const input::ExampleFile& file) { return fs::path(file.name).extension() == ".toml"; }
+
+std::string name_of(const input::ExampleFile& file) { return fs::path(file.name).stem().string(); }
+
+/// The "[case] title" of a case. The text is not read as a case: it may need a file that is not there.
+std::string title_of(std::string_view text) {
+  const std::size_t at = text.find("\ntitle");
+  const std::size_t open = at == std::string_view::npos ? at : text.find('"', at);
+  const std::size_t close = open == std::string_view::npos ? open : text.find('"', open + 1);
+  return close == std::string_view::npos ? "" : std::string(text.substr(open + 1, close - open - 1));
+}
+
+void list_examples(bool json) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const input::ExampleFile& file : input::example_files())
+    if (is_case(file)) list.push_back({{"name", name_of(file)}, {"title", title_of(file.bytes)}});
+  if (json) {
+    fmt::print("{}\n", list.dump(2));
+    return;
+  }
+  fmt::print("examples; gaussdrift new NAME writes one as NAME.toml:\n");
+  for (const auto& entry : list)
+    fmt::print("  {:<18} {}\n", entry["name"].get<std::string>(), entry["title"].get<std::string>());
+}
+
+}  // namespace
+
+ExitCode new_case(const NewOptions& options) {
+  if (options.name.empty()) {
+    list_examples(options.json);
+    return ExitCode::ok;
+  }
+  const std::string wanted =
+      fs::path(options.name).extension() == ".toml" ? fs::path(options.name).stem().string() : options.name;
+  std::vector<const input::ExampleFile*> files;  // the case, and the data beside it
+  std::vector<std::string> names;
+  for (const input::ExampleFile& file : input::example_files()) {
+    if (is_case(file)) names.push_back(name_of(file));
+    if (name_of(file) == wanted) files.push_back(&file);
+  }
+  if (std::find(names.begin(), names.end(), wanted) == names.end()) {
+    const auto near = base::suggest(wanted, names);
+    throw CommandLineError(fmt::format("there is no example \"{}\"{}; gaussdrift new lists them", wanted,
+                                       near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+  }
+  for (const input::ExampleFile* file : files)
+    if (const fs::path path = options.folder / file->name; fs::exists(path) && !options.force)
+      throw FileError(fmt::format("{} exists; --force replaces it", path.string()));
+  std::error_code failure;
+  if (!options.folder.empty() && (fs::create_directories(options.folder, failure), failure))
+    throw FileError(fmt::format("the folder {} cannot be made: {}", options.folder.string(), failure.message()));
+  nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  for (const input::ExampleFile* file : files) {
+    const fs::path path = options.folder / file->name;
+    write::write_text(path, file->bytes);
+    written.push_back(path.string());
+    if (!options.json) fmt::print("wrote  {}\n", path.string());
+  }
+  if (options.json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"written", written}}.dump(2));
+  else
+    fmt::print("next   gaussdrift run {}\n", (options.folder / (wanted + ".toml")).string());
+  return ExitCode::ok;
+}
+
+}  // namespace gaussdrift::cli

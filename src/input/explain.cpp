@@ -1,0 +1,225 @@
+#include "input/explain.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/suggest.hpp"
+#include "expression/expression.hpp"
+#include "field/named_fields.hpp"
+#include "field/shapes.hpp"
+#include "input/registry.hpp"
+
+namespace gaussdrift::input {
+
+namespace {
+
+/// "\alpha_{j}", "α_j" and "alpha_j" are the same symbol.
+std::string plain_symbol(std::string_view word) {
+  static constexpr std::pair<std::string_view, std::string_view> letters[] = {
+      {"α", "alpha"}, {"γ", "gamma"}, {"δ", "delta"},  {"ε", "eps"}, {"ϵ", "eps"},   {"ζ", "zeta"},
+      {"η", "eta"},   {"κ", "kappa"}, {"λ", "lambda"}, {"ν", "nu"},  {"π", "pi"},    {"ρ", "rho"},
+      {"σ", "sigma"}, {"τ", "tau"},   {"ω", "omega"},  {"₀", "_0"},  {"Γ", "Gamma"}, {"epsilon", "eps"}};
+  std::string text;
+  for (const char letter : word)
+    if (letter != '\\' && letter != '{' && letter != '}' && letter != '$') text += letter;
+  for (const auto& [from, to] : letters)
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  if (text.rfind("var", 0) == 0 && text.size() > 3) text.erase(0, 3);  // \varepsilon
+  return text;
+}
+
+std::string full_name(const Key& key) {
+  return key.table.empty() ? std::string(key.name) : fmt::format("{}.{}", key.table, key.name);
+}
+
+void add(std::vector<Fact>& facts, std::string label, std::string value) {
+  if (!value.empty()) facts.push_back({std::move(label), std::move(value)});
+}
+
+std::string default_text(const Key& key) {
+  if (key.required) return "none: the key is required";
+  if (key.fallback.empty()) return "none: the key may be left out";
+  if (key.type == Type::choice) return fmt::format("\"{}\"", key.fallback);
+  if (key.type == Type::choices) return fmt::format("[{}]", key.fallback);
+  return std::string(key.fallback);
+}
+
+Explanation about(const Key& key) {
+  Explanation result{"key", full_name(key), std::string(key.meaning), {}};
+  if (!key.value.empty())
+    add(result.facts, "goes with", fmt::format("{} = \"{}\"", key.with, key.value));
+  else if (!key.with.empty())
+    add(result.facts, "goes with", std::string(key.with));
+  add(result.facts, "type", type_text(key));
+  add(result.facts, "range", range_text(key.range));
+  add(result.facts, "default", default_text(key));
+  add(result.facts, "unit", std::string(key.unit));
+  add(result.facts, "symbol", std::string(key.symbol));
+  return result;
+}
+
+Explanation about(const Table& table) {
+  Explanation result{"table", fmt::format("[{}]", table.name), std::string(table.meaning), {}};
+  add(result.facts, "required", table.required ? "yes" : "no");
+  if (!table.kinds.empty()) add(result.facts, "one of", fmt::format("{}", fmt::join(table.kinds, ", ")));
+  for (const Key& key : keys())
+    if (key.table == table.name && key.value.empty())
+      add(result.facts, std::string(key.name), std::string(key.meaning));
+  return result;
+}
+
+Explanation about(std::string_view kind, std::string_view table, const NamedFormula& formula) {
+  Explanation result{
+      std::string(kind), fmt::format("{}.{} = \"{}\"", table, kind, formula.name), std::string(formula.meaning), {}};
+  add(result.facts, "value", std::string(formula.formula));
+  add(result.facts, "dimensions",
+      formula.least_dimension == formula.most_dimension ? fmt::format("{}", formula.least_dimension) : "2 and 3");
+  return result;
+}
+
+/// The parameters of a named formula follow its facts.
+void add_parameters(Explanation& result, std::string_view table, std::string_view with, std::string_view value) {
+  for (const Key& key : keys()) {
+    if (key.table != table || key.with != with || key.value != value) continue;
+    const std::string range = range_text(key.range);
+    add(result.facts, std::string(key.name),
+        fmt::format("{}; {}{}{}", key.meaning, type_text(key), range.empty() ? "" : ", " + range,
+                    key.required ? "; required" : fmt::format("; default {}", key.fallback)));
+  }
+}
+
+Explanation about(const NamedField& field) {
+  Explanation result = about("field", "velocity", field.about);
+  add(result.facts, "divergence", std::string(field.divergence));
+  add(result.facts, "exact flow", std::string(field.exact_flow));
+  add_parameters(result, "velocity", "field", field.about.name);
+  return result;
+}
+
+Explanation about(const NamedShape& shape) {
+  Explanation result = about("shape", "density", shape.about);
+  add_parameters(result, "density", "shape", shape.about.name);
+  return result;
+}
+
+Explanation about(const FunctionInfo& function) {
+  return {"function", fmt::format("{}(...)", function.name), std::string(function.meaning), {}};
+}
+
+Explanation about(const Quantity& quantity) {
+  Explanation result{"quantity", std::string(quantity.symbol), std::string(quantity.meaning), {}};
+  add(result.facts, "formula", std::string(quantity.formula));
+  add(result.facts, "unit", std::string(quantity.unit));
+  add(result.facts, "set by", std::string(quantity.set_by));
+  return result;
+}
+
+bool chooses(const Key& key, std::string_view value) {
+  return std::find(key.choices.begin(), key.choices.end(), value) != key.choices.end();
+}
+
+std::string_view without_brackets(std::string_view word) {
+  while (word.size() > 2 && word.front() == '[' && word.back() == ']') word = word.substr(1, word.size() - 2);
+  return word;
+}
+
+std::vector<std::string> known_words() {
+  std::vector<std::string> words;
+  for (const Key& key : keys()) {
+    words.push_back(full_name(key));
+    words.emplace_back(key.name);
+    if (!key.symbol.empty()) words.emplace_back(key.symbol);
+    words.insert(words.end(), key.choices.begin(), key.choices.end());
+  }
+  for (const std::string& table : table_names()) words.push_back(table);
+  for (const Quantity& quantity : quantities()) words.emplace_back(quantity.symbol);
+  for (const FunctionInfo& function : expression_functions()) words.emplace_back(function.name);
+  return words;
+}
+
+}  // namespace
+
+std::vector<Explanation> explain(std::string_view word) {
+  const std::string_view bare = without_brackets(word);
+  std::vector<Explanation> found;
+  for (const Table& table : tables())
+    if (table.name == bare) found.push_back(about(table));
+  if (bare != word) return found;  // [particles] is nothing else
+  const std::string symbol = plain_symbol(word);
+  for (const Key& key : keys())
+    if (key.name == word || full_name(key) == word || (!key.symbol.empty() && plain_symbol(key.symbol) == symbol))
+      found.push_back(about(key));
+  for (const Quantity& quantity : quantities())
+    if (plain_symbol(quantity.symbol) == symbol) found.push_back(about(quantity));
+  for (const NamedField& field : named_fields())
+    if (field.about.name == word) found.push_back(about(field));
+  for (const NamedShape& shape : named_shapes())
+    if (shape.about.name == word) found.push_back(about(shape));
+  for (const FunctionInfo& function : expression_functions())
+    if (function.name == word) found.push_back(about(function));
+  for (const Key& key : keys())  // "gauss4" is explained by the key that may have this value
+    if (chooses(key, word) && !(key.table == "velocity" && key.name == "field") &&
+        !(key.table == "density" && key.name == "shape"))
+      found.push_back(about(key));
+  return found;
+}
+
+std::optional<std::string> suggest_word(std::string_view word) { return base::suggest(word, known_words()); }
+
+std::string overview_text() {
+  std::string text = "The case file, table by table; gaussdrift explain KEY tells more about one.\n";
+  const auto line = [&](const Key& key) {
+    text += fmt::format("  {:<12}{:<6} {}\n", key.name, key.symbol, key.meaning);
+  };
+  text += "\n";
+  for (const Key& key : keys())
+    if (key.table.empty()) line(key);
+  for (const Table& table : tables()) {
+    text += fmt::format("\n[{}]  {}\n", table.name, table.meaning);
+    for (const Key& key : keys())
+      if (key.table == table.name && key.value.empty()) line(key);
+  }
+  std::vector<std::string_view> symbols;
+  for (const Quantity& quantity : quantities()) symbols.push_back(quantity.symbol);
+  text += fmt::format("\nAlso: named fields and shapes, functions, and what follows from the keys: {}.\n",
+                      fmt::join(symbols, ", "));
+  return text;
+}
+
+std::string to_text(const std::vector<Explanation>& explanations) {
+  std::string text;
+  for (const Explanation& one : explanations) {
+    if (!text.empty()) text += "\n";
+    text += fmt::format("{}\n  {}\n", one.name, one.title);
+    std::size_t width = 9;
+    for (const Fact& fact : one.facts) width = std::max(width, fact.label.size());
+    for (const Fact& fact : one.facts) text += fmt::format("  {:<{}}  {}\n", fact.label, width, fact.value);
+  }
+  return text;
+}
+
+std::string to_json(std::string_view word, const std::vector<Explanation>& explanations) {
+  nlohmann::ordered_json document = {{"word", word}, {"meanings", nlohmann::ordered_json::array()}};
+  for (const Explanation& one : explanations) {
+    nlohmann::ordered_json entry = {{"kind", one.kind}, {"name", one.name}, {"meaning", one.title}};
+    for (const Fact& fact : one.facts) entry["facts"][fact.label] = fact.value;
+    document["meanings"].push_back(std::move(entry));
+  }
+  return document.dump(2) + "\n";
+}
+
+std::string keys_json() {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Key& key : keys()) {
+    nlohmann::ordered_json entry = {{"key", full_name(key)}, {"meaning", key.meaning}};
+    for (const Fact& fact : about(key).facts) entry[fact.label] = fact.value;
+    list.push_back(std::move(entry));
+  }
+  return list.dump(2) + "\n";
+}
+
+}  // namespace gaussdrift::input

@@ -1,0 +1,135 @@
+// gaussdrift explain and gaussdrift new: what a person who writes a case is told.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program/program.hpp"
+
+namespace gaussdrift {
+namespace {
+
+std::vector<std::string> example_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(SOURCE_DIR "/cases"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST(Explain, TellsAKeyByItsNameAndByItsSymbol) {
+  const ScratchFolder folder;
+  const Outcome by_name = gaussdrift_in(folder, "explain particles.per_axis");
+  ASSERT_EQ(by_name.exit_code, 0) << by_name.err;
+  for (const char* part : {"particles.per_axis", "the spacing h is the same on all axes", "a whole number",
+                           "at least 2", "required", "n_g"})
+    EXPECT_NE(by_name.out.find(part), std::string::npos) << part << " in:\n" << by_name.out;
+  for (const char* symbol : {"n_g", "'$n_{g}$'"})
+    EXPECT_EQ(gaussdrift_in(folder, std::string("explain ") + symbol).out, by_name.out);
+  EXPECT_NE(gaussdrift_in(folder, "explain per_axis").out.find("evaluate.per_axis"), std::string::npos);
+}
+
+TEST(Explain, NamesTheWordThatWasMeant) {
+  const ScratchFolder folder;
+  const Outcome refused = gaussdrift_in(folder, "explain overlapp");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.out, "");
+  EXPECT_NE(refused.err.find("did you mean \"overlap\"?"), std::string::npos) << refused.err;
+  EXPECT_EQ(gaussdrift_in(folder, "explain overlap --schema").exit_code, 2);
+}
+
+TEST(Explain, GivesTheSameAsJson) {
+  const ScratchFolder folder;
+  const auto one = nlohmann::json::parse(gaussdrift_in(folder, "explain overlap --json").out);
+  ASSERT_EQ(one["meanings"].size(), 1u);
+  EXPECT_EQ(one["meanings"][0]["name"], "particles.overlap");
+  EXPECT_EQ(one["meanings"][0]["facts"]["default"], "2");
+  const auto all = nlohmann::json::parse(gaussdrift_in(folder, "explain --json").out);
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const auto& key) { return key["key"] == "density.slot_width"; }));
+  // Every key of the list is one that can be explained, and stands in the overview or goes with a named formula.
+  const std::string overview = gaussdrift_in(folder, "explain").out;
+  for (const auto& key : all) {
+    const std::string name = key["key"].get<std::string>();
+    EXPECT_TRUE(key.contains("goes with") || overview.find("  " + name.substr(name.find('.') + 1)) != std::string::npos)
+        << name;
+  }
+}
+
+TEST(Explain, PrintsASchemaThatIsClosedAgainstUnknownKeys) {
+  const ScratchFolder folder;
+  const auto schema = nlohmann::json::parse(gaussdrift_in(folder, "explain --schema").out);
+  EXPECT_EQ(schema["additionalProperties"], false);
+  const auto& particles = schema["properties"]["particles"];
+  EXPECT_EQ(particles["additionalProperties"], false);
+  EXPECT_EQ(particles["required"], nlohmann::json({"per_axis"}));
+  EXPECT_EQ(particles["properties"]["per_axis"]["anyOf"][0], nlohmann::json({{"type", "integer"}, {"minimum", 2.0}}));
+  // A parameter is there beside its shape alone.
+  int with_slot = 0;
+  for (const auto& variant : schema["properties"]["density"]["anyOf"][0]["oneOf"])
+    if (variant["properties"].contains("slot_width")) {
+      EXPECT_EQ(variant["properties"]["shape"]["const"], "slotted_disk");
+      ++with_slot;
+    }
+  EXPECT_EQ(with_slot, 1);
+}
+
+TEST(Explain, WritesTheGeneratedPartsOfTheGuide) {
+  const ScratchFolder folder;
+  const std::string guide = read_file(SOURCE_DIR "/docs/cases.md");
+  std::string damaged = guide;
+  damaged.replace(damaged.find("| `overlap` |"), 13, "| `overlapp` |");
+  write_file(folder / "cases.md", damaged);
+  EXPECT_EQ(gaussdrift_in(folder, "explain --markdown cases.md").exit_code, 0);
+  EXPECT_EQ(read_file(folder / "cases.md"), guide);
+  write_file(folder / "other.md", "no marks");
+  EXPECT_EQ(gaussdrift_in(folder, "explain --markdown other.md").exit_code, 3);
+  EXPECT_EQ(gaussdrift_in(folder, "explain --markdown missing.md").exit_code, 6);
+}
+
+TEST(New, ListsEveryExample) {
+  const ScratchFolder folder;
+  const auto list = nlohmann::json::parse(gaussdrift_in(folder, "new --json").out);
+  std::vector<std::string> names;
+  for (const auto& example : list) {
+    names.push_back(example["name"]);
+    EXPECT_NE(example["title"], "") << example["name"];
+  }
+  EXPECT_EQ(names, example_names());
+  EXPECT_NE(gaussdrift_in(folder, "new").out.find("rotating_cone"), std::string::npos);
+}
+
+TEST(New, WritesEveryExampleAsItStandsAndItCanBeChecked) {
+  const ScratchFolder folder;
+  for (const std::string& name : example_names()) {
+    const Outcome written = gaussdrift_in(folder, "new " + name);
+    ASSERT_EQ(written.exit_code, 0) << written.err;
+    EXPECT_EQ(read_file(folder / (name + ".toml")), read_file(SOURCE_DIR "/cases/" + name + ".toml"));
+    const Outcome checked = gaussdrift_in(folder, "check " + name + ".toml --set particles.per_axis=20");
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+    EXPECT_EQ(checked.err, "");  // no warnings
+  }
+}
+
+TEST(New, KeepsAFileThatIsThere) {
+  const ScratchFolder folder;
+  write_file(folder / "rotating_cone.toml", "mine");
+  const Outcome refused = gaussdrift_in(folder, "new rotating_cone");
+  EXPECT_EQ(refused.exit_code, 6);
+  EXPECT_EQ(read_file(folder / "rotating_cone.toml"), "mine");
+  EXPECT_EQ(gaussdrift_in(folder, "new rotating_cone --force").exit_code, 0);
+  EXPECT_NE(read_file(folder / "rotating_cone.toml"), "mine");
+  EXPECT_EQ(gaussdrift_in(folder, "new rotating_cone --out scenes/mine").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "scenes/mine/rotating_cone.toml"));
+}
+
+TEST(New, NamesTheExampleThatWasMeant) {
+  const ScratchFolder folder;
+  const Outcome refused = gaussdrift_in(folder, "new rotating_come");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("did you mean \"rotating_cone\"?"), std::string::npos) << refused.err;
+}
+
+}  // namespace
+}  // namespace gaussdrift
