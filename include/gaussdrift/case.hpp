@@ -31,12 +31,16 @@ struct Domain {
 struct ExpressionVelocity {
   std::vector<std::string> components;
 };
+/// streamfunction = "...": psi in x, y, t and the params; u = (d psi/dy, -d psi/dx), in 2D.
+struct StreamfunctionVelocity {
+  std::string psi;
+};
 /// field = "...": a named field (docs/cases.md gives the formulas) with all of its parameters.
 struct NamedVelocity {
   std::string field;
   Arguments arguments;
 };
-using VelocitySpec = std::variant<ExpressionVelocity, NamedVelocity>;
+using VelocitySpec = std::variant<ExpressionVelocity, StreamfunctionVelocity, NamedVelocity>;
 
 // --- initial density --------------------------------------------------------------------------------------------
 

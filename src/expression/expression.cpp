@@ -8,172 +8,23 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
-#include <cstdint>
+#include <cstdlib>
 #include <mutex>
 #include <numbers>
 
 #include "expression/functions.hpp"
+#include "expression/program.hpp"
 #include "expression/syntax.hpp"
 
 namespace gaussdrift {
 namespace {
 
 using expression::Function;
+using expression::Operation;
+using expression::Program;
 using expression::row_length;
-
-enum class Operation {
-  constant,
-  variable,
-  negate,
-  call,
-  choose,  // choose: condition, a, b -> a or b
-  add,
-  subtract,
-  multiply,
-  divide,
-  power,
-  square,
-  cube,
-  fourth,
-  less,
-  greater,
-  less_equal,
-  greater_equal,
-  equal,
-  not_equal,
-  both,
-  either
-};
-
-struct Step {
-  Operation operation;
-  int operands = 0;  // rows it takes from the top of the stack; it leaves one
-  double value = 0;
-  std::size_t variable = 0;
-  const Function* function = nullptr;
-};
-
-using Program = std::vector<Step>;
-
-template <class Formula>
-void combine(double* a, std::size_t count, Formula formula) {
-  const double* b = a + row_length;
-  for (std::size_t i = 0; i < count; ++i) a[i] = formula(a[i], b[i]);
-}
-
-template <class Formula>
-void replace(double* a, std::size_t count, Formula formula) {
-  for (std::size_t i = 0; i < count; ++i) a[i] = formula(a[i]);
-}
-
-/// One step on the rows whose first operand is `a`; the result replaces `a`. Variables start at index `first`.
-void run_step(const Step& step, const double* const* arguments, std::size_t first, std::size_t count, double* a) {
-  switch (step.operation) {
-    case Operation::constant:
-      std::fill_n(a, count, step.value);
-      break;
-    case Operation::variable:
-      std::copy_n(arguments[step.variable] + first, count, a);
-      break;
-    case Operation::negate:
-      replace(a, count, [](double x) { return -x; });
-      break;
-    case Operation::call:
-      step.function->apply(a, step.operands, count);
-      break;
-    case Operation::choose: {
-      const double *b = a + row_length, *c = b + row_length;
-      for (std::size_t i = 0; i < count; ++i) {
-        const double yes = b[i], no = c[i];  // loaded both, so that no branch is needed
-        a[i] = a[i] != 0 ? yes : no;
-      }
-      break;
-    }
-    case Operation::add:
-      combine(a, count, [](double x, double y) { return x + y; });
-      break;
-    case Operation::subtract:
-      combine(a, count, [](double x, double y) { return x - y; });
-      break;
-    case Operation::multiply:
-      combine(a, count, [](double x, double y) { return x * y; });
-      break;
-    case Operation::divide:
-      combine(a, count, [](double x, double y) { return x / y; });
-      break;
-    case Operation::power:
-      combine(a, count, [](double x, double y) { return std::pow(x, y); });
-      break;
-    case Operation::square:
-      replace(a, count, [](double x) { return x * x; });
-      break;
-    case Operation::cube:
-      replace(a, count, [](double x) { return x * x * x; });
-      break;
-    case Operation::fourth:
-      replace(a, count, [](double x) { return (x * x) * (x * x); });
-      break;
-    case Operation::less:
-      combine(a, count, [](double x, double y) { return x < y ? 1.0 : 0.0; });
-      break;
-    case Operation::greater:
-      combine(a, count, [](double x, double y) { return x > y ? 1.0 : 0.0; });
-      break;
-    case Operation::less_equal:
-      combine(a, count, [](double x, double y) { return x <= y ? 1.0 : 0.0; });
-      break;
-    case Operation::greater_equal:
-      combine(a, count, [](double x, double y) { return x >= y ? 1.0 : 0.0; });
-      break;
-    case Operation::equal:
-      combine(a, count, [](double x, double y) { return x == y ? 1.0 : 0.0; });
-      break;
-    case Operation::not_equal:
-      combine(a, count, [](double x, double y) { return x != y ? 1.0 : 0.0; });
-      break;
-    case Operation::both:
-      combine(a, count, [](double x, double y) { return x != 0 && y != 0 ? 1.0 : 0.0; });
-      break;
-    case Operation::either:
-      combine(a, count, [](double x, double y) { return x != 0 || y != 0 ? 1.0 : 0.0; });
-      break;
-  }
-}
-
-/// A stack of rows. A row whose numbers are all the same keeps only the first: constants, and formulas of t alone.
-struct Stack {
-  double* rows;
-  std::vector<char> same;  // by row
-
-  double* row(std::size_t k) const { return rows + k * row_length; }
-  void spread(std::size_t k, std::size_t count) {
-    if (same[k]) std::fill_n(row(k) + 1, count - 1, *row(k));
-    same[k] = false;
-  }
-};
-
-/// Runs the steps for `count` >= 1 numbers; the result is the first row.
-void run(const Step* step, std::size_t steps, const double* const* arguments, std::size_t first, std::size_t count,
-         Stack& stack) {
-  std::size_t top = 0;  // the first free row
-  for (const Step* end = step + steps; step != end; ++step) {
-    const std::size_t operands = static_cast<std::size_t>(step->operands), base = top - operands;
-    bool same = true;
-    if (step->operation == Operation::variable) {
-      const double* given = arguments[step->variable] + first;
-      const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-      same = std::all_of(given, given + count, [&](double value) { return bits(value) == bits(*given); });
-    }
-    for (std::size_t k = base; k < top; ++k) same = same && stack.same[k];
-    if (!same)
-      for (std::size_t k = base; k < top; ++k) stack.spread(k, count);
-    run_step(*step, arguments, first, same ? 1 : count, stack.row(base));
-    stack.same[base] = same;
-    top = base + 1;
-  }
-}
+using expression::Stack;
+using expression::Step;
 
 bool is_constant(const Step& step) { return step.operation == Operation::constant; }
 
@@ -365,6 +216,43 @@ void Expression::evaluate(const double* const* arguments, std::size_t count, dou
     stack.spread(0, length);
     std::copy_n(stack.row(0), length, values + first);
   }
+}
+
+void Expression::differentiate(const double* const* arguments, std::size_t count,
+                               const std::vector<std::size_t>& variables, double* values,
+                               double* const* derivatives) const {
+  const auto& [text, names, used_names, program, depth] = *implementation_;
+  std::vector<double> rows((1 + variables.size()) * depth * row_length);
+  Stack stack{rows.data(), std::vector<char>(depth)};
+  std::vector<double*> tangents;
+  for (std::size_t d = 0; d < variables.size(); ++d) tangents.push_back(rows.data() + (d + 1) * depth * row_length);
+  for (std::size_t first = 0; first < count; first += row_length) {
+    const std::size_t length = std::min(row_length, count - first);
+    expression::run_with_derivatives(program, arguments, first, length, variables, stack, tangents);
+    if (values) std::copy_n(stack.row(0), length, values + first);
+    for (std::size_t d = 0; d < variables.size(); ++d) std::copy_n(tangents[d], length, derivatives[d] + first);
+  }
+}
+
+std::vector<RoughSpot> Expression::rough_spots() const {
+  std::vector<RoughSpot> spots;
+  const auto add = [&](std::string_view name, std::string_view taken) {
+    const auto same = [&](const RoughSpot& spot) { return spot.taken == taken; };
+    if (!taken.empty() && std::none_of(spots.begin(), spots.end(), same)) spots.push_back({name, taken});
+  };
+  for (const Step& step : implementation_->program) {
+    if (step.operation == Operation::call) add(step.function->info.name, step.function->rough);
+    if (step.operation == Operation::choose)
+      add("?", "a choice may jump where its condition changes; the slope of the branch taken is used");
+    else if (step.operation >= Operation::less)
+      add("", "a comparison jumps between 0 and 1; its slope is taken as 0 everywhere");
+  }
+  return spots;
+}
+
+bool Expression::uses(std::string_view name) const {
+  const auto& names = implementation_->used_names;
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 double Expression::evaluate(const std::vector<double>& arguments) const {

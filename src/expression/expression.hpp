@@ -24,6 +24,12 @@ class ExpressionError : public std::runtime_error {
   std::size_t position_, length_;
 };
 
+/// A function or operator without a derivative somewhere.
+struct RoughSpot {
+  std::string_view name;   // of the function, "?" of a choice, or empty for comparisons
+  std::string_view taken;  // where, and what is taken there: "abs has a corner at 0, where slope 0 is taken"
+};
+
 /// One expression in given variables and constants (pi and e are always known).
 /// A value that is not finite (1/0, log(-1)) is no error here: it follows IEEE arithmetic and callers check.
 /// Evaluation is const and safe to call from several threads; the same arguments give the same bits.
@@ -44,7 +50,17 @@ class Expression {
   /// For expressions of single numbers: `arguments` has one value a variable.
   double evaluate(const std::vector<double>& arguments = {}) const;
 
+  /// The values (not written if `values` is null) and their derivatives with respect to some of the variables, by
+  /// index: derivatives[d][i] = d expression / d variable variables[d]. Exact to rounding, by forward differentiation;
+  /// rough_spots() says what is taken where there is no derivative. Neither result may be one of the arguments.
+  void differentiate(const double* const* arguments, std::size_t count, const std::vector<std::size_t>& variables,
+                     double* values, double* const* derivatives) const;
+  /// What the expression has that is not differentiable everywhere, each once.
+  std::vector<RoughSpot> rough_spots() const;
+
   const std::string& text() const;
+  /// Does the text mention this variable or constant?
+  bool uses(std::string_view name) const;
   /// Names among the variables and constants that the text mentions, in the order of their first mention.
   const std::vector<std::string>& used_names() const;
 

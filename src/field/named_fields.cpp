@@ -1,5 +1,9 @@
 #include "field/named_fields.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -7,7 +11,9 @@ namespace gaussdrift {
 
 const std::vector<NamedField>& named_fields() {
   static const std::vector<NamedField> list = {
-      named::rotation(),
+      named::rotation(),   named::translation(), named::shear(),        named::strain(),
+      named::swirl(),      named::double_gyre(), named::taylor_green(), named::doswell(),
+      named::lamb_oseen(), named::deformation(), named::abc(),          named::burgers(),
   };
   return list;
 }
@@ -20,7 +26,15 @@ const NamedField& find_named_field(std::string_view name) {
 
 std::unique_ptr<VelocityField> make_named_field(std::string_view name, const Box& domain, const Arguments& given) {
   const NamedField& field = find_named_field(name);
-  return field.make(domain.dimension, complete(field.about, given, domain));
+  const Arguments arguments = complete(field.about, given, domain);
+  auto made = field.make(domain.dimension, arguments);
+  std::vector<std::string> parts;
+  for (const auto& [parameter, values] : arguments)
+    if (std::isfinite(values[0]))
+      parts.push_back(values.size() == 1 ? fmt::format("{} = {}", parameter, values[0])
+                                         : fmt::format("{} = ({})", parameter, fmt::join(values, ", ")));
+  made->set_description(fmt::format("{} ({}), div u = {}", name, fmt::join(parts, ", "), field.divergence));
+  return made;
 }
 
 }  // namespace gaussdrift

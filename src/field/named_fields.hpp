@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/named.hpp"
@@ -11,12 +13,22 @@
 
 namespace gaussdrift {
 
+/// A field that describes itself by its name and its parameters.
+class NamedVelocityField : public VelocityField {
+ public:
+  std::string describe() const override { return description_; }
+  void set_description(std::string text) { description_ = std::move(text); }
+
+ private:
+  std::string description_;
+};
+
 struct NamedField {
   NamedFormula about;
   std::string_view divergence;  // formula, for people
-  std::string_view exact_flow;  // formula of VelocityField::flow, or why there is none
+  std::string_view exact_flow;  // formula of VelocityField::flow from time s to t, or why there is none
   /// From complete arguments.
-  std::function<std::unique_ptr<VelocityField>(int dimension, const Arguments& arguments)> make;
+  std::function<std::unique_ptr<NamedVelocityField>(int dimension, const Arguments& arguments)> make;
 };
 
 /// In the order of docs/cases.md.
@@ -29,7 +41,18 @@ const NamedField& find_named_field(std::string_view name);
 std::unique_ptr<VelocityField> make_named_field(std::string_view name, const Box& domain, const Arguments& given = {});
 
 namespace named {
+NamedField abc();
+NamedField burgers();
+NamedField deformation();
+NamedField doswell();
+NamedField double_gyre();
+NamedField lamb_oseen();
 NamedField rotation();
+NamedField shear();
+NamedField strain();
+NamedField swirl();
+NamedField taylor_green();
+NamedField translation();
 }  // namespace named
 
 }  // namespace gaussdrift

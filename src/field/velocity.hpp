@@ -18,13 +18,15 @@ class VelocityField {
   virtual ~VelocityField() = default;
   /// u[k][i] += u_k(x_i, t). Values that are not finite are passed on; the caller reports them with place and time.
   virtual void add(double t, const PointsView& x, const VectorsView& u) const = 0;
+  /// values[i] += div u(x_i, t), by the derivatives of the field's own formula. Not finite where they are not.
+  virtual void add_divergence(double t, const PointsView& x, double* values) const = 0;
+  /// True if u does not depend on t.
+  virtual bool is_steady() const { return false; }
   /// True if div u = 0 everywhere, by construction.
   virtual bool is_solenoidal() const { return false; }
   /// Position at time `to` of what is at x at time `from`, from the closed form of the flow; nothing where none is
   /// known.
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
-  /// True if u does not depend on t.
-  virtual bool is_steady() const { return false; }
   /// One line for people: formula and what is known of it.
   virtual std::string describe() const = 0;
 };
@@ -38,6 +40,7 @@ class ExpressionField : public VelocityField {
   void add(double t, const PointsView& x, const VectorsView& u) const override;
   /// Known where no component mentions its own coordinate.
   bool is_solenoidal() const override;
+  void add_divergence(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override;
   std::string describe() const override;
 
@@ -45,13 +48,31 @@ class ExpressionField : public VelocityField {
   std::vector<Expression> components_;
 };
 
-/// The sum of several fields.
+/// 2D: u = d psi / dy, v = -d psi / dx with psi in x, y, t and the params; div u = 0 wherever psi is smooth.
+/// Expression::rough_spots says what is taken elsewhere.
+class StreamfunctionField : public VelocityField {
+ public:
+  /// Throws ExpressionError.
+  StreamfunctionField(const std::string& psi, const std::vector<std::pair<std::string, double>>& params);
+  void add(double t, const PointsView& x, const VectorsView& u) const override;
+  void add_divergence(double t, const PointsView& x, double* values) const override;
+  bool is_steady() const override;
+  bool is_solenoidal() const override { return true; }
+  std::string describe() const override;
+
+ private:
+  Expression psi_;
+};
+
+/// The sum of several fields. Its flow is known only if it has one part.
 class SumField : public VelocityField {
  public:
   explicit SumField(std::vector<std::unique_ptr<VelocityField>> fields) : fields_(std::move(fields)) {}
   void add(double t, const PointsView& x, const VectorsView& u) const override;
-  bool is_solenoidal() const override;
+  void add_divergence(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override;
+  bool is_solenoidal() const override;
+  std::optional<Vector> flow(double from, double to, const Vector& x) const override;
   std::string describe() const override;
 
  private:

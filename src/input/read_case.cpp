@@ -626,10 +626,28 @@ class Reader {
   void read_velocity(std::vector<VelocitySpec>& velocity) {
     each_part("velocity", [&](std::string_view kind, const Value& value) {
       if (kind == "u") velocity.emplace_back(expression_velocity(value));
+      if (kind == "streamfunction") velocity.emplace_back(streamfunction(value));
       if (kind == "field")
         velocity.emplace_back(NamedVelocity{
             value.text, arguments(find_key("velocity", kind), find_named_field(value.text).about, value)});
     });
+  }
+
+  StreamfunctionVelocity streamfunction(const Value& value) {
+    const std::string label = label_of(find_key("velocity", "streamfunction"));
+    if (dimension_ == 3)
+      diagnostics_.error(value.place, fmt::format("{} exists only in 2D; the domain has 3 dimensions", label),
+                         "in 3D write u = [...]");
+    const int errors_before = diagnostics_.errors();
+    const std::string psi = field_expression(value, label, true);
+    if (diagnostics_.errors() > errors_before || dimension_ != 2) return {psi};
+    for (const RoughSpot& spot : Expression(psi, {"x", "y", "t"}, constants()).rough_spots()) {
+      const std::size_t at = spot.name.empty() ? std::string::npos : psi.find(spot.name);
+      diagnostics_.warning(at == std::string::npos ? value.place : place_in_text(value, source_, at, spot.name.size()),
+                           fmt::format("the streamfunction has no derivative everywhere: {}", spot.taken),
+                           "the velocity is its derivative; it is right where particles do not meet such a place");
+    }
+    return {psi};
   }
 
   ExpressionVelocity expression_velocity(const Value& value) {

@@ -84,6 +84,8 @@ Params params_in_use(const Case& scene) {
   for (const auto& part : scene.velocity)
     if (const auto* velocity = std::get_if<ExpressionVelocity>(&part))
       texts.insert(texts.end(), velocity->components.begin(), velocity->components.end());
+    else if (const auto* stream = std::get_if<StreamfunctionVelocity>(&part))
+      texts.push_back(stream->psi);
   for (const auto& part : scene.density)
     if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
   if (scene.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(scene.reference.rho);
@@ -117,6 +119,8 @@ std::string resolved_toml(const Case& scene) {
     out.part("velocity", scene.velocity.size());
     if (const auto* field = std::get_if<ExpressionVelocity>(&part)) {
       out.entry("u", written(field->components));
+    } else if (const auto* stream = std::get_if<StreamfunctionVelocity>(&part)) {
+      out.entry("streamfunction", written(stream->psi));
     } else if (const auto* named = std::get_if<NamedVelocity>(&part)) {
       out.entry("field", written(named->field));
       out.arguments("velocity", named->field, named->arguments);

@@ -18,6 +18,10 @@ std::unique_ptr<VelocityField> make_part(const ExpressionVelocity& spec, const C
   return std::make_unique<ExpressionField>(spec.components, description.params);
 }
 
+std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocity& spec, const Case& description) {
+  return std::make_unique<StreamfunctionField>(spec.psi, description.params);
+}
+
 std::unique_ptr<VelocityField> make_part(const NamedVelocity& spec, const Case& description) {
   return make_named_field(spec.field, box_of(description.domain), spec.arguments);
 }

@@ -207,29 +207,6 @@ class Formula : public Reference {
 
 }  // namespace
 
-ScalarRate divergence_by_differences(const VelocityField& velocity, const Lattice& lattice) {
-  const double step = longest_side(lattice) / 200;
-  return [&velocity, step](double t, const PointsView& x, double* values) {
-    constexpr std::array<double, 4> weights{4. / 5, -1. / 5, 4. / 105, -1. / 280};
-    const auto dimension = static_cast<std::size_t>(x.dimension);
-    std::vector<double> moved(x.count), u(dimension * x.count);
-    VectorsView out{x.dimension, x.count, {}};
-    for (std::size_t k = 0; k < dimension; ++k) out.axis[k] = u.data() + k * x.count;
-    for (std::size_t k = 0; k < dimension; ++k) {
-      PointsView places = x;
-      places.axis[k] = moved.data();
-      for (std::size_t n = 0; n < weights.size(); ++n)
-        for (const double side : {1., -1.}) {
-          const double shift = side * static_cast<double>(n + 1) * step;
-          for (std::size_t i = 0; i < x.count; ++i) moved[i] = x.axis[k][i] + shift;
-          std::fill(u.begin(), u.end(), 0.0);
-          velocity.add(t, places, out);
-          for (std::size_t i = 0; i < x.count; ++i) values[i] += side * weights[n] / step * out.axis[k][i];
-        }
-    }
-  };
-}
-
 std::string to_string(ReferenceSpec::Kind kind) {
   switch (kind) {
     case ReferenceSpec::Kind::characteristics:

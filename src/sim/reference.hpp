@@ -39,10 +39,6 @@ class Reference {
 /// values[i] += g(x_i, t).
 using ScalarRate = std::function<void(double t, const PointsView& x, double* values)>;
 
-/// div u by central differences of order 8 over a 200th of the lattice's longest side: right to about 1e-13 |u| / side
-/// where u is smooth on that length.
-ScalarRate divergence_by_differences(const VelocityField& velocity, const Lattice& lattice);
-
 struct CharacteristicsOptions {
   double tolerance = 1e-12;  // of a step: of the foot relative to the longest side of the lattice, and of the exponent
   bool steady = false;       // u and g do not depend on t: each output goes on from the feet of the one before

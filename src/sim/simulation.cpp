@@ -66,7 +66,10 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
       return formula(description.reference.rho, description.params, scene.evaluation);
     case ReferenceSpec::Kind::characteristics: {
       ScalarRate growth;
-      if (!scene.velocity->is_solenoidal()) growth = divergence_by_differences(*scene.velocity, scene.evaluation);
+      if (!scene.velocity->is_solenoidal())
+        growth = [&velocity = *scene.velocity](double t, const PointsView& x, double* values) {
+          velocity.add_divergence(t, x, values);
+        };
       return characteristics(*scene.velocity, *scene.density, growth, scene.evaluation,
                              {.steady = scene.velocity->is_steady(),
                               .end = description.time.end,

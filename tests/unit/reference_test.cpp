@@ -158,6 +158,9 @@ class CountingField : public VelocityField {
     calls += x.count;
     rotation_.add(t, x, u);
   }
+  void add_divergence(double t, const PointsView& x, double* values) const override {
+    rotation_.add_divergence(t, x, values);
+  }
   std::string describe() const override { return "counted"; }
   mutable std::atomic<std::size_t> calls{0};
 

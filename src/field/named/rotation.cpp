@@ -1,18 +1,14 @@
 // Rigid rotation, counter-clockwise; in 3D about an axis parallel to z.
-#include <fmt/format.h>
-
-#include <cmath>
-
-#include "field/named_fields.hpp"
+#include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Rotation : public VelocityField {
+class Rotation : public SolenoidalField {
  public:
-  Rotation(int dimension, const Arguments& arguments)
-      : dimension_(dimension), center_(point(arguments, "center")), rate_(number(arguments, "rate")) {}
+  explicit Rotation(const Arguments& arguments)
+      : center_(point(arguments, "center")), rate_(number(arguments, "rate")) {}
 
   void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
     const double rate = rate_, cx = center_[0], cy = center_[1];
@@ -24,24 +20,14 @@ class Rotation : public VelocityField {
       uy[i] += rate * dx;
     }
   }
-
-  bool is_solenoidal() const override { return true; }
   bool is_steady() const override { return true; }
-
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
     const double angle = rate_ * (to - from), c = std::cos(angle), s = std::sin(angle);
     const double dx = x[0] - center_[0], dy = x[1] - center_[1];
     return Vector{center_[0] + c * dx - s * dy, center_[1] + s * dx + c * dy, x[2]};
   }
 
-  std::string describe() const override {
-    const std::string about = dimension_ == 2 ? fmt::format("({}, {})", center_[0], center_[1])
-                                              : fmt::format("the axis ({}, {}, z)", center_[0], center_[1]);
-    return fmt::format("rotation about {}, {} rad a time unit, div u = 0", about, rate_);
-  }
-
  private:
-  int dimension_;
   Vector center_;
   double rate_;
 };
@@ -49,23 +35,18 @@ class Rotation : public VelocityField {
 }  // namespace
 
 NamedField rotation() {
-  using Kind = NamedParameter::Kind;
-  return {{.name = "rotation",
-           .meaning = "rigid rotation, counter-clockwise; one turn takes 2 pi / rate",
-           .formula = "u = rate (-(y - center_y), x - center_x), and 0 along z",
-           .parameters = {{.name = "center",
-                           .kind = Kind::point,
-                           .fallback = "origin",
-                           .unit = "length",
-                           .meaning = "centre of the rotation"},
-                          {.name = "rate",
-                           .fallback = "1",
-                           .unit = "radians / time",
-                           .symbol = "omega",
-                           .meaning = "angular velocity, counter-clockwise"}}},
-          "0",
-          "rotation about center by the angle rate (t - s)",
-          [](int dimension, const Arguments& arguments) { return std::make_unique<Rotation>(dimension, arguments); }};
+  return {.about = {.name = "rotation",
+                    .meaning = "rigid rotation, in 3D about an axis along z; one turn takes 2 pi / rate",
+                    .formula = "u = rate (-(y - center_y), x - center_x)",
+                    .parameters = {center_parameter("centre of the rotation"),
+                                   {.name = "rate",
+                                    .fallback = "1",
+                                    .unit = "radians / time",
+                                    .symbol = "omega",
+                                    .meaning = "angular velocity, counter-clockwise"}}},
+          .divergence = "0",
+          .exact_flow = "rotation about center by the angle rate (t - s)",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<Rotation>(arguments); }};
 }
 
 }  // namespace gaussdrift::named

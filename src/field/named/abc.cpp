@@ -1,0 +1,54 @@
+// The flow of Arnold, Beltrami and Childress: its own vorticity, chaotic paths.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+class Abc : public SolenoidalField {
+ public:
+  explicit Abc(const Arguments& arguments)
+      : a_(number(arguments, "A")),
+        b_(number(arguments, "B")),
+        c_(number(arguments, "C")),
+        wave_(2 * std::numbers::pi / number(arguments, "wavelength")) {}
+
+  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
+    for (std::size_t i = 0; i < x.count; ++i) {
+      const double px = wave_ * x.axis[0][i], py = wave_ * x.axis[1][i], pz = wave_ * x.axis[2][i];
+      u.axis[0][i] += a_ * std::sin(pz) + c_ * std::cos(py);
+      u.axis[1][i] += b_ * std::sin(px) + a_ * std::cos(pz);
+      u.axis[2][i] += c_ * std::sin(py) + b_ * std::cos(px);
+    }
+  }
+  bool is_steady() const override { return true; }
+
+ private:
+  double a_, b_, c_, wave_;
+};
+
+}  // namespace
+
+NamedField abc() {
+  const auto strength = [](std::string_view name, std::string_view fallback) {
+    return NamedParameter{.name = name, .fallback = fallback, .unit = "length / time", .meaning = "strength of a wave"};
+  };
+  return {.about = {.name = "abc",
+                    .meaning = "the flow of Arnold, Beltrami and Childress",
+                    .formula = "with k = 2 pi / wavelength: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + "
+                               "B cos kx)",
+                    .least_dimension = 3,
+                    .parameters = {strength("A", "1.7320508075688772"),
+                                   strength("B", "1.4142135623730951"),
+                                   strength("C", "1"),
+                                   {.name = "wavelength",
+                                    .fallback = "6.283185307179586",
+                                    .range = positive,
+                                    .unit = "length",
+                                    .meaning = "the flow repeats after it on every axis"}}},
+          .divergence = "0",
+          .exact_flow = "not known: paths are chaotic",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<Abc>(arguments); }};
+}
+
+}  // namespace gaussdrift::named

@@ -1,0 +1,81 @@
+// The vortex of Burgers 1948: drawn in from the sides, stretched along z, kept steady by viscosity.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+/// u_r = -alpha r / 2, u_z = alpha z, u_theta = Gamma / (2 pi r) (1 - exp(-s)), s = alpha r^2 / (4 nu).
+class Burgers : public SolenoidalField {
+ public:
+  explicit Burgers(const Arguments& arguments)
+      : center_(point(arguments, "center")),
+        strain_(number(arguments, "strain")),
+        quarter_(strain_ / (4 * number(arguments, "viscosity"))),
+        omega_(number(arguments, "circulation") * quarter_ / (2 * std::numbers::pi)) {}
+
+  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
+    for (std::size_t i = 0; i < x.count; ++i) {
+      const double dx = x.axis[0][i] - center_[0], dy = x.axis[1][i] - center_[1];
+      const double omega = omega_ * gaussian_swirl(quarter_ * (dx * dx + dy * dy));
+      u.axis[0][i] -= strain_ / 2 * dx + omega * dy;
+      u.axis[1][i] += omega * dx - strain_ / 2 * dy;
+      u.axis[2][i] += strain_ * (x.axis[2][i] - center_[2]);
+    }
+  }
+  bool is_steady() const override { return true; }
+
+  // d theta / ds = -omega_ / strain (1 - exp(-s)) / s^2 along a path, whose integral is H(s) = (1 - exp(-s)) / s +
+  // E1(s).
+  std::optional<Vector> flow(double from, double to, const Vector& x) const override {
+    const double dx = x[0] - center_[0], dy = x[1] - center_[1], shrink = std::exp(-strain_ / 2 * (to - from));
+    const double before = quarter_ * (dx * dx + dy * dy), after = before * shrink * shrink;
+    const double angle = before < 1e-300 || after < 1e-300  // on the axis: omega is constant
+                             ? omega_ * (to - from)
+                             : omega_ / strain_ * (winding(after) - winding(before));
+    const double c = shrink * std::cos(angle), s = shrink * std::sin(angle);
+    return Vector{center_[0] + c * dx - s * dy, center_[1] + s * dx + c * dy,
+                  center_[2] + (x[2] - center_[2]) * std::exp(strain_ * (to - from))};
+  }
+
+ private:
+  static double winding(double s) { return gaussian_swirl(s) + (s > 700 ? 0.0 : -std::expint(-s)); }  // E1 < 1e-306
+
+  Vector center_;
+  double strain_, quarter_, omega_;
+};
+
+}  // namespace
+
+NamedField burgers() {
+  return {.about = {.name = "burgers",
+                    .meaning = "vortex along z that is drawn in from the sides and stretched [Bur48]",
+                    .formula = "with r the distance from the axis through center: u_r = -strain r / 2, u_z = strain (z "
+                               "- center_z), u_theta = circulation / (2 pi r) (1 - exp(-strain r^2 / (4 viscosity)))",
+                    .least_dimension = 3,
+                    .parameters = {center_parameter("the point at rest"),
+                                   {.name = "strain",
+                                    .fallback = "1",
+                                    .range = positive,
+                                    .unit = "1 / time",
+                                    .symbol = "alpha",
+                                    .meaning = "rate of stretching along z"},
+                                   {.name = "circulation",
+                                    .fallback = "1",
+                                    .unit = "length^2 / time",
+                                    .symbol = "Gamma",
+                                    .meaning = "counter-clockwise"},
+                                   {.name = "viscosity",
+                                    .fallback = "1",
+                                    .range = positive,
+                                    .unit = "length^2 / time",
+                                    .symbol = "nu",
+                                    .meaning = "sets the radius of the core, 2 sqrt(viscosity / strain)"}}},
+          .divergence = "0",
+          .exact_flow =
+              "r exp(-strain (t - s) / 2), z exp(strain (t - s)), and an angle in closed form with the "
+              "exponential integral E1",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<Burgers>(arguments); }};
+}
+
+}  // namespace gaussdrift::named

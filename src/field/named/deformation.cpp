@@ -1,0 +1,53 @@
+// The deformation of a ball in a box of LeVeque 1996 and Enright et al. 2002.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+class Deformation : public SolenoidalField {
+ public:
+  explicit Deformation(const Arguments& arguments) : box_(arguments), reversal_{number(arguments, "period")} {}
+
+  void add(double t, const PointsView& x, const VectorsView& u) const override {
+    const double g = reversal_.factor(t);
+    for (std::size_t i = 0; i < x.count; ++i) {
+      Vector square{}, twice{};  // sin^2(pi xi), sin(2 pi xi)
+      for (int k = 0; k < 3; ++k) {
+        const double a = std::numbers::pi * box_.unit(k, x.axis[k][i]), s = std::sin(a);
+        square[k] = s * s;
+        twice[k] = 2 * s * std::cos(a);
+      }
+      u.axis[0][i] += 2 * box_.length[0] * g * square[0] * twice[1] * twice[2];
+      u.axis[1][i] -= box_.length[1] * g * twice[0] * square[1] * twice[2];
+      u.axis[2][i] -= box_.length[2] * g * twice[0] * twice[1] * square[2];
+    }
+  }
+  bool is_steady() const override { return reversal_.is_steady(); }
+  std::optional<Vector> flow(double from, double to, const Vector& x) const override {
+    return reversal_.is_undone(from, to) ? std::optional(x) : std::nullopt;
+  }
+
+ private:
+  Scaling box_;
+  Reversal reversal_;
+};
+
+}  // namespace
+
+NamedField deformation() {
+  return {
+      .about = {.name = "deformation",
+                .meaning = "deformation of a ball in a box [LeV96], [EFFM02]; T = 3 is usual for the unit cube",
+                .formula = "with xi, eta, zeta = 0 ... 1 across the box: u = (2 L_x sin^2(pi xi) sin(2 pi eta) "
+                           "sin(2 pi zeta), -L_y sin(2 pi xi) sin^2(pi eta) sin(2 pi zeta), -L_z sin(2 pi xi) "
+                           "sin(2 pi eta) sin^2(pi zeta)) cos(pi t / T)",
+                .least_dimension = 3,
+                .parameters = {min_parameter(), max_parameter(), period_parameter()},
+                .problem = empty_box},
+      .divergence = "0",
+      .exact_flow = "back where it was when sin(pi t / T) = sin(pi s / T), for example after T; not known in between",
+      .make = [](int, const Arguments& arguments) { return std::make_unique<Deformation>(arguments); }};
+}
+
+}  // namespace gaussdrift::named

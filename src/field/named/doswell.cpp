@@ -1,0 +1,43 @@
+// The vortex of Doswell 1984, which rolls a front up: exact at all times.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+/// omega(r) = v_0 / R sech^2(r/R) tanh(r/R) / (r/R), v_0 = speed / max(sech^2 tanh) = 3 sqrt(3) / 2 speed.
+struct Omega {
+  double radius, speed;
+
+  double operator()(double square) const {
+    const double s = std::sqrt(square) / radius, cosine = std::cosh(s);
+    const double ratio = s == 0 ? 1.0 : std::tanh(s) / s;
+    return 1.5 * std::numbers::sqrt3 * speed / radius * ratio / (cosine * cosine);
+  }
+};
+
+}  // namespace
+
+NamedField doswell() {
+  return {
+      .about = {.name = "doswell",
+                .meaning = "vortex that rolls a front up [Dos84], in 3D about an axis along z",
+                .formula = "with s = |x - center| / radius: circles at the speed (3 sqrt(3) / 2) speed sech^2(s) "
+                           "tanh(s), counter-clockwise",
+                .parameters =
+                    {center_parameter("centre of the vortex"),
+                     {.name = "radius",
+                      .fallback = "1",
+                      .range = positive,
+                      .unit = "length",
+                      .meaning = "scale of the vortex; the wind is strongest at 0.66 of it"},
+                     {.name = "speed", .fallback = "1", .unit = "length / time", .meaning = "of the strongest wind"}}},
+      .divergence = "0",
+      .exact_flow = "rotation about center by the angle omega(r) (t - s)",
+      .make = [](int, const Arguments& a) {
+        return std::make_unique<CircularField<Omega>>(point(a, "center"),
+                                                      Omega{number(a, "radius"), number(a, "speed")});
+      }};
+}
+
+}  // namespace gaussdrift::named

@@ -1,0 +1,63 @@
+// The double gyre of Shadden, Lekien and Marsden 2005: two vortices whose border sways.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+class DoubleGyre : public SolenoidalField {
+ public:
+  explicit DoubleGyre(const Arguments& arguments)
+      : box_(arguments),
+        amplitude_(number(arguments, "amplitude")),
+        sway_(number(arguments, "sway")),
+        period_(number(arguments, "period")) {}
+
+  void add(double t, const PointsView& x, const VectorsView& u) const override {
+    const double pi = std::numbers::pi, a = sway_ * std::sin(2 * pi * (t / period_)), b = 1 - 2 * a;
+    for (std::size_t i = 0; i < x.count; ++i) {
+      const double xi = 2 * box_.unit(0, x.axis[0][i]), eta = box_.unit(1, x.axis[1][i]);
+      const double f = (a * xi + b) * xi, slope = 2 * a * xi + b;
+      u.axis[0][i] -= box_.length[0] / 2 * pi * amplitude_ * std::sin(pi * f) * std::cos(pi * eta);
+      u.axis[1][i] += box_.length[1] * pi * amplitude_ * std::cos(pi * f) * std::sin(pi * eta) * slope;
+    }
+  }
+  bool is_steady() const override { return sway_ == 0; }
+
+ private:
+  Scaling box_;
+  double amplitude_, sway_, period_;
+};
+
+}  // namespace
+
+NamedField double_gyre() {
+  return {.about = {.name = "double_gyre",
+                    .meaning = "two vortices side by side whose border sways [SLM05]; native to [0, 2] x [0, 1]",
+                    .formula = "with xi = 0 ... 2, eta = 0 ... 1 across the box and f = a xi^2 + (1 - 2 a) xi, "
+                               "a = sway sin(2 pi t / period): u = pi amplitude (-L_x/2 sin(pi f) cos(pi eta), "
+                               "L_y cos(pi f) sin(pi eta) df/dxi)",
+                    .parameters = {min_parameter(),
+                                   max_parameter(),
+                                   {.name = "amplitude",
+                                    .fallback = "0.1",
+                                    .unit = "1 / time",
+                                    .symbol = "A",
+                                    .meaning = "strength of the vortices"},
+                                   {.name = "sway",
+                                    .fallback = "0.25",
+                                    .symbol = "eps",
+                                    .meaning = "how far the border sways; 0 makes the flow steady"},
+                                   {.name = "period",
+                                    .fallback = "10",
+                                    .range = positive,
+                                    .unit = "time",
+                                    .symbol = "2 pi / omega",
+                                    .meaning = "of the swaying"}},
+                    .problem = empty_box},
+          .divergence = "0",
+          .exact_flow = "not known: paths are chaotic",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<DoubleGyre>(arguments); }};
+}
+
+}  // namespace gaussdrift::named

@@ -1,0 +1,45 @@
+// The vortex of Lamb and Oseen at one moment: a Gaussian of vorticity, frozen.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+/// omega(r) = circulation / (2 pi r^2) (1 - exp(-r^2 / radius^2)).
+struct Omega {
+  double circulation, radius;
+
+  double operator()(double square) const {
+    const double core = radius * radius;
+    return circulation / (2 * std::numbers::pi * core) * gaussian_swirl(square / core);
+  }
+};
+
+}  // namespace
+
+NamedField lamb_oseen() {
+  return {
+      .about = {.name = "lamb_oseen",
+                .meaning = "vortex with a Gaussian core, frozen in time; in 3D about an axis along z",
+                .formula = "circles at the speed circulation / (2 pi r) (1 - exp(-r^2 / radius^2)), r = |x - center|",
+                .parameters = {center_parameter("centre of the vortex"),
+                               {.name = "circulation",
+                                .fallback = "1",
+                                .unit = "length^2 / time",
+                                .symbol = "Gamma",
+                                .meaning = "counter-clockwise"},
+                               {.name = "radius",
+                                .fallback = "1",
+                                .range = positive,
+                                .unit = "length",
+                                .symbol = "2 sqrt(nu t)",
+                                .meaning = "of the core"}}},
+      .divergence = "0",
+      .exact_flow = "rotation about center by the angle omega(r) (t - s)",
+      .make = [](int, const Arguments& a) {
+        return std::make_unique<CircularField<Omega>>(point(a, "center"),
+                                                      Omega{number(a, "circulation"), number(a, "radius")});
+      }};
+}
+
+}  // namespace gaussdrift::named

@@ -1,0 +1,42 @@
+// Plane shear: layers that slide over each other along x.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+class Shear : public SolenoidalField {
+ public:
+  explicit Shear(const Arguments& arguments)
+      : middle_(point(arguments, "center")[1]), rate_(number(arguments, "rate")) {}
+
+  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
+    for (std::size_t i = 0; i < x.count; ++i) u.axis[0][i] += rate_ * (x.axis[1][i] - middle_);
+  }
+  bool is_steady() const override { return true; }
+  std::optional<Vector> flow(double from, double to, const Vector& x) const override {
+    return Vector{x[0] + rate_ * (x[1] - middle_) * (to - from), x[1], x[2]};
+  }
+
+ private:
+  double middle_, rate_;
+};
+
+}  // namespace
+
+NamedField shear() {
+  return {.about = {.name = "shear",
+                    .meaning = "plane shear along x",
+                    .formula = "u = (rate (y - center_y), 0)",
+                    .parameters = {center_parameter("a point of the layer at rest"),
+                                   {.name = "rate",
+                                    .fallback = "1",
+                                    .unit = "1 / time",
+                                    .symbol = "gamma",
+                                    .meaning = "shear rate du/dy"}}},
+          .divergence = "0",
+          .exact_flow = "(x + rate (y - center_y) (t - s), y)",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<Shear>(arguments); }};
+}
+
+}  // namespace gaussdrift::named

@@ -1,0 +1,46 @@
+// The single vortex in a box of LeVeque 1996 and Rider and Kothe 1998, which winds a disk up to a thin spiral and back.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+class Swirl : public SolenoidalField {
+ public:
+  explicit Swirl(const Arguments& arguments) : box_(arguments), reversal_{number(arguments, "period")} {}
+
+  void add(double t, const PointsView& x, const VectorsView& u) const override {
+    const double pi = std::numbers::pi, g = 2 * reversal_.factor(t);
+    for (std::size_t i = 0; i < x.count; ++i) {
+      const double a = pi * box_.unit(0, x.axis[0][i]), b = pi * box_.unit(1, x.axis[1][i]);
+      const double sa = std::sin(a), ca = std::cos(a), sb = std::sin(b), cb = std::cos(b);
+      u.axis[0][i] += box_.length[0] * g * (sa * sa) * (sb * cb);
+      u.axis[1][i] -= box_.length[1] * g * (sb * sb) * (sa * ca);
+    }
+  }
+  bool is_steady() const override { return reversal_.is_steady(); }
+  std::optional<Vector> flow(double from, double to, const Vector& x) const override {
+    return reversal_.is_undone(from, to) ? std::optional(x) : std::nullopt;
+  }
+
+ private:
+  Scaling box_;
+  Reversal reversal_;
+};
+
+}  // namespace
+
+NamedField swirl() {
+  return {
+      .about = {.name = "swirl",
+                .meaning = "single vortex in a box [LeV96], [RK98]; T = 8 is usual for the unit square",
+                .formula = "with xi, eta = 0 ... 1 across the box L_x x L_y: u = (L_x sin^2(pi xi) sin(2 pi eta), "
+                           "-L_y sin^2(pi eta) sin(2 pi xi)) cos(pi t / T)",
+                .parameters = {min_parameter(), max_parameter(), period_parameter()},
+                .problem = empty_box},
+      .divergence = "0",
+      .exact_flow = "back where it was when sin(pi t / T) = sin(pi s / T), for example after T; not known in between",
+      .make = [](int, const Arguments& arguments) { return std::make_unique<Swirl>(arguments); }};
+}
+
+}  // namespace gaussdrift::named

@@ -1,0 +1,135 @@
+// Taylor and Green's lattice of vortices; with a decay it solves the Navier-Stokes equations.
+#include <algorithm>
+#include <array>
+
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+/// Carlson's R_F(x, y, z) by duplication [Car95], at most one argument 0. Right to a few roundings.
+double carlson(double x, double y, double z) {
+  for (int k = 0; k < 60; ++k) {
+    const double mean = (x + y + z) / 3;
+    const double dx = 1 - x / mean, dy = 1 - y / mean, dz = 1 - z / mean;
+    if (std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) < 2e-3) {  // the next term of the series is its 6th power
+      const double e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
+      return (1 + (e2 / 24 - 0.1 - 3 * e3 / 44) * e2 + e3 / 14) / std::sqrt(mean);
+    }
+    const double shift = std::sqrt(x * y) + std::sqrt(x * z) + std::sqrt(y * z);
+    x = (x + shift) / 4, y = (y + shift) / 4, z = (z + shift) / 4;
+  }
+  return 1 / std::sqrt((x + y + z) / 3);
+}
+
+struct Jacobi {
+  double sn, cn, dn;
+};
+
+/// Jacobi's elliptic functions of u for the complementary modulus k' > 0, by arithmetic-geometric means [AS64, 16.4].
+Jacobi jacobi(double u, double complement) {
+  constexpr int most = 16;
+  std::array<double, most> ratio{};  // c_n / a_n
+  double a = 1, b = complement, scale = 1;
+  int n = 0;
+  for (; n < most && std::abs(a - b) > 1e-16 * a; ++n) {
+    const double mean = (a + b) / 2;
+    ratio[n] = (a - b) / 2 / mean;
+    b = std::sqrt(a * b);
+    a = mean;
+    scale *= 2;
+  }
+  double angle = scale * a * u;
+  for (; n > 0; --n) angle = (angle + std::asin(ratio[n - 1] * std::sin(angle))) / 2;
+  const double sn = std::sin(angle), cn = std::cos(angle);
+  return {sn, cn, std::hypot(cn, complement * sn)};
+}
+
+class TaylorGreen : public SolenoidalField {
+ public:
+  explicit TaylorGreen(const Arguments& arguments)
+      : corner_(point(arguments, "corner")),
+        speed_(number(arguments, "speed")),
+        wave_(2 * std::numbers::pi / number(arguments, "wavelength")),
+        decay_(number(arguments, "decay")) {}
+
+  void add(double t, const PointsView& x, const VectorsView& u) const override {
+    const double speed = speed_ * std::exp(-decay_ * t);
+    for (std::size_t i = 0; i < x.count; ++i) {
+      const double a = wave_ * (x.axis[0][i] - corner_[0]), b = wave_ * (x.axis[1][i] - corner_[1]);
+      u.axis[0][i] += speed * std::sin(a) * std::cos(b);
+      u.axis[1][i] -= speed * std::cos(a) * std::sin(b);
+    }
+  }
+  bool is_steady() const override { return decay_ == 0; }
+
+  // Within one cell, with the angles a, b = 0 ... pi and m = sqrt(1 - sin^2 a sin^2 b), which the path keeps:
+  // cos a = m sn(tau), cos b = -m cn(tau) / dn(tau), sin a = dn(tau), tau growing like k times the length at speed u.
+  std::optional<Vector> flow(double from, double to, const Vector& x) const override {
+    const double pi = std::numbers::pi;
+    double a = wave_ * (x[0] - corner_[0]), b = wave_ * (x[1] - corner_[1]);
+    const double column = std::floor(a / pi), row = std::floor(b / pi);
+    a -= column * pi, b -= row * pi;
+    const double sense = std::fmod(std::abs(column + row), 2) == 1 ? -1 : 1;
+    // int_from^to exp(-decay t) dt
+    const double span = to - from;
+    const double time = decay_ == 0 ? span : -std::exp(-decay_ * from) * std::expm1(-decay_ * span) / decay_;
+    const double run = sense * wave_ * speed_ * time;
+    const double sa = std::sin(a), ca = std::cos(a), sb = std::sin(b), cb = std::cos(b);
+    const double complement = std::abs(sa * sb), modulus = std::hypot(ca, sa * cb);
+    if (complement == 0) {  // on a wall: tan(angle / 2) grows like an exponential
+      if (sa == 0)
+        b = 2 * std::atan(std::tan(b / 2) * std::exp(-run * ca));
+      else
+        a = 2 * std::atan(std::tan(a / 2) * std::exp(run * cb));
+    } else if (modulus > 0) {
+      const double sn = ca / modulus, cn = -sa * cb / modulus;
+      double start = sn * carlson(cn * cn, sa * sa, 1);
+      if (cn < 0) start = std::copysign(2 * carlson(0, complement * complement, 1), sn) - start;
+      const Jacobi end = jacobi(start + run, complement);
+      a = std::atan2(end.dn, modulus * end.sn);
+      b = std::atan2(complement, -modulus * end.cn);
+    }
+    return Vector{corner_[0] + (column * pi + a) / wave_, corner_[1] + (row * pi + b) / wave_, x[2]};
+  }
+
+ private:
+  Vector corner_;
+  double speed_, wave_, decay_;
+};
+
+}  // namespace
+
+NamedField taylor_green() {
+  return {.about = {.name = "taylor_green",
+                    .meaning = "lattice of vortices of Taylor and Green [TG37], in 3D the same at every z",
+                    .formula = "with k = 2 pi / wavelength, a = k (x - corner_x), b = k (y - corner_y): u = speed "
+                               "exp(-decay t) (sin a cos b, -cos a sin b)",
+                    .parameters = {{.name = "corner",
+                                    .kind = Kind::point,
+                                    .fallback = "origin",
+                                    .unit = "length",
+                                    .meaning = "a point where four vortices meet"},
+                                   {.name = "speed",
+                                    .fallback = "1",
+                                    .unit = "length / time",
+                                    .meaning = "of the strongest wind at t = 0"},
+                                   {.name = "wavelength",
+                                    .fallback = "6.283185307179586",
+                                    .range = positive,
+                                    .unit = "length",
+                                    .meaning = "two vortices wide"},
+                                   {.name = "decay",
+                                    .fallback = "0",
+                                    .unit = "1 / time",
+                                    .symbol = "2 nu k^2",
+                                    .meaning = "rate at which the flow dies away"}}},
+          .divergence = "0",
+          .exact_flow =
+              "in Jacobi's elliptic functions; one turn takes 4 K(m) / (k speed), m^2 = 1 - sin^2 a sin^2 b, "
+              "without decay",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<TaylorGreen>(arguments); }};
+}
+
+}  // namespace gaussdrift::named

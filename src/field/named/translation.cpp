@@ -1,0 +1,42 @@
+// Uniform wind.
+#include "field/named/named.hpp"
+
+namespace gaussdrift::named {
+
+namespace {
+
+class Translation : public SolenoidalField {
+ public:
+  explicit Translation(const Arguments& arguments) : velocity_(point(arguments, "velocity")) {}
+
+  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
+    for (int k = 0; k < x.dimension; ++k)
+      for (std::size_t i = 0; i < x.count; ++i) u.axis[k][i] += velocity_[k];
+  }
+  bool is_steady() const override { return true; }
+  std::optional<Vector> flow(double from, double to, const Vector& x) const override {
+    Vector y = x;
+    for (int k = 0; k < max_dimension; ++k) y[k] += velocity_[k] * (to - from);
+    return y;
+  }
+
+ private:
+  Vector velocity_;
+};
+
+}  // namespace
+
+NamedField translation() {
+  return {.about = {.name = "translation",
+                    .meaning = "uniform wind",
+                    .formula = "u = velocity",
+                    .parameters = {{.name = "velocity",
+                                    .kind = Kind::point,
+                                    .unit = "length / time",
+                                    .meaning = "the same everywhere"}}},
+          .divergence = "0",
+          .exact_flow = "x + velocity (t - s)",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<Translation>(arguments); }};
+}
+
+}  // namespace gaussdrift::named
