@@ -1,5 +1,5 @@
 # Reads the include lines of src/ and include/ and fails if one points up the module order:
-#   cli -> study -> input, render -> write -> sim -> (effect, time) -> (particle, field, farfield) -> fgtd -> base
+#   cli -> study -> input, render -> write -> sim -> (effect, time) -> (particle, read, field, farfield) -> fgtd -> base
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
 # What each module may include besides itself. "case" is include/gaussdrift/case.hpp, plain data that anybody above may read.
@@ -10,12 +10,13 @@ set(may_farfield base/parallel.hpp)
 set(may_case "")
 set(may_time base)
 set(may_field base expression fgtd)
+set(may_read base field)
 set(may_particle base fgtd)
 set(may_effect base expression fgtd field particle farfield)
 set(may_sim base expression fgtd field particle effect time case)
 set(may_write base particle sim case)
 set(may_render base particle sim case write)
-set(may_input base expression field case)
+set(may_input base expression field read case)
 set(may_study base expression fgtd farfield field particle effect time sim write render input case)
 set(may_cli base study sim write render input time case fgtd)
 

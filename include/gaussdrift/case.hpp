@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,8 @@
 #include <vector>
 
 namespace gaussdrift {
+
+struct GridData;  // field/grid_data.hpp
 
 /// Named constants of `[params]`, in file order.
 using Params = std::vector<std::pair<std::string, double>>;
@@ -40,7 +43,14 @@ struct NamedVelocity {
   std::string field;
   Arguments arguments;
 };
-using VelocitySpec = std::variant<ExpressionVelocity, StreamfunctionVelocity, NamedVelocity>;
+/// file = "...": data on a grid (docs/cases.md), already read.
+struct FileVelocity {
+  std::filesystem::path file;  // absolute
+  std::string array;           // as written; empty: the only one
+  std::string interpolation, outside;
+  std::shared_ptr<const GridData> data;
+};
+using VelocitySpec = std::variant<ExpressionVelocity, StreamfunctionVelocity, NamedVelocity, FileVelocity>;
 
 // --- initial density --------------------------------------------------------------------------------------------
 
@@ -53,7 +63,14 @@ struct ShapeDensity {
   std::string shape;
   Arguments arguments;
 };
-using DensitySpec = std::variant<ExpressionDensity, ShapeDensity>;
+/// file = "...": data on a grid, already read.
+struct FileDensity {
+  std::filesystem::path file;  // absolute
+  std::string array;           // as written; empty: the only one
+  std::string interpolation, outside;
+  std::shared_ptr<const GridData> data;
+};
+using DensitySpec = std::variant<ExpressionDensity, ShapeDensity, FileDensity>;
 
 // --- discretisation ---------------------------------------------------------------------------------------------
 

@@ -79,7 +79,10 @@ class Forward {
       for (std::size_t k = base; k < top; ++k) same = same && stack_.same[k];
       if (!same)
         for (std::size_t k = base; k < top; ++k) stack_.spread(k, count_);
-      if (moving) combine(step, base);
+      if (moving)
+        combine(step, base);
+      else
+        for (auto& flags : zero_) flags[base] = true;
       run_step(step, arguments, first, same ? 1 : count_, stack_.row(base));
       stack_.same[base] = same;
       if (step.operation == Operation::variable) set_variable(step, base, variables);

@@ -21,6 +21,7 @@
 #include "input/diagnostics.hpp"
 #include "input/document.hpp"
 #include "input/registry.hpp"
+#include "read/grid_file.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -69,8 +70,8 @@ struct Parameter {
 /// Turns the tree into a Case. Every read_ function complains about everything wrong in its table and carries on.
 class Reader {
  public:
-  Reader(const Value& root, const Source& source, Diagnostics& diagnostics)
-      : root_(root), source_(source), diagnostics_(diagnostics) {}
+  Reader(const Value& root, const Source& source, Diagnostics& diagnostics, std::filesystem::path folder)
+      : root_(root), source_(source), diagnostics_(diagnostics), folder_(std::move(folder)) {}
 
   Case read() {
     Case scene;
@@ -85,6 +86,7 @@ class Reader {
     read_density(scene.density);
     read_particles(scene.particles, scene.domain);
     read_time(scene.time);
+    check_times_of_files();
     read_evaluate(scene.evaluate, scene.domain);
     read_output(scene.output, scene.time);
     read_reference(scene);
@@ -626,11 +628,48 @@ class Reader {
   void read_velocity(std::vector<VelocitySpec>& velocity) {
     each_part("velocity", [&](std::string_view kind, const Value& value) {
       if (kind == "u") velocity.emplace_back(expression_velocity(value));
+      if (kind == "file") velocity.emplace_back(grid_file<FileVelocity>("velocity", value, dimension_, 3));
       if (kind == "streamfunction") velocity.emplace_back(streamfunction(value));
       if (kind == "field")
         velocity.emplace_back(NamedVelocity{
             value.text, arguments(find_key("velocity", kind), find_named_field(value.text).about, value)});
     });
+  }
+
+  /// Data on a grid, read at once so that everything wrong with it has its place in the case file.
+  template <class FileSpec>
+  FileSpec grid_file(std::string_view table_name, const Value& value, int least_components, int most_components) {
+    FileSpec spec;
+    spec.array = text(table_name, "array");
+    spec.interpolation = choice(table_name, "interpolation");
+    spec.outside = choice(table_name, "outside");
+    if (value.kind != Kind::text) {
+      wrong_type(value, label_of(find_key(table_name, "file")), "the name of a file in a string");
+      return spec;
+    }
+    if (!dimension_) return spec;
+    spec.file = std::filesystem::absolute(folder_ / value.text).lexically_normal();
+    try {
+      spec.data = read::read_grid(spec.file, spec.array, dimension_, static_cast<std::size_t>(least_components),
+                                  static_cast<std::size_t>(most_components));
+      grid_files_.push_back({value.place, spec.data});
+    } catch (const read::GridFileError& error) {
+      diagnostics_.error(value.place, error.what(), error.remedy());
+    }
+    return spec;
+  }
+
+  /// Data at several times must cover the run.
+  void check_times_of_files() {
+    if (!end_) return;
+    for (const auto& [place, data] : grid_files_) {
+      const double first = data->times.front(), last = data->times.back();
+      if (data->times.size() > 1 && (first > same_time * *end_ || last < *end_ * (1 - same_time)))
+        diagnostics_.error(
+            place,
+            fmt::format("{} covers the times {} to {}, but the run goes from 0 to {}", data->name, first, last, *end_),
+            "shorten time.end, or let the data cover the run");
+    }
   }
 
   StreamfunctionVelocity streamfunction(const Value& value) {
@@ -668,6 +707,7 @@ class Reader {
     each_part("density", [&](std::string_view kind, const Value& value) {
       const Key& key = find_key("density", kind);
       if (kind == "expression") density.emplace_back(ExpressionDensity{field_expression(value, label_of(key), false)});
+      if (kind == "file") density.emplace_back(grid_file<FileDensity>("density", value, 1, 1));
       if (kind == "shape")
         density.emplace_back(ShapeDensity{value.text, arguments(key, find_named_shape(value.text).about, value)});
     });
@@ -930,6 +970,8 @@ class Reader {
   std::string_view part_table_;  // of a table that may be repeated: the part that is being read
   std::string part_label_;
   const Value* part_ = nullptr;
+  const std::filesystem::path folder_;  // of the case file
+  std::vector<std::pair<Place, std::shared_ptr<const GridData>>> grid_files_;
   std::optional<double> end_;
   std::vector<std::string> meant_;  // tables and keys that a misspelt name was taken for: not missing, then
 };
@@ -942,7 +984,7 @@ ReadResult parse_case(const std::string& text, const std::filesystem::path& file
   Diagnostics diagnostics(source);
   const auto root = read_document(text, source, diagnostics);
   ReadResult result;
-  if (root) result.scene = Reader(*root, source, diagnostics).read();
+  if (root) result.scene = Reader(*root, source, diagnostics, file.parent_path()).read();
   if (diagnostics.errors() > 0) throw CaseError(diagnostics.error_text(), diagnostics.errors());
   result.scene.name = file.stem().string();
   result.scene.file = file;

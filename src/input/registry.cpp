@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "expression/expression.hpp"
+#include "field/grid_data.hpp"
 #include "field/named_fields.hpp"
 #include "field/shapes.hpp"
 
@@ -37,11 +38,11 @@ const std::vector<Table>& tables() {
       {.name = "velocity",
        .required = true,
        .meaning = "the prescribed velocity u; several `[[velocity]]` add up",
-       .kinds = {"u", "streamfunction", "field"}},
+       .kinds = {"u", "streamfunction", "field", "file"}},
       {.name = "density",
        .required = true,
        .meaning = "the density rho_0 at t = 0; several `[[density]]` add up",
-       .kinds = {"expression", "shape"}},
+       .kinds = {"expression", "shape", "file"}},
       {.name = "particles",
        .required = true,
        .meaning = "the lattice on which particles start, and the blob each carries"},
@@ -132,6 +133,29 @@ std::vector<Key> written_keys() {
        .choices = names_of(named_fields()),
        .meaning = "a named field, with its parameters beside it"},
 
+      {.table = "velocity",
+       .name = "file",
+       .meaning = "data on a grid for ParaView: .vti, .vtr, or .pvd for several times, between which it is linear; "
+                  "relative to the case file"},
+      {.table = "velocity",
+       .name = "array",
+       .meaning = "name of the array in the file; may be left out if there is one",
+       .with = "file"},
+      {.table = "velocity",
+       .name = "interpolation",
+       .type = Type::choice,
+       .fallback = "linear",
+       .choices = {interpolation_names.begin(), interpolation_names.end()},
+       .meaning = "between grid points: linear, or cubic with continuous derivatives",
+       .with = "file"},
+      {.table = "velocity",
+       .name = "outside",
+       .type = Type::choice,
+       .fallback = "error",
+       .choices = {outside_names.begin(), outside_names.end()},
+       .meaning = "outside the grid: an error, the value of the nearest point of its surface, or zero",
+       .with = "file"},
+
       {.table = "density",
        .name = "expression",
        .type = Type::expression,
@@ -142,6 +166,28 @@ std::vector<Key> written_keys() {
        .type = Type::choice,
        .choices = names_of(named_shapes()),
        .meaning = "a named shape, with its parameters beside it"},
+
+      {.table = "density",
+       .name = "file",
+       .meaning = "data on a grid for ParaView: .vti or .vtr; relative to the case file"},
+      {.table = "density",
+       .name = "array",
+       .meaning = "name of the array in the file; may be left out if there is one",
+       .with = "file"},
+      {.table = "density",
+       .name = "interpolation",
+       .type = Type::choice,
+       .fallback = "linear",
+       .choices = {interpolation_names.begin(), interpolation_names.end()},
+       .meaning = "between grid points: linear, or cubic with continuous derivatives",
+       .with = "file"},
+      {.table = "density",
+       .name = "outside",
+       .type = Type::choice,
+       .fallback = "zero",
+       .choices = {outside_names.begin(), outside_names.end()},
+       .meaning = "outside the grid: an error, the value of the nearest point of its surface, or zero",
+       .with = "file"},
 
       {.table = "particles",
        .name = "per_axis",

@@ -72,6 +72,13 @@ class Writer {
     }
   }
   void entry(std::string_view name, const std::string& value) { text_ += fmt::format("{} = {}\n", name, value); }
+  template <class FileSpec>
+  void file(const FileSpec& spec) {
+    entry("file", written(spec.file.string()));
+    if (!spec.array.empty()) entry("array", written(spec.array));
+    entry("interpolation", written(spec.interpolation));
+    entry("outside", written(spec.outside));
+  }
   const std::string& text() const { return text_; }
 
  private:
@@ -121,6 +128,8 @@ std::string resolved_toml(const Case& scene) {
       out.entry("u", written(field->components));
     } else if (const auto* stream = std::get_if<StreamfunctionVelocity>(&part)) {
       out.entry("streamfunction", written(stream->psi));
+    } else if (const auto* grid = std::get_if<FileVelocity>(&part)) {
+      out.file(*grid);
     } else if (const auto* named = std::get_if<NamedVelocity>(&part)) {
       out.entry("field", written(named->field));
       out.arguments("velocity", named->field, named->arguments);
@@ -130,6 +139,8 @@ std::string resolved_toml(const Case& scene) {
     out.part("density", scene.density.size());
     if (const auto* field = std::get_if<ExpressionDensity>(&part)) {
       out.entry("expression", written(field->text));
+    } else if (const auto* grid = std::get_if<FileDensity>(&part)) {
+      out.file(*grid);
     } else if (const auto* shape = std::get_if<ShapeDensity>(&part)) {
       out.entry("shape", written(shape->shape));
       out.arguments("density", shape->shape, shape->arguments);

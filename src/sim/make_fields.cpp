@@ -1,10 +1,12 @@
 #include "sim/make_fields.hpp"
 
-#include <type_traits>
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "field/gridded.hpp"
 #include "field/named_fields.hpp"
 #include "field/shapes.hpp"
 
@@ -24,6 +26,26 @@ std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocity& spec, con
 
 std::unique_ptr<VelocityField> make_part(const NamedVelocity& spec, const Case& description) {
   return make_named_field(spec.field, box_of(description.domain), spec.arguments);
+}
+
+/// The choice of that name; the case is valid.
+template <class Choice, std::size_t n>
+Choice named_choice(const std::array<std::string_view, n>& names, const std::string& name) {
+  return static_cast<Choice>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+template <class FileSpec>
+GridInterpolator interpolator(const FileSpec& spec) {
+  return {spec.data, named_choice<Interpolation>(interpolation_names, spec.interpolation),
+          named_choice<Outside>(outside_names, spec.outside)};
+}
+
+std::unique_ptr<VelocityField> make_part(const FileVelocity& spec, const Case& /*description*/) {
+  return std::make_unique<GriddedVelocity>(interpolator(spec));
+}
+
+std::unique_ptr<InitialDensity> make_part(const FileDensity& spec, const Case& /*description*/) {
+  return std::make_unique<GriddedDensity>(interpolator(spec));
 }
 
 std::unique_ptr<InitialDensity> make_part(const ExpressionDensity& spec, const Case& description) {

@@ -48,7 +48,7 @@ void check_block(const PointsView& x, const VectorsView& u, const std::int64_t* 
           when));
     throw NumericalError(fmt::format(
         "the velocity is {} {}, for particle {} at {}; the field must be finite wherever particles go: guard the "
-        "expression, shorten time.end, or move the density",
+        "expression, choose what is outside of data from a file, shorten time.end, or move the density",
         tuple(u.axis, x.dimension, j), when, id[j], tuple(x.axis, x.dimension, j)));
   }
 }

@@ -202,24 +202,45 @@ const std::vector<Wrong> wrongs = {
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x*z\"]", 16, "z", "z exists only in 3D; the domain has 2 dimensions"},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x +\"]", 16, "+", "a value is missing after \"+\""},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nfield = \"rotation\"", 17, "field",
-     "[velocity] has both \"u\" and \"field\"", "give exactly one of \"u\", \"field\""},
-    {"u = [\"-y\", \"x\"]", "", 15, "[velocity]", "[velocity] has none of \"u\", \"field\"",
-     "give exactly one of \"u\", \"field\""},
+     "[velocity] has both \"u\" and \"field\"", "give exactly one of \"u\", \"streamfunction\", \"field\", \"file\""},
+    {"u = [\"-y\", \"x\"]", "", 15, "[velocity]",
+     "[velocity] has none of \"u\", \"streamfunction\", \"field\", \"file\"",
+     "give exactly one of \"u\", \"streamfunction\", \"field\", \"file\""},
     {"u = [\"-y\", \"x\"]", "field = \"rotatoin\"", 16, "\"rotatoin\"",
-     "unknown value \"rotatoin\" for velocity.field; did you mean \"rotation\"?", "known values: \"rotation\""},
+     "unknown value \"rotatoin\" for velocity.field; did you mean \"rotation\"?",
+     "known values: \"rotation\", \"translation\", \"shear\", \"strain\", \"swirl\", \"double_gyre\", "
+     "\"taylor_green\", "
+     "\"doswell\", \"lamb_oseen\", \"deformation\", \"abc\", \"burgers\""},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nrate = 2", 17, "rate",
-     "\"rate\" goes with field = \"rotation\", not with \"u\"", "known keys with \"u\": u"},
+     "\"rate\" goes with field = \"rotation\" or \"shear\", not with \"u\"", "known keys with \"u\": u"},
     {"u = [\"-y\", \"x\"]", "field = \"rotation\"\ncenter = [0, 0, 0]", 17, "[0, 0, 0]",
      "velocity.center needs 2 numbers, one a dimension of the domain, found 3"},
-    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nstreamfunction = \"x\"", 17, "streamfunction",
-     "unknown key \"streamfunction\" in [velocity]", "known keys: u"},
+    {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\npotential = \"x\"", 17, "potential",
+     "unknown key \"potential\" in [velocity]", "known keys: u"},
+    {"u = [\"-y\", \"x\"]", "field = \"strain\"", 15, "[velocity]", "velocity.rates is missing",
+     "rates: rate of stretching along each axis"},
+    {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nperiod = 0", 17, "0", "velocity.period must be greater than 0, found 0",
+     "period: the flow reverses at T/2 and is undone at T; without it the flow is steady"},
+    {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nrate = 1", 17, "rate",
+     "\"rate\" goes with field = \"rotation\" or \"shear\", not with field = \"swirl\"",
+     "known keys with field = \"swirl\": field, min, max, period"},
+    {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nperiode = 1", 17, "periode",
+     "unknown key \"periode\" in [velocity]; did you mean \"period\"?", "known keys: field, min, max, period"},
+    {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nmax = [-1, 1]", 16, "\"swirl\"",
+     "swirl: the box is empty along x: min must be less than max"},
+    {"u = [\"-y\", \"x\"]", "field = \"burgers\"", 16, "\"burgers\"",
+     "\"burgers\" exists only in 3D; the domain has 2 dimensions"},
+    {"u = [\"-y\", \"x\"]", "streamfunction = \"x*z\"", 16, "z", "z exists only in 3D; the domain has 2 dimensions"},
+    {"u = [\"-y\", \"x\"]", "streamfunction = \"x*\"", 16, "*", "a value is missing after \"*\""},
+    {"u = [\"-y\", \"x\"]", "u = [1, 2]\narray = \"u\"", 17, "array", "\"array\" goes with \"file\", not with \"u\"",
+     "known keys with \"u\": u"},
     // density
     {"shape = \"wendland\"", "shape = \"wendlnad\"", 19, "\"wendlnad\"",
      "unknown value \"wendlnad\" for density.shape; did you mean \"wendland\"?",
      "known values: \"wendland\", \"wendland4\", \"wendland6\", \"cone\", \"gaussian\", \"cosine_bell\", \"disk\", "
      "\"slotted_disk\", \"box\""},
     {"shape = \"wendland\"", "shape = \"wendland\"\nexpression = \"x\"", 20, "expression",
-     "[density] has both \"shape\" and \"expression\"", "give exactly one of \"expression\", \"shape\""},
+     "[density] has both \"shape\" and \"expression\"", "give exactly one of \"expression\", \"shape\", \"file\""},
     {"radius = \"R\"\n", "", 18, "[density]", "density.radius is missing", "radius: radius of the shape"},
     {"radius = \"R\"", "radius = \"R-R\"", 21, "\"R-R\"",
      "density.radius must be greater than 0, found 0 (from \"R-R\")", "radius: radius of the shape"},
@@ -441,6 +462,25 @@ TEST(Overrides, AreRefusedLikeTheFile) {
   };
   for (const auto& refusal : refusals)
     EXPECT_EQ(errors(cone, {refusal.text}).substr(0, std::string(refusal.message).size()), refusal.message);
+}
+
+TEST(CaseFile, RefusesAStreamfunctionIn3D) {
+  const std::string found = errors(with(least, "u = [\"y\", \"z*t\", \"x\"]", "streamfunction = \"x\""));
+  EXPECT_NE(found.find("velocity.streamfunction exists only in 2D; the domain has 3 dimensions"), std::string::npos);
+}
+
+TEST(Warnings, SayWhereAStreamfunctionHasNoDerivative) {
+  const auto warnings =
+      parse_case(with(cone, "u = [\"-y\", \"x\"]", "streamfunction = \"x*y + abs(x)\""), "cone.toml").warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(
+      warnings[0],
+      R"text(warning: the streamfunction has no derivative everywhere: abs has a corner at 0, where slope 0 is taken
+  --> cone.toml:16:25
+   |
+16 | streamfunction = "x*y + abs(x)"
+   |                         ^^^
+   = the velocity is its derivative; it is right where particles do not meet such a place)text");
 }
 
 TEST(Warnings, NameUnusedParamsAndSmallOverlap) {

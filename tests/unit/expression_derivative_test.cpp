@@ -44,7 +44,7 @@ TEST(Derivative, EqualsTheAnalyticOne) {
       {"exp(-x^2-y^2)", -2 * x * std::exp(-x * x - y * y), -2 * y * std::exp(-x * x - y * y)},
       {"x > 0.5 ? x^2 : y", 2 * x, 0},
       {"x < 0.5 ? x^2 : y", 0, 1},
-      {"min(x, y) + max(2*x, y)", 2, 1},
+      {"min(x, y) + max(2*x, y)", 2, 1},  // x = 0.6 is above y = 0.3
       {"(x > y) + floor(x) + (x && y)", 0, 0},
       {"hypot(x, y)", x / std::hypot(x, y), y / std::hypot(x, y)},
       {"mod(x, y) ", 1, -2},

@@ -23,17 +23,28 @@ double carlson(double x, double y, double z) {
   return 1 / std::sqrt((x + y + z) / 3);
 }
 
+/// Arithmetic-geometric mean of 1 and b > 0: K(m) = pi / 2 / agm(sqrt(1 - m^2)).
+double agm(double b) {
+  double a = 1;
+  for (int n = 0; n < 40 && std::abs(a - b) > 1e-15 * a; ++n) {
+    const double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return (a + b) / 2;
+}
+
 struct Jacobi {
   double sn, cn, dn;
 };
 
 /// Jacobi's elliptic functions of u for the complementary modulus k' > 0, by arithmetic-geometric means [AS64, 16.4].
 Jacobi jacobi(double u, double complement) {
-  constexpr int most = 16;
+  constexpr int most = 40;
   std::array<double, most> ratio{};  // c_n / a_n
   double a = 1, b = complement, scale = 1;
   int n = 0;
-  for (; n < most && std::abs(a - b) > 1e-16 * a; ++n) {
+  for (; n < most && std::abs(a - b) > 1e-15 * a; ++n) {
     const double mean = (a + b) / 2;
     ratio[n] = (a - b) / 2 / mean;
     b = std::sqrt(a * b);
@@ -64,8 +75,11 @@ class TaylorGreen : public SolenoidalField {
   }
   bool is_steady() const override { return decay_ == 0; }
 
-  // Within one cell, with the angles a, b = 0 ... pi and m = sqrt(1 - sin^2 a sin^2 b), which the path keeps:
-  // cos a = m sn(tau), cos b = -m cn(tau) / dn(tau), sin a = dn(tau), tau growing like k times the length at speed u.
+  // Within one cell, with the angles a, b = 0 ... pi and k' = sin a sin b, m = sqrt(1 - k'^2), which the path keeps:
+  //   cos a = m sn(tau),  sin a = dn(tau),  cos b = -m cn(tau) / dn(tau),  tau growing like k times the length at speed
+  //   u.
+  // A quarter K further a takes the place of b: cos b = m sn(tau - K), sin b = dn(tau - K). Counting tau from the
+  // nearest multiple of K keeps every digit close to the walls, where K is large.
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
     const double pi = std::numbers::pi;
     double a = wave_ * (x[0] - corner_[0]), b = wave_ * (x[1] - corner_[1]);
@@ -84,12 +98,25 @@ class TaylorGreen : public SolenoidalField {
       else
         a = 2 * std::atan(std::tan(a / 2) * std::exp(run * cb));
     } else if (modulus > 0) {
-      const double sn = ca / modulus, cn = -sa * cb / modulus;
-      double start = sn * carlson(cn * cn, sa * sa, 1);
-      if (cn < 0) start = std::copysign(2 * carlson(0, complement * complement, 1), sn) - start;
-      const Jacobi end = jacobi(start + run, complement);
-      a = std::atan2(end.dn, modulus * end.sn);
-      b = std::atan2(complement, -modulus * end.cn);
+      const double quarter = pi / 2 / agm(complement);
+      const bool shifted = sb > sa;  // count from K
+      const double sn = (shifted ? cb : ca) / modulus, dn = shifted ? sb : sa;
+      const double cn = (shifted ? ca * sb : -sa * cb) / modulus;
+      double rest = sn * carlson(cn * cn, dn * dn, 1), quarters = shifted ? 1 : 0;
+      if (cn < 0) rest = -rest, quarters += 2;
+      rest += run;
+      const double turned = std::round(rest / quarter);
+      const Jacobi end = jacobi(rest - turned * quarter, complement);
+      quarters = std::fmod(quarters + turned, 4);
+      if (quarters < 0) quarters += 4;
+      const double sign = quarters < 2 ? 1 : -1;
+      if (quarters == 0 || quarters == 2) {
+        a = std::atan2(end.dn, sign * modulus * end.sn);
+        b = std::atan2(complement, -sign * modulus * end.cn);
+      } else {
+        a = std::atan2(complement, sign * modulus * end.cn);
+        b = std::atan2(end.dn, sign * modulus * end.sn);
+      }
     }
     return Vector{corner_[0] + (column * pi + a) / wave_, corner_[1] + (row * pi + b) / wave_, x[2]};
   }

@@ -1,0 +1,70 @@
+// Numbers on a rectilinear grid at one or several times, and their interpolation. Plain data: who read it is of no
+// interest here.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/points.hpp"
+
+namespace gaussdrift {
+
+/// One array of a file or of a series of files.
+struct GridData {
+  std::string name;                                     // "u of wind.pvd", for messages
+  int dimension = 2;                                    // 2 or 3
+  std::array<std::vector<double>, max_dimension> axis;  // coordinates, ascending, at least 2 on each axis
+  std::vector<double> times;                            // ascending; one: the same at all times
+  std::size_t components = 1;
+  std::vector<std::vector<double>>
+      values;  // [time][point * components + component], points with the first axis fastest
+
+  std::size_t points() const;
+};
+
+enum class Interpolation {
+  linear,  // second order, continuous
+  cubic    // Hermite cubics with slopes of parabolas: third order, continuously differentiable
+};
+constexpr std::array<std::string_view, 2> interpolation_names{"linear", "cubic"};
+
+/// What stands outside the grid.
+enum class Outside {
+  error,  // not a number, which callers report
+  clamp,  // the value of the nearest point of the grid's surface
+  zero
+};
+constexpr std::array<std::string_view, 3> outside_names{"error", "clamp", "zero"};
+
+class GridInterpolator {
+ public:
+  /// Throws std::invalid_argument if the sizes of the data do not fit each other.
+  GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside);
+
+  /// sums[c][i] += component c at x_i, for c < count. Linear in time; before the first and after the last time their
+  /// values hold.
+  void add(double t, const PointsView& x, std::size_t count, double* const* sums) const;
+  /// sums[i] += sum_k d component k / d x_k, of the interpolating function itself.
+  void add_divergence(double t, const PointsView& x, double* sums) const;
+
+  bool is_steady() const { return data_->times.size() == 1; }
+  /// "u of wind.pvd on 100 x 50 points, 12 times, cubic, 0 outside".
+  std::string describe() const;
+  const GridData& data() const { return *data_; }
+
+ private:
+  struct Stencil;
+  struct TimeWeights;
+  Stencil stencil(int axis, double x) const;
+  TimeWeights at(double t) const;
+
+  std::shared_ptr<const GridData> data_;
+  Interpolation interpolation_;
+  Outside outside_;
+  std::array<double, max_dimension> inverse_spacing_{};  // of evenly spaced axes; 0: not evenly spaced
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,152 @@
+// Interpolation of data on grids: exact where it should be, its order, its divergence, and what stands outside.
+#include "field/grid_data.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "field/gridded.hpp"
+
+namespace gaussdrift {
+namespace {
+
+using Function = std::function<double(double x, double y, double z)>;
+
+/// Components on [0, 1]^d with n points an axis; `stretch` makes the spacing uneven.
+std::shared_ptr<const GridData> sampled(int dimension, std::size_t n, const std::vector<Function>& components,
+                                        bool stretch = false) {
+  auto data = std::make_shared<GridData>();
+  data->name = "u of test.vti";
+  data->dimension = dimension;
+  data->components = components.size();
+  data->times = {0};
+  for (int k = 0; k < dimension; ++k)
+    for (std::size_t i = 0; i < n; ++i) {
+      const double s = static_cast<double>(i) / static_cast<double>(n - 1);
+      data->axis[k].push_back(stretch ? s * (0.7 + 0.3 * s) : s);
+    }
+  data->values.emplace_back();
+  for (std::size_t p = 0; p < data->points(); ++p) {
+    const double x = data->axis[0][p % n], y = data->axis[1][p / n % n],
+                 z = dimension == 3 ? data->axis[2][p / n / n] : 0;
+    for (const Function& f : components) data->values[0].push_back(f(x, y, z));
+  }
+  return data;
+}
+
+double value(const GridInterpolator& grid, double t, const Vector& x) {
+  PointsView view{grid.data().dimension, 1, {&x[0], &x[1], &x[2]}};
+  double sum = 0;
+  double* sums[] = {&sum};
+  grid.add(t, view, 1, sums);
+  return sum;
+}
+
+double divergence(const GridInterpolator& grid, const Vector& x) {
+  PointsView view{grid.data().dimension, 1, {&x[0], &x[1], &x[2]}};
+  double sum = 0;
+  grid.add_divergence(0, view, &sum);
+  return sum;
+}
+
+TEST(GridInterpolator, ReproducesWhatItsOrderPromises) {
+  const Function linear = [](double x, double y, double z) { return 1 + x - 2 * y + 3 * z + x * y; };
+  const Function square = [](double x, double y, double z) { return x * x - y * y * x + z * z; };
+  std::mt19937 random(3);
+  for (const int d : {2, 3})
+    for (const bool stretch : {false, true})
+      for (int trial = 0; trial < 50; ++trial) {
+        Vector x{};
+        for (int k = 0; k < d; ++k) x[k] = std::uniform_real_distribution(0.0, 1.0)(random);
+        const GridInterpolator a(sampled(d, 6, {linear}, stretch), Interpolation::linear, Outside::error);
+        const GridInterpolator b(sampled(d, 6, {square}, stretch), Interpolation::cubic, Outside::error);
+        EXPECT_NEAR(value(a, 0, x), linear(x[0], x[1], x[2]), 1e-14);  // a few roundings of numbers below 7
+        EXPECT_NEAR(value(b, 0, x), square(x[0], x[1], x[2]), 1e-14);
+      }
+}
+
+TEST(GridInterpolator, ConvergesWithItsOrder) {
+  const Function wave = [](double x, double y, double) { return std::sin(5 * x) * std::cos(4 * y); };
+  const auto error = [&](std::size_t n, Interpolation interpolation) {
+    const GridInterpolator grid(sampled(2, n, {wave}), interpolation, Outside::error);
+    double largest = 0;
+    std::mt19937 random(5);
+    for (int i = 0; i < 2000; ++i) {
+      const Vector x{std::uniform_real_distribution(0.0, 1.0)(random), std::uniform_real_distribution(0.0, 1.0)(random),
+                     0};
+      largest = std::max(largest, std::abs(value(grid, 0, x) - wave(x[0], x[1], 0)));
+    }
+    return largest;
+  };
+  const auto order = [&](Interpolation interpolation) {
+    return std::log2(error(41, interpolation) / error(81, interpolation));
+  };
+  EXPECT_NEAR(order(Interpolation::linear), 2, 0.15);  // 2000 points do not always meet the worst
+  EXPECT_NEAR(order(Interpolation::cubic), 3, 0.3);    // the outer cells decide; the inner ones are better
+}
+
+TEST(GridInterpolator, HasTheDivergenceOfItsOwnFunction) {
+  const std::vector<Function> flow{[](double x, double y, double z) { return std::sin(3 * x) * y + z; },
+                                   [](double x, double y, double z) { return std::cos(2 * y) + x * z; },
+                                   [](double x, double y, double z) { return z * z * x - y; }};
+  for (const int d : {2, 3})
+    for (const Interpolation interpolation : {Interpolation::linear, Interpolation::cubic}) {
+      const auto data = sampled(d, 7, {flow.begin(), flow.begin() + d}, true);
+      const GridInterpolator grid(data, interpolation, Outside::error);
+      const Vector x{0.43, 0.31, 0.77};
+      const double h = 1e-5;  // stays in the cell, where the function is a cubic: no error of truncation at order 4
+      double numerical = 0;
+      for (int k = 0; k < d; ++k) {
+        const auto u = [&](double shift) {
+          Vector y = x;
+          y[k] += shift;
+          double sums[3] = {0, 0, 0};
+          double* out[] = {&sums[0], &sums[1], &sums[2]};
+          grid.add(0, {d, 1, {&y[0], &y[1], &y[2]}}, static_cast<std::size_t>(d), out);
+          return sums[k];
+        };
+        numerical += (8 * (u(h) - u(-h)) - (u(2 * h) - u(-2 * h))) / (12 * h);
+      }
+      EXPECT_NEAR(divergence(grid, x), numerical, 1e-9);  // rounding / h
+    }
+}
+
+TEST(GridInterpolator, DoesOutsideWhatWasChosen) {
+  const auto data = sampled(2, 3, {[](double x, double y, double) { return 1 + x + 10 * y; }});
+  const Vector outside{2, 0.5, 0}, inside{1, 0.5, 0}, rounding{1 + 1e-14, 0.5, 0};
+  for (const Interpolation interpolation : {Interpolation::linear, Interpolation::cubic}) {
+    EXPECT_TRUE(std::isnan(value({data, interpolation, Outside::error}, 0, outside)));
+    EXPECT_NEAR(value({data, interpolation, Outside::clamp}, 0, outside), 7, 1e-14);
+    EXPECT_EQ(value({data, interpolation, Outside::zero}, 0, outside), 0);
+    for (const Outside choice : {Outside::error, Outside::clamp, Outside::zero}) {
+      EXPECT_NEAR(value({data, interpolation, choice}, 0, inside), 7, 1e-14);  // the surface is inside
+      EXPECT_NEAR(value({data, interpolation, choice}, 0, rounding), 7, 1e-14);
+      EXPECT_TRUE(choice == Outside::zero || std::isnan(value({data, interpolation, choice}, 0, {NAN, 0, 0})) ||
+                  choice == Outside::clamp);
+    }
+    EXPECT_TRUE(std::isnan(value({data, interpolation, Outside::clamp}, 0, {NAN, 0, 0})));
+    EXPECT_TRUE(std::isnan(value({data, interpolation, Outside::zero}, 0, {NAN, 0, 0})));
+  }
+}
+
+TEST(GridInterpolator, IsLinearInTimeAndHoldsTheEnds) {
+  auto data = std::make_shared<GridData>(*sampled(2, 2, {[](double, double, double) { return 1; }}));
+  data->times = {1, 3, 4};
+  data->values = {std::vector<double>(4, 1.0), std::vector<double>(4, 5.0), std::vector<double>(4, 0.0)};
+  const GridInterpolator grid(data, Interpolation::cubic, Outside::error);
+  const Vector x{0.2, 0.9, 0};
+  for (const auto& [t, expected] : {std::pair{0.0, 1.0}, {1.0, 1.0}, {1.5, 2.0}, {3.0, 5.0}, {3.75, 1.25}, {9.0, 0.0}})
+    EXPECT_NEAR(value(grid, t, x), expected, 1e-14) << t;
+  EXPECT_FALSE(GriddedVelocity(grid).is_steady());
+}
+
+TEST(GridInterpolator, RefusesDataThatDoNotFit) {
+  auto data = std::make_shared<GridData>(*sampled(2, 3, {[](double, double, double) { return 1; }}));
+  data->values[0].pop_back();
+  EXPECT_THROW(GridInterpolator(data, Interpolation::linear, Outside::error), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gaussdrift
