@@ -77,12 +77,14 @@ using DensitySpec = std::variant<ExpressionDensity, ShapeDensity, FileDensity>;
 struct ParticleSpec {
   int per_axis = 0;               // n_g on the longest axis
   double overlap = 2;             // c: eps = c h
-  std::string cutoff = "gauss2";  // gauss2 | gauss4
+  std::string cutoff = "gauss2";  // gauss2 | gauss4 | gauss6 | gauss8 | two-gauss
+  double width_ratio = 2;         // a of two-gauss: the second width is a eps
 };
 
 struct TimeSpec {
   double end = 0;
-  double step = 0;             // tau
+  double step = 0;             // tau; the largest step where the method chooses its own, 0: none is
+  double tolerance = 1e-8;     // of one step, where the method chooses it; relative to the longest side of the domain
   std::string method = "rk4";  // name of a tableau
 };
 
@@ -117,6 +119,18 @@ struct CheckSpec {
   std::optional<double> at{};          // one of the output times; none: all of them
 };
 
+// --- effects ----------------------------------------------------------------------------------------------------
+
+/// alpha' = -rate alpha along the path.
+struct ReactionSpec {
+  std::string rate;  // expression in x, y, z, t and the params
+};
+
+/// The effects that a case names; what is absent is not constructed.
+struct EffectsSpec {
+  std::optional<ReactionSpec> reaction;
+};
+
 struct Case {
   std::string name;            // stem of the file: names the output folder
   std::filesystem::path file;  // where it came from; empty for a case built in memory
@@ -131,6 +145,7 @@ struct Case {
   TimeSpec time;
   EvaluateSpec evaluate;
   OutputSpec output;
+  EffectsSpec effects;
   ReferenceSpec reference;
   std::vector<CheckSpec> checks;
 };

@@ -23,16 +23,18 @@ std::string duration(double seconds) {
 }  // namespace
 
 std::string progress_text(const Progress& progress) {
-  const double fraction = progress.steps_total > 0
-                              ? static_cast<double>(progress.steps_done) / static_cast<double>(progress.steps_total)
-                              : 1;
+  double fraction = progress.end > 0 ? progress.time / progress.end : 1;
+  std::string steps = fmt::format("{}", progress.steps_done);
+  if (progress.steps_total > 0) {
+    fraction = static_cast<double>(progress.steps_done) / static_cast<double>(progress.steps_total);
+    steps += fmt::format(" of {}", progress.steps_total);
+  }
   const double per_step =
       progress.steps_done > 0 ? 1e3 * progress.step_seconds / static_cast<double>(progress.steps_done) : 0;
   // Frames come evenly enough that the whole time so far, not only the steps, tells what is left.
   const double left = fraction > 0 ? progress.seconds * (1 - fraction) / fraction : 0;
-  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g}  step {} of {}  {:.3g} ms a step  {} left",
-                     std::floor(100 * fraction), progress.time, progress.end, progress.steps_done, progress.steps_total,
-                     per_step, duration(left));
+  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g}  step {}  {:.3g} ms a step  {} left",
+                     std::floor(100 * fraction), progress.time, progress.end, steps, per_step, duration(left));
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr) {}

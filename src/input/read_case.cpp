@@ -89,6 +89,7 @@ class Reader {
     check_times_of_files();
     read_evaluate(scene.evaluate, scene.domain);
     read_output(scene.output, scene.time);
+    read_effects(scene.effects);
     read_reference(scene);
     read_checks(scene);
     if (diagnostics_.errors() == 0) warn_unused_params();
@@ -119,18 +120,55 @@ class Reader {
   }
 
   void check_names() {
-    const std::vector<std::string> known = table_names();
+    const std::vector<std::string> known = top_level_tables();
     for (const Entry& entry : root_.entries) {
       if (entry.name == "gaussdrift") continue;
       if (std::find(known.begin(), known.end(), entry.name) == known.end())
         unknown_at_top(entry, known);
-      else if (!find_table(entry.name).kinds.empty())
+      else if (entry.name != "effects" && !find_table(entry.name).kinds.empty())
         check_parts(entry);
       else if (entry.value.kind != Kind::table)
         diagnostics_.error(entry.place, fmt::format("{} must be one table [{}], found {}", entry.name, entry.name,
                                                     entry.value.description()));
+      else if (entry.name == "effects")
+        check_effects(entry);
       else if (entry.name != "params")
-        check_keys(entry);
+        check_keys(entry, entry.name);
+    }
+  }
+
+  /// The tables of the registry as they stand at the top of the file: all [effects.x] lie in one.
+  static std::vector<std::string> top_level_tables() {
+    std::vector<std::string> names;
+    for (const std::string& name : table_names()) {
+      const std::string top = name.substr(0, name.find('.'));
+      if (std::find(names.begin(), names.end(), top) == names.end()) names.push_back(top);
+    }
+    return names;
+  }
+
+  static std::vector<std::string> effect_names() {
+    std::vector<std::string> names;
+    for (const std::string& name : table_names())
+      if (name.rfind("effects.", 0) == 0) names.push_back(name.substr(8));
+    return names;
+  }
+
+  void check_effects(const Entry& effects) {
+    const std::vector<std::string> known = effect_names();
+    for (const Entry& entry : effects.value.entries) {
+      if (std::find(known.begin(), known.end(), entry.name) == known.end()) {
+        const auto near = base::suggest(entry.name, known);
+        diagnostics_.error(entry.place,
+                           fmt::format("unknown effect \"{}\"{}", entry.name,
+                                       near ? fmt::format("; did you mean [effects.{}]?", *near) : ""),
+                           fmt::format("known effects: {}", fmt::join(known, ", ")));
+      } else if (entry.value.kind != Kind::table) {
+        diagnostics_.error(entry.place, fmt::format("effects.{0} must be one table [effects.{0}], found {1}", entry.name,
+                                                    entry.value.description()));
+      } else {
+        check_keys(entry, "effects." + entry.name);
+      }
     }
   }
 
@@ -171,19 +209,22 @@ class Reader {
     const bool is_table = entry.value.kind == Kind::table;
     std::vector<std::string> candidates = known;
     if (!is_table) candidates.emplace_back("gaussdrift");
-    const std::string remedy = remedy_for(entry.name, candidates, "");
+    const std::vector<std::string> effects = effect_names();
+    const bool is_effect = std::find(effects.begin(), effects.end(), entry.name) != effects.end();
+    const std::string remedy =
+        is_effect ? fmt::format("; did you mean [effects.{}]?", entry.name) : remedy_for(entry.name, candidates, "");
     diagnostics_.error(entry.place,
                        is_table ? fmt::format("unknown table [{}]{}", entry.name, remedy)
                                 : fmt::format("unknown key \"{}\" at the top of the file{}", entry.name, remedy),
                        fmt::format("known tables: {}", fmt::join(known, ", ")));
   }
 
-  void check_keys(const Entry& table) {
-    const std::vector<std::string> known = key_names(table.name);
+  void check_keys(const Entry& table, const std::string& table_name) {
+    const std::vector<std::string> known = key_names(table_name);
     for (const Entry& entry : table.value.entries) {
       if (std::find(known.begin(), known.end(), entry.name) != known.end()) continue;
-      const std::string remedy = remedy_for(entry.name, known, table.name);
-      diagnostics_.error(entry.place, fmt::format("unknown key \"{}\" in [{}]{}", entry.name, table.name, remedy),
+      const std::string remedy = remedy_for(entry.name, known, table_name);
+      diagnostics_.error(entry.place, fmt::format("unknown key \"{}\" in [{}]{}", entry.name, table_name, remedy),
                          fmt::format("known keys: {}", fmt::join(known, ", ")));
     }
   }
@@ -199,8 +240,15 @@ class Reader {
   /// The table, or the part of it that is being read.
   const Value* table(std::string_view name) const {
     if (part_ && name == part_table_) return part_;
-    const Entry* entry = root_.find(std::string(name));
-    return entry && entry->value.kind == Kind::table ? &entry->value : nullptr;
+    const Value* home = &root_;
+    for (std::size_t first = 0; first <= name.size();) {  // "effects.reaction" is a table in a table
+      const std::size_t dot = std::min(name.find('.', first), name.size());
+      const Entry* entry = home->find(std::string(name.substr(first, dot - first)));
+      if (!entry || entry->value.kind != Kind::table) return nullptr;
+      home = &entry->value;
+      first = dot + 1;
+    }
+    return home;
   }
 
   const Entry* find(std::string_view table_name, std::string_view name) const {
@@ -719,17 +767,48 @@ class Reader {
       particles.per_axis = to_int(*count);
     }
     particles.cutoff = choice("particles", "cutoff");
+    read_width_ratio(particles);
     if (const auto overlap = number("particles", "overlap")) {
       particles.overlap = overlap->number;
-      if (overlap->written && particles.overlap < 1) warn_small_overlap(particles, *overlap);
+      const double narrowest = particles.cutoff == "two-gauss" ? std::min(1.0, particles.width_ratio) : 1;
+      if (overlap->written && narrowest * particles.overlap < 1) warn_small_overlap(particles, *overlap);
     }
   }
 
+  void read_width_ratio(ParticleSpec& particles) {
+    const Entry* entry = find("particles", "width_ratio");
+    if (entry && particles.cutoff != "two-gauss") {
+      diagnostics_.error(entry->place, fmt::format("\"width_ratio\" goes with cutoff = \"two-gauss\", not with \"{}\"",
+                                                   particles.cutoff));
+      return;
+    }
+    const auto ratio = number("particles", "width_ratio");
+    if (!ratio) return;
+    particles.width_ratio = ratio->number;
+    // Close to 1 the two Gaussians cancel: their weights are 1/(a^2 - 1).
+    if (std::abs(ratio->number - 1) < 1e-3)
+      diagnostics_.error(ratio->written->place,
+                         fmt::format("particles.width_ratio = {} makes both Gaussians of two-gauss the same",
+                                     ratio->number),
+                         "2 is usual; gauss4 is the limit at 1");
+  }
+
   /// The density of equal blobs on a lattice ripples by 2 d zeta^(2 pi c), zeta^ the Fourier transform of the cutoff
-  /// (Poisson's sum): zeta^ = e^{-k^2/4} for gauss2, (1 + k^2/4) e^{-k^2/4} for gauss4.
+  /// (Poisson's sum) at q = k^2/4: e^{-q} (1 + q + ... + q^{m-1}/(m-1)!) for order 2m, (a^2 e^{-q} - e^{-a^2 q})/(a^2 - 1)
+  /// for two-gauss.
+  static double cutoff_transform(const ParticleSpec& particles, double q) {
+    if (particles.cutoff == "two-gauss") {
+      const double square = particles.width_ratio * particles.width_ratio;
+      return std::abs((square * std::exp(-q) - std::exp(-square * q)) / (square - 1));
+    }
+    double sum = 0, term = 1;
+    for (int j = 0; 2 * j < particles.cutoff.back() - '0'; term *= q / ++j) sum += term;
+    return sum * std::exp(-q);
+  }
+
   void warn_small_overlap(const ParticleSpec& particles, const Number& overlap) {
     const double q = std::pow(std::numbers::pi * particles.overlap, 2);
-    const double ripple = 2 * (dimension_ ? dimension_ : 2) * std::exp(-q) * (particles.cutoff == "gauss4" ? 1 + q : 1);
+    const double ripple = 2 * (dimension_ ? dimension_ : 2) * cutoff_transform(particles, q);
     diagnostics_.warning(overlap.written->place,
                          fmt::format("overlap = {} leaves gaps between the blobs: a constant density ripples by {:.1g}",
                                      particles.overlap, ripple),
@@ -795,8 +874,15 @@ class Reader {
 
   void read_time(TimeSpec& time) {
     const auto end = number("time", "end");
-    const auto step = number("time", "step");
     time.method = choice("time", "method");
+    const bool adaptive = time.method == "dopri5";
+    if (!adaptive) require(find_key("time", "step"));
+    if (const Entry* tolerance = find("time", "tolerance"); tolerance && !adaptive)
+      diagnostics_.error(tolerance->place,
+                         fmt::format("\"tolerance\" goes with method = \"dopri5\", not with \"{}\"", time.method),
+                         "a method with fixed steps takes them as time.step says");
+    const auto step = number("time", "step");
+    if (const auto tolerance = number("time", "tolerance")) time.tolerance = tolerance->number;
     if (end) time.end = end->number, end_ = end->number;
     if (step) time.step = step->number;
     if (end && step && time.end / time.step > most_steps)
@@ -956,6 +1042,15 @@ class Reader {
                                        found, times.back()),
                            "output.times must ascend");
       times.push_back(time);
+    }
+  }
+
+  void read_effects(EffectsSpec& effects) {
+    if (table("effects.reaction")) {
+      ReactionSpec reaction;
+      if (const Entry* rate = require(find_key("effects.reaction", "rate")))
+        reaction.rate = field_expression(rate->value, "effects.reaction.rate", true);
+      effects.reaction = reaction;
     }
   }
 

@@ -58,6 +58,9 @@ const std::vector<Table>& tables() {
        .meaning =
            "a bound that the results have to keep, or the run ends with exit code 5; several `[[check]]` are possible",
        .kinds = {"what"}},
+      {.name = "effects.reaction",
+       .required = false,
+       .meaning = "weights change along the paths: alpha' = -rate alpha, so d_t rho + div(rho u) + rate rho = 0"},
   };
   return list;
 }
@@ -207,9 +210,17 @@ std::vector<Key> written_keys() {
        .name = "cutoff",
        .type = Type::choice,
        .fallback = "gauss2",
-       .choices = {"gauss2", "gauss4"},
+       .choices = {"gauss2", "gauss4", "gauss6", "gauss8", "two-gauss"},
        .symbol = "zeta",
-       .meaning = "the blob: a Gaussian of order 2, or its combination with derivatives of order 4"},
+       .meaning = "the blob: a Gaussian of order 2, its combinations with derivatives of order 4, 6, 8, or a pair of "
+                  "Gaussians of order 4"},
+      {.table = "particles",
+       .name = "width_ratio",
+       .type = Type::number,
+       .fallback = "2",
+       .range = {0, infinity, true},
+       .symbol = "a",
+       .meaning = "widths of the pair two-gauss are eps and a eps; not 1"},
 
       {.table = "time",
        .name = "end",
@@ -222,17 +233,25 @@ std::vector<Key> written_keys() {
       {.table = "time",
        .name = "step",
        .type = Type::number,
-       .required = true,
        .range = {0, infinity, true},
        .unit = "time",
        .symbol = "tau",
-       .meaning = "time step; the last one before an output is shortened to land on it"},
+       .meaning = "time step; the last one before an output is shortened to land on it; needed unless `method` chooses "
+                  "its own, then the longest it may choose"},
       {.table = "time",
        .name = "method",
        .type = Type::choice,
        .fallback = "rk4",
-       .choices = {"rk4"},
-       .meaning = "time integrator: the classical Runge-Kutta method of order 4"},
+       .choices = {"rk4", "euler", "heun", "rk4-38", "dopri5"},
+       .meaning = "Runge-Kutta method: the classical one of order 4, Euler's (1), Heun's (2), Kutta's 3/8 rule (4), or "
+                  "that of Dormand and Prince (5), which chooses its steps"},
+      {.table = "time",
+       .name = "tolerance",
+       .type = Type::number,
+       .fallback = "1e-08",
+       .range = {1e-13, 1, false, true},
+       .meaning = "error of a position that one step may make, relative to the longest side of the domain; only with "
+                  "`method = \"dopri5\"`"},
 
       {.table = "evaluate",
        .name = "per_axis",
@@ -308,6 +327,14 @@ std::vector<Key> written_keys() {
        .type = Type::number,
        .unit = "time",
        .meaning = "only at this output time; without it at all of them"},
+
+      {.table = "effects.reaction",
+       .name = "rate",
+       .type = Type::expression,
+       .required = true,
+       .unit = "1 / time",
+       .symbol = "u_0",
+       .meaning = "rate of decay, an expression in x, y, z, t and params; negative where weights grow"},
   };
 }
 

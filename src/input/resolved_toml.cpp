@@ -96,6 +96,7 @@ Params params_in_use(const Case& scene) {
   for (const auto& part : scene.density)
     if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
   if (scene.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(scene.reference.rho);
+  if (scene.effects.reaction) texts.push_back(scene.effects.reaction->rate);
   std::set<std::string> mentioned;
   for (const std::string& text : texts) {
     const Expression expression(text, {"x", "y", "z", "t"}, scene.params);
@@ -150,10 +151,12 @@ std::string resolved_toml(const Case& scene) {
   out.entry("per_axis", fmt::format("{}", scene.particles.per_axis));
   out.entry("overlap", written(scene.particles.overlap));
   out.entry("cutoff", written(scene.particles.cutoff));
+  if (scene.particles.cutoff == "two-gauss") out.entry("width_ratio", written(scene.particles.width_ratio));
   out.table("time");
   out.entry("end", written(scene.time.end));
-  out.entry("step", written(scene.time.step));
+  if (scene.time.step > 0) out.entry("step", written(scene.time.step));
   out.entry("method", written(scene.time.method));
+  if (scene.time.method == "dopri5") out.entry("tolerance", written(scene.time.tolerance));
   out.table("evaluate");
   out.entry("per_axis", fmt::format("{}", scene.evaluate.per_axis));
   out.entry("tolerance", written(scene.evaluate.tolerance));
@@ -162,6 +165,10 @@ std::string resolved_toml(const Case& scene) {
   out.entry("times", written(scene.output.times));
   out.entry("vtk", written(choices("vtk", scene.output.vtk)));
   out.entry("images", written(choices("images", scene.output.images)));
+  if (const auto& reaction = scene.effects.reaction) {
+    out.table("effects.reaction");
+    out.entry("rate", written(reaction->rate));
+  }
   out.table("reference");
   out.entry("kind", written(choice("reference", "kind", scene.reference.kind)));
   if (scene.reference.kind == ReferenceSpec::Kind::exact) out.entry("rho", written(scene.reference.rho));

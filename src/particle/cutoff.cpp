@@ -30,17 +30,55 @@ Cutoff laplacians_of_gaussian(int order, int dimension, double eps) {
   return terms;
 }
 
+// A G_1 + B G_a with G_a(x) = (sqrt(pi) a)^-d exp(-|x|^2/a^2) integrates to A + B = 1, and its second moments are
+// A/2 + B a^2/2 = 0 an axis: A = a^2/(a^2 - 1), B = -1/(a^2 - 1) in every dimension. Odd moments vanish by symmetry.
+Cutoff two_gaussians(int dimension, double eps, double a) {
+  if (!(a > 0) || a == 1) throw std::invalid_argument("the width ratio of two-gauss must be positive and not 1");
+  const auto peak = [&](double width) { return std::pow(std::sqrt(std::numbers::pi) * width, -dimension); };
+  const double square = a * a;
+  return {{eps, {}, peak(eps) * square / (square - 1)}, {a * eps, {}, -peak(a * eps) / (square - 1)}};
+}
+
+struct Named {
+  std::string name;
+  int order;
+};
+const std::vector<Named>& cutoffs() {
+  static const std::vector<Named> list{{"gauss2", 2}, {"gauss4", 4}, {"gauss6", 6}, {"gauss8", 8}, {"two-gauss", 4}};
+  return list;
+}
+
 }  // namespace
 
 const std::vector<std::string>& cutoff_names() {
-  static const std::vector<std::string> names{"gauss2", "gauss4"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const Named& cutoff : cutoffs()) list.push_back(cutoff.name);
+    return list;
+  }();
   return names;
 }
 
-Cutoff make_cutoff(std::string_view name, int dimension, double core_radius) {
-  if (name == "gauss2") return laplacians_of_gaussian(2, dimension, core_radius);
-  if (name == "gauss4") return laplacians_of_gaussian(4, dimension, core_radius);
+int cutoff_order(std::string_view name) {
+  for (const Named& cutoff : cutoffs())
+    if (cutoff.name == name) return cutoff.order;
   throw std::out_of_range("no cutoff is called " + std::string(name));
+}
+
+Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, double width_ratio) {
+  const int order = cutoff_order(name);
+  return name == "two-gauss" ? two_gaussians(dimension, core_radius, width_ratio)
+                             : laplacians_of_gaussian(order, dimension, core_radius);
+}
+
+Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread) {
+  Cutoff wider = cutoff;
+  for (CutoffTerm& term : wider) {
+    const double before = term.width;
+    term.width = std::sqrt(before * before + spread);
+    term.coefficient *= std::pow(before / term.width, dimension);
+  }
+  return wider;
 }
 
 }  // namespace gaussdrift

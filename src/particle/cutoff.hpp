@@ -24,9 +24,20 @@ using Cutoff = std::vector<CutoffTerm>;
 /// Names that make_cutoff() knows.
 const std::vector<std::string>& cutoff_names();
 
-/// zeta_eps(x) = eps^-d zeta(x / eps) for core radius eps > 0. Throws std::out_of_range for an unknown name.
-///   gauss2   pi^{-d/2} exp(-|x|^2)
-///   gauss4   (1 - Laplacian/4) of it; in 2D (2 - r^2) exp(-r^2) / pi
-Cutoff make_cutoff(std::string_view name, int dimension, double core_radius);
+/// zeta_eps(x) = eps^-d zeta(x / eps) for core radius eps > 0. Throws std::out_of_range for an unknown name and
+/// std::invalid_argument for a width ratio that is not positive or is 1. method.md, equations 4 and 4a.
+///   gauss2      G(x) = pi^{-d/2} exp(-|x|^2)
+///   gauss4      (1 - Laplacian/4) G; in 2D (2 - r^2) exp(-r^2) / pi
+///   gauss6      (1 - Laplacian/4 + Laplacian^2/32) G
+///   gauss8      (1 - Laplacian/4 + Laplacian^2/32 - Laplacian^3/384) G
+///   two-gauss   (a^2 G(x) - a^-d G(x/a)) / (a^2 - 1), of order 4; a = width_ratio [Sch06, 5.2.2 for d = 2]
+Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, double width_ratio = 2);
+
+/// Order of the cutoff of that name (moments 1 .. order - 1 vanish). Throws std::out_of_range.
+int cutoff_order(std::string_view name);
+
+/// The cutoff convolved with the Gaussian of variance spread/2 an axis: the square of every width grows by `spread`,
+/// its integral stays, and the coefficients of the derivatives stay those of the widths before (method.md, equation 13).
+Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread);
 
 }  // namespace gaussdrift

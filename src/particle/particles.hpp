@@ -16,6 +16,10 @@ struct Particles {
   std::vector<double> alpha;                                // alpha_j = h^d rho_0(x_j) at the start
   std::vector<std::int64_t> id;  // index on the seeding lattice, first axis fastest; constant
 
+  // Only what the effects of a scene ask for; empty and 0 without them.
+  std::vector<std::vector<double>> path;  // integrals along the paths, one array an integral, since they were settled
+  double spread = 0;                      // what the square of every Gaussian width of the blobs has grown by
+
   std::size_t size() const { return alpha.size(); }
 
   PointsView view() const {

@@ -44,6 +44,32 @@ FrameNumbers measure_frame(const Particles& particles, const DensityGrid& densit
   return numbers;
 }
 
+double seconds_of(const base::StageTimes& stages, const std::string& wanted) {
+  for (const auto& [name, seconds] : stages.stages())
+    if (name == wanted) return seconds;
+  return 0;
+}
+
+void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& summary) {
+  summary.effects.push_back({"transport",
+                             seconds_of(summary.stages, "transport"),
+                             "X' = u(X, t), " + scene.velocity->describe(),
+                             "every weight",
+                             {"position"},
+                             {}});
+  for (const auto& effect : effects) {
+    EffectSummary row{effect->name(),        seconds_of(summary.stages, "effect " + effect->name()),
+                      effect->describe(),    effect->conserves(),
+                      {},                    effect->numbers()};
+    const Changes changes = effect->changes();
+    if (changes.position) row.changes.emplace_back("position");
+    if (changes.weight) row.changes.emplace_back("weight");
+    if (changes.width) row.changes.emplace_back("width");
+    if (changes.particles) row.changes.emplace_back("particles");
+    summary.effects.push_back(std::move(row));
+  }
+}
+
 }  // namespace
 
 Scene make_scene(const Case& description) {
@@ -51,10 +77,13 @@ Scene make_scene(const Case& description) {
   const Domain& domain = description.domain;
   scene.velocity = make_velocity(description);
   scene.density = make_density(description);
+  if (const auto& reaction = description.effects.reaction)
+    scene.reaction_rate = std::make_unique<WrittenScalar>(reaction->rate, domain.dimension, description.params);
   scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
   scene.evaluation = make_lattice(domain.dimension, domain.min, domain.max, description.evaluate.per_axis);
   scene.core_radius = description.particles.overlap * scene.seeding.spacing;
-  scene.cutoff = make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius);
+  scene.cutoff = make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius,
+                             description.particles.width_ratio);
   return scene;
 }
 
@@ -66,12 +95,15 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
       return formula(description.reference.rho, description.params, scene.evaluation);
     case ReferenceSpec::Kind::characteristics: {
       ScalarRate growth;
-      if (!scene.velocity->is_solenoidal())
-        growth = [&velocity = *scene.velocity](double t, const PointsView& x, double* values) {
-          velocity.add_divergence(t, x, values);
+      const VelocityField* diverging = scene.velocity->is_solenoidal() ? nullptr : scene.velocity.get();
+      const ScalarField* decay = scene.reaction_rate.get();
+      if (diverging || decay)
+        growth = [diverging, decay](double t, const PointsView& x, double* values) {
+          if (diverging) diverging->add_divergence(t, x, values);
+          if (decay) decay->add(t, x, values);
         };
       return characteristics(*scene.velocity, *scene.density, growth, scene.evaluation,
-                             {.steady = scene.velocity->is_steady(),
+                             {.steady = scene.velocity->is_steady() && (!decay || decay->is_steady()),
                               .end = description.time.end,
                               .most_steps = 10'000 + total_steps(description),
                               .threads = threads});
@@ -93,6 +125,7 @@ Particles seed_scene(const Scene& scene, int threads) {
 
 std::size_t total_steps(const Case& description) {
   std::size_t steps = 0;
+  if (time::is_adaptive(time::find_tableau(description.time.method))) return 0;
   double from = 0;
   for (const double to : landings(description)) {
     steps += time::Interval(from, to, description.time.step).steps();
@@ -105,6 +138,7 @@ Simulation::Simulation(const Case& description, int threads)
     : case_(description),
       threads_(base::resolve_threads(threads)),
       scene_(make_scene(case_)),
+      carrier_(case_, scene_, threads_),
       reference_(make_reference(case_, scene_, threads_)) {}
 
 void Simulation::prepare() {
@@ -112,6 +146,7 @@ void Simulation::prepare() {
   particles_ = seed_scene(scene_, threads_);
   seed_seconds_ = seeding.seconds();
   mass_at_start_ = std::accumulate(particles_.alpha.begin(), particles_.alpha.end(), 0.0);
+  carrier_.begin(particles_);
   velocity_at_particles(0);
 }
 
@@ -130,26 +165,13 @@ std::vector<double> Simulation::velocity_at_particles(double time) const {
 }
 
 void Simulation::carry(double from, double to, RunSummary& summary) {
-  const time::Tableau& tableau = time::find_tableau(case_.time.method);
-  const time::Interval interval(from, to, case_.time.step);
-  const Stepper stepper(*scene_.velocity, tableau, threads_);
-  // Batches are short enough for a lively progress line and long enough that threads start rarely.
-  constexpr std::size_t stages_a_batch = 4'000'000;
-  const std::size_t stages_a_step =
-      std::max<std::size_t>(1, particles_.size() * static_cast<std::size_t>(tableau.stages));
-  const std::size_t batch = std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000);
-  for (std::size_t done = 0; done < interval.steps();) {
-    const std::size_t count = std::min(batch, interval.steps() - done);
-    summary.stages.run("transport", [&] { stepper.advance(particles_, interval, done, count, steps_done_ - done); });
-    done += count;
-    steps_done_ += count;
-    if (progress_) {
-      double stepping = 0;
-      for (const auto& [name, seconds] : summary.stages.stages())
-        if (name == "transport") stepping = seconds;
-      progress_({steps_done_, steps_total_, interval.start(done), case_.time.end, watch_.seconds(), stepping});
-    }
-  }
+  const std::size_t before = steps_done_;
+  steps_done_ += carrier_.carry(particles_, from, to, before, summary.stages, [&](double now, std::size_t steps) {
+    if (!progress_) return;
+    double stepping = seconds_of(summary.stages, "transport");
+    for (const auto& effect : carrier_.effects()) stepping += seconds_of(summary.stages, "effect " + effect->name());
+    progress_({before + steps, steps_total_, now, case_.time.end, watch_.seconds(), stepping});
+  });
 }
 
 void Simulation::show_frame(int index, double time, RunSummary& summary) {
@@ -201,7 +223,6 @@ RunSummary Simulation::run() {
   steps_total_ = total_steps(case_);
   RunSummary summary;
   summary.threads = threads_;
-  summary.effects = {"transport"};
   summary.transform_tolerance = case_.evaluate.tolerance;
   if (particles_.size() == 0) prepare();
   summary.stages.add("seed", seed_seconds_);
@@ -222,6 +243,8 @@ RunSummary Simulation::run() {
   for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->finish(); });
   summary.checks = judge(case_.checks, mass_at_start_, summary.frames);
   summary.steps = steps_done_;
+  summary.steps_rejected = carrier_.steps_rejected();
+  summarise_effects(carrier_.effects(), scene_, summary);
   summary.seconds = watch_.seconds();
   return summary;
 }

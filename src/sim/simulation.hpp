@@ -11,10 +11,12 @@
 #include "base/lattice.hpp"
 #include "base/stopwatch.hpp"
 #include "field/density.hpp"
+#include "field/scalar.hpp"
 #include "field/velocity.hpp"
 #include "gaussdrift/case.hpp"
 #include "particle/cutoff.hpp"
 #include "sim/checks.hpp"
+#include "sim/carrier.hpp"
 #include "sim/density.hpp"
 #include "sim/frame.hpp"
 #include "sim/reference.hpp"
@@ -25,6 +27,7 @@ namespace gaussdrift {
 struct Scene {
   std::unique_ptr<VelocityField> velocity;
   std::unique_ptr<InitialDensity> density;
+  std::unique_ptr<ScalarField> reaction_rate;  // u0; null without [effects.reaction]
   Lattice seeding;         // where particles start
   Lattice evaluation;      // where rho is summed
   double core_radius = 0;  // eps = c h
@@ -39,25 +42,35 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
 /// Particles of the scene at t = 0. Throws NumericalError where rho_0 is not finite, InputError if it is 0 everywhere.
 Particles seed_scene(const Scene& scene, int threads);
 
-/// Steps from t = 0 to time.end with landings on all output times.
+/// Steps from t = 0 to time.end with landings on all output times; 0 if they are chosen by their error.
 std::size_t total_steps(const Case& description);
 
 struct Progress {
-  std::size_t steps_done = 0, steps_total = 0;
+  std::size_t steps_done = 0, steps_total = 0;  // steps_total 0: not known beforehand
   double time = 0, end = 0;
   double seconds = 0;       // since the run began
   double step_seconds = 0;  // of these, in steps
 };
 
+/// What one effect did, for summary.json.
+struct EffectSummary {
+  std::string name;
+  double seconds = 0;
+  std::string equation, conserves;
+  std::vector<std::string> changes;  // some of position, weight, width, particles
+  Numbers numbers;
+};
+
 /// What a run did, for summary.json and the closing lines.
 struct RunSummary {
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0;
+  std::size_t steps_rejected = 0;  // tried and taken back by a method that chooses its steps
   double spacing = 0, core_radius = 0;
   int threads = 1;
   std::string transform_choice;      // of the last frame
   double transform_tolerance = 0;    // requested by the case, relative to max |rho|
   double transform_achievable = 0;   // worst frame; above the tolerance only where that cannot be promised
-  std::vector<std::string> effects;  // that ran: what the scene called for, nothing else
+  std::vector<EffectSummary> effects;  // that ran: transport and what the scene called for, nothing else
   std::vector<std::pair<double, FrameNumbers>> frames;
   ReferenceReport reference;  // points of all outputs whose exact density is not known
   std::vector<CheckResult> checks;
@@ -82,6 +95,8 @@ class Simulation {
   RunSummary run();
 
   const Particles& particles() const { return particles_; }
+  /// What was constructed for this case beside transport.
+  const Effects& effects() const { return carrier_.effects(); }
 
  private:
   std::vector<double> velocity_at_particles(double time) const;
@@ -91,6 +106,7 @@ class Simulation {
   const Case case_;
   int threads_;
   Scene scene_;
+  Carrier carrier_;
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
   double seed_seconds_ = 0, mass_at_start_ = 0;

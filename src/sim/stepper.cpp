@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
 #include "time/runge_kutta.hpp"
 
 namespace gaussdrift {
@@ -53,7 +55,18 @@ void check_block(const PointsView& x, const VectorsView& u, const std::int64_t* 
   }
 }
 
-// The block's coordinates, axis after axis, each `length` long: the flat state that the integrator sees.
+void check_rates(const PathIntegral& integral, const PointsView& x, const double* values, const std::int64_t* id,
+                 double time, std::size_t step) {
+  for (std::size_t j = 0; j < x.count; ++j)
+    if (!std::isfinite(values[j]))
+      throw NumericalError(
+          fmt::format("{} is {} in step {} at t = {:.10g}, for particle {} at {}; it must be finite wherever particles "
+                      "go: guard the expression, shorten time.end, or move the density",
+                      integral.quantity(), number(values[j]), step, time, id[j], tuple(x.axis, x.dimension, j)));
+}
+
+// The block's coordinates, axis after axis, then its path integrals, each `length` long: the flat state that the
+// integrator sees.
 struct Block {
   int dimension;
   std::size_t length;
@@ -77,24 +90,31 @@ void check_velocity(const Particles& particles, const VectorsView& u, double tim
   check_block(particles.view(), u, particles.id.data(), time, step);
 }
 
-void Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-                      std::size_t steps_before) const {
-  const int dimension = particles.dimension;
+double Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+                        std::size_t steps_before) const {
+  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
   const std::size_t blocks = (particles.size() + block_length - 1) / block_length;
   std::vector<std::vector<double>> results(blocks);
+  std::vector<double> seconds(integrals_.empty() ? 0 : blocks, 0.0);
+  const auto column = [&](std::size_t row) {
+    return row < dimension ? particles.position[row].data() : particles.path[row - dimension].data();
+  };
 
   base::parallel_for(blocks, threads_, [&](std::size_t b) {
     const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
-    Block block{dimension, length, std::vector<double>(length * static_cast<std::size_t>(dimension))};
+    Block block{particles.dimension, length, std::vector<double>(length * rows)};
     const auto load = [&] {
-      for (int k = 0; k < dimension; ++k)
-        std::copy_n(particles.position[k].data() + begin, length,
-                    block.state.data() + static_cast<std::size_t>(k) * length);
+      for (std::size_t k = 0; k < rows; ++k) std::copy_n(column(k) + begin, length, block.state.data() + k * length);
     };
     time::Stages work(tableau_, block.state.size());
     const auto rate = [&](double t, const double* x, double* u) {
       std::fill_n(u, block.state.size(), 0.0);
       velocity_.add(t, block.points(x), block.vectors(u));
+      if (integrals_.empty()) return;
+      const base::Stopwatch watch;
+      for (std::size_t q = 0; q < integrals_.size(); ++q)
+        integrals_[q]->add_rate(t, block.points(x), u + (dimension + q) * length);
+      seconds[b] += watch.seconds();
     };
     load();
     for (std::size_t i = first; i < first + count; ++i)
@@ -107,11 +127,17 @@ void Stepper::advance(Particles& particles, const time::Interval& interval, std:
       const auto traced_rate = [&](double t, const double* x, double* u) {
         rate(t, x, u);
         check_block(block.points(x), block.vectors(u), particles.id.data() + begin, t, steps_before + i + 1);
+        for (std::size_t q = 0; q < integrals_.size(); ++q)
+          check_rates(*integrals_[q], block.points(x), u + (dimension + q) * length, particles.id.data() + begin, t,
+                      steps_before + i + 1);
       };
       for (; i < first + count; ++i) {
         time::step(tableau_, interval.start(i), interval.length(i), traced_rate, block.state.data(), work);
         check_block(block.points(block.state.data()), block.vectors(block.state.data()), particles.id.data() + begin,
                     interval.start(i + 1), steps_before + i + 1);
+        for (std::size_t q = 0; q < integrals_.size(); ++q)
+          check_rates(*integrals_[q], block.points(block.state.data()), block.state.data() + (dimension + q) * length,
+                      particles.id.data() + begin, interval.start(i + 1), steps_before + i + 1);
       }
     }
     results[b] = std::move(block.state);
@@ -119,10 +145,9 @@ void Stepper::advance(Particles& particles, const time::Interval& interval, std:
 
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
-    for (int k = 0; k < dimension; ++k)
-      std::copy_n(results[b].data() + static_cast<std::size_t>(k) * length, length,
-                  particles.position[k].data() + begin);
+    for (std::size_t k = 0; k < rows; ++k) std::copy_n(results[b].data() + k * length, length, column(k) + begin);
   }
+  return std::accumulate(seconds.begin(), seconds.end(), 0.0);
 }
 
 }  // namespace gaussdrift

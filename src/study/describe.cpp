@@ -14,9 +14,7 @@
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "sim/simulation.hpp"
-#include "sim/stepper.hpp"
 #include "time/schedule.hpp"
-#include "time/tableau.hpp"
 
 namespace gaussdrift::study {
 
@@ -86,10 +84,10 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
 }
 
 // Seconds a step, from a few steps of a copy that is thrown away.
-double time_steps(const Case& description, const Scene& scene, const Particles& particles, int threads) {
+double time_steps(const Case& description, const Carrier& carrier, const Particles& particles) {
   if (description.time.end <= 0) return 0;
   const time::Interval interval(0, description.time.end, description.time.step);
-  const Stepper stepper(*scene.velocity, time::find_tableau(description.time.method), threads);
+  base::StageTimes ignored;
   Particles copy = particles;
   // The fastest of several batches: the first pay for starting threads, and other programs may disturb any of them.
   double fastest = std::numeric_limits<double>::infinity();
@@ -98,7 +96,7 @@ double time_steps(const Case& description, const Scene& scene, const Particles& 
   for (std::size_t count = 1; taken < interval.steps() && watch.seconds() < 0.05; count *= 2) {
     count = std::min(count, interval.steps() - taken);
     const base::Stopwatch batch;
-    stepper.advance(copy, interval, taken, count, 0);
+    carrier.advance(copy, interval, taken, count, 0, ignored);
     fastest = std::min(fastest, batch.seconds() / static_cast<double>(count));
     taken += count;
   }
@@ -125,6 +123,30 @@ double time_reference(const Case& description, int threads) {
   return watch.seconds() * outputs * static_cast<double>(full.size()) / static_cast<double>(scene.evaluation.size());
 }
 
+// Steps that a method will choose, and seconds a step, from a trial with a sample of the particles that stops after a
+// while and is extrapolated.
+void predict_chosen_steps(const Case& description, const Scene& scene, const Particles& particles, int threads,
+                          Description& result) {
+  Case transport = description;
+  transport.effects = {};
+  Carrier trial(transport, scene, threads);
+  Particles sample = sample_of(particles);
+  base::StageTimes ignored;
+  const base::Stopwatch watch;
+  const double end = description.time.end;
+  double now = 0;
+  constexpr int pieces = 20;  // of the run, so that a long one can be left early; each costs at most a step
+  for (int i = 1; i <= pieces && watch.seconds() < 0.2 && now < end; ++i) {
+    const double to = i == pieces ? end : end * i / pieces;
+    result.steps += trial.carry(sample, now, to, result.steps, ignored, [](double, std::size_t) {});
+    now = to;
+  }
+  if (now <= 0) return;
+  result.step_seconds = watch.seconds() / static_cast<double>(std::max<std::size_t>(1, result.steps)) *
+                        static_cast<double>(particles.size()) / static_cast<double>(sample.size());
+  result.steps = static_cast<std::size_t>(std::ceil(static_cast<double>(result.steps) * end / now));
+}
+
 bool wants(const Case& scene, OutputSpec::Vtk kind) {
   return std::find(scene.output.vtk.begin(), scene.output.vtk.end(), kind) != scene.output.vtk.end();
 }
@@ -144,7 +166,12 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
-std::string effects_text() { return "transport only"; }
+std::string effects_text(const std::vector<std::string>& effects) {
+  if (effects.empty()) return "transport only";
+  std::string text = "transport";
+  for (const std::string& effect : effects) text += ", " + effect;
+  return text;
+}
 
 }  // namespace
 
@@ -152,7 +179,10 @@ Description describe(const Case& description, int threads) {
   Description result;
   result.threads = base::resolve_threads(threads);
   const Scene scene = make_scene(description);
-  const Particles particles = seed_scene(scene, threads);
+  Particles particles = seed_scene(scene, threads);
+  Carrier carrier(description, scene, threads);
+  carrier.begin(particles);
+  for (const auto& effect : carrier.effects()) result.effects.push_back(effect->describe());
   result.velocity = scene.velocity->describe();
   result.initial_density = scene.density->describe();
   result.lattice_points = scene.seeding.size();
@@ -170,7 +200,10 @@ Description describe(const Case& description, int threads) {
   options.threads = threads;
   const DensityGrid density = evaluate_density(particles, scene.cutoff, scene.evaluation, options, &result.density);
   result.density_maximum = *std::max_element(density.rho.begin(), density.rho.end());
-  result.step_seconds = time_steps(description, scene, particles, threads);
+  if (carrier.is_adaptive())
+    predict_chosen_steps(description, scene, particles, threads, result);
+  else
+    result.step_seconds = time_steps(description, carrier, particles);
   result.reference_seconds = time_reference(description, threads);
   result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
 
@@ -209,7 +242,7 @@ std::string to_text(const Case& scene, const Description& r) {
   text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n",
                       grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
                       scene.particles.cutoff, grouped(r.particles));
-  text += fmt::format("effects    {}\n", effects_text());
+  text += fmt::format("effects    {}\n", effects_text(r.effects));
   text += fmt::format("transform  {}\n", r.density.choice);
   text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n",
                       scene.evaluate.tolerance, r.density.measured_error, r.density.sample);
@@ -228,6 +261,8 @@ std::string to_text(const Case& scene, const Description& r) {
 }
 
 std::string to_json(const Case& scene, const Description& r) {
+  std::vector<std::string> effects{"transport"};
+  effects.insert(effects.end(), r.effects.begin(), r.effects.end());
   const nlohmann::ordered_json document{{"case", scene.name},
                                         {"dimension", scene.domain.dimension},
                                         {"velocity", r.velocity},
@@ -235,7 +270,7 @@ std::string to_json(const Case& scene, const Description& r) {
                                         {"reference", to_string(scene.reference.kind)},
                                         {"largest_speed", r.largest_speed},
                                         {"largest_divergence", r.largest_divergence},
-                                        {"effects", {"transport"}},
+                                        {"effects", effects},
                                         {"lattice_points", r.lattice_points},
                                         {"particles", r.particles},
                                         {"spacing", r.spacing},

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "gaussdrift/case.hpp"
 #include "sim/density.hpp"
@@ -12,6 +13,8 @@ namespace gaussdrift::study {
 struct Description {
   std::string velocity;           // formula
   std::string initial_density;    // formula, smoothness, mass where it is known
+  std::string velocity;              // formula
+  std::vector<std::string> effects;  // beside transport, their equations
   double largest_speed = 0;       // of |u| at the particles, over sampled times
   double largest_divergence = 0;  // of |div u| there, by central differences
   double divergence_noise = 0;    // what those differences cannot tell from 0

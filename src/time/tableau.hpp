@@ -14,6 +14,7 @@ struct Tableau {
   std::vector<double> stage_weights;  // a_il, row i has i entries: strictly lower triangle, row by row
   std::vector<double> weights;        // b_i
   std::vector<double> nodes;          // c_i
+  std::vector<double> error_weights = {};  // b_i minus those of an embedded method of lower order; empty: none
 
   double a(int i, int l) const { return stage_weights[static_cast<std::size_t>(i * (i - 1) / 2 + l)]; }
   double b(int i) const { return weights[static_cast<std::size_t>(i)]; }
@@ -22,6 +23,9 @@ struct Tableau {
 
 /// All methods, by the names of `time.method`.
 const std::vector<Tableau>& tableaux();
+
+/// True if the error of a step can be estimated, and with it the step chosen.
+inline bool is_adaptive(const Tableau& tableau) { return !tableau.error_weights.empty(); }
 
 /// Throws std::out_of_range for an unknown name.
 const Tableau& find_tableau(std::string_view name);

@@ -44,11 +44,21 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
   json reference{{"kind", to_string(scene.reference.kind)}};
   if (scene.reference.kind != ReferenceSpec::Kind::none) reference["untraced"] = summary.reference.untraced;
   if (summary.reference.untraced > 0) reference["trouble"] = summary.reference.trouble;
+  json effects = json::array();
+  for (const EffectSummary& effect : summary.effects) {
+    json row{{"name", effect.name},
+             {"seconds", effect.seconds},
+             {"equation", effect.equation},
+             {"changes", effect.changes},
+             {"conserves", effect.conserves}};
+    for (const auto& [name, value] : effect.numbers) row[name] = value;
+    effects.push_back(std::move(row));
+  }
 
   json document{
       {"case", scene.name},
       {"title", scene.title},
-      {"effects", summary.effects},
+      {"effects", effects},
       {"particles",
        {{"lattice_points", summary.lattice_points},
         {"carried", summary.particles},
@@ -56,7 +66,11 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
         {"core_radius", summary.core_radius},
         {"cutoff", scene.particles.cutoff}}},
       {"time",
-       {{"method", scene.time.method}, {"step", scene.time.step}, {"end", scene.time.end}, {"steps", summary.steps}}},
+       {{"method", scene.time.method},
+        {"step", scene.time.step},
+        {"end", scene.time.end},
+        {"steps", summary.steps},
+        {"steps_rejected", summary.steps_rejected}}},
       {"evaluate",
        {{"grid_points", summary.grid_points},
         {"tolerance", summary.transform_tolerance},

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 
 #include "field/named_fields.hpp"
 #include "sim/stepper.hpp"
+#include "time/stability.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -42,7 +46,47 @@ TEST_P(EveryTableau, ReachesItsOrderOnATimeDependentProblem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()),
-                         [](const auto& tableau) { return tableau.param.name; });
+                         [](const auto& tableau) {
+                           std::string name = tableau.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+// --- stability ----------------------------------------------------------------------------------------------------
+
+TEST_P(EveryTableau, MatchesTheExponentialToItsOrder) {
+  const std::vector<double> polynomial = time::stability_polynomial(GetParam());
+  double factorial = 1;
+  for (int k = 0; k <= GetParam().time_order; factorial *= ++k)
+    EXPECT_NEAR(polynomial[static_cast<std::size_t>(k)], 1 / factorial, 1e-15) << "coefficient of z^" << k;
+}
+
+TEST(Stability, LimitsAreTheKnownOnes) {
+  const struct {
+    const char* name;
+    double imaginary, negative;  // where the boundary of |R| <= 1 crosses the axes
+  } known[] = {{"euler", 0, 2},
+               {"heun", 0, 2},
+               {"rk4", std::sqrt(8.0), 2.785293563405282},
+               {"rk4-38", std::sqrt(8.0), 2.785293563405282},
+               {"dopri5", 0.99999, 3.306576}};
+  for (const auto& [name, imaginary, negative] : known) {
+    const time::Tableau& rk = time::find_tableau(name);
+    EXPECT_NEAR(time::stability_limit(rk, {0, 1}), imaginary, 1e-4) << name;
+    EXPECT_NEAR(time::stability_limit(rk, -1), negative, 1e-5) << name;  // digits given above
+  }
+}
+
+TEST(Stability, OfAStepIsJudgedByTheGrowthOverTheRun) {
+  const double turn = 2 * std::numbers::pi, infinite = std::numeric_limits<double>::infinity();
+  // euler on a rotation: |R|^2 = 1 + theta^2 a step, so the radius grows by about exp(pi theta) a turn.
+  const double euler = time::largest_stable_step(time::find_tableau("euler"), {0, 1}, turn, 0.1, infinite);
+  EXPECT_NEAR(euler, 0.1 / std::numbers::pi, 1e-4);  // the next term of ln(1 + theta^2) is theta^2/2 smaller
+  // rk4 does not grow below sqrt(8); over many turns the limit sharpens to that.
+  EXPECT_NEAR(time::largest_stable_step(time::find_tableau("rk4"), {0, 1}, 1e4, 0.1, infinite), std::sqrt(8.0), 1e-3);
+  EXPECT_EQ(time::largest_stable_step(time::find_tableau("rk4"), {0, 1}, 1e4, 0.1, 0.5), 0.5);
+  EXPECT_EQ(time::largest_stable_step(time::find_tableau("rk4"), 0, 1e4, 0.1, 7), 7) << "a shear has the eigenvalue 0";
+}
 
 struct Turn {
   double step, radius_loss, phase_lag;

@@ -134,7 +134,10 @@ std::string expected(const std::string& text, const Wrong& wrong) {
 const char* const step_note = "step: time step; the last one before an output is shortened to land on it";
 const char* const names_note = "reserved names: x, y, z, t, pi, e and the functions";
 const char* const tables_note =
-    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, check";
+    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, check, "
+    "effects";
+
+const char* const effects_note = "known effects: reaction";
 
 const std::vector<Wrong> wrongs = {
     // version and structure
@@ -151,7 +154,20 @@ const std::vector<Wrong> wrongs = {
     {"[particles]", "[[particles]]", 24, "particles", "particles must be one table [particles], found a list"},
     {"[velocity]\nu = [\"-y\", \"x\"]", "[[velocity]]\nu = [1, 2]\n[[velocity]]\nfield = \"rotation\"\nrate = true", 19,
      "true", "velocity[2].rate must be a number or an expression, found true"},
-    {"[time]\nend", "[effects.diffusion]\nD = 1\n[time]\nend", 29, "effects", "unknown table [effects]", tables_note},
+    {"[time]\nend", "[effects.reacton]\nrate = 1\n[time]\nend", 29, "reacton",
+     "unknown effect \"reacton\"; did you mean [effects.reaction]?", effects_note},
+    {"[time]\nend", "[effects.magic]\nrate = 1\n[time]\nend", 29, "magic", "unknown effect \"magic\"", effects_note},
+    {"[time]\nend", "[reaction]\nrate = 1\n[time]\nend", 29, "reaction",
+     "unknown table [reaction]; did you mean [effects.reaction]?", tables_note},
+    {"[time]\nend", "[effects]\nreaction = 1\n[time]\nend", 30, "reaction",
+     "effects.reaction must be one table [effects.reaction], found the number 1"},
+    {"[time]\nend", "[effects.reaction]\nrat = 1\n[time]\nend", 30, "rat",
+     "unknown key \"rat\" in [effects.reaction]; did you mean \"rate\"?", "known keys: rate"},
+    {"[time]\nend", "[effects.reaction]\n[time]\nend", 29, "[effects.reaction]", "effects.reaction.rate is missing",
+     "rate: rate of decay, an expression in x, y, z, t and params; negative where weights grow"},
+    {"[time]\nend", "[effects.reaction]\nrate = \"q*x\"\n[time]\nend", 30, "q", "unknown name \"q\""},
+    {"[time]\nend", "[effects.reaction]\nrate = [1]\n[time]\nend", 30, "[1]",
+     "effects.reaction.rate must be an expression in a string, found a list"},
     {"overlap = 2", "overlap = 2\nstep = 0.1", 27, "step", "unknown key \"step\" in [particles]; it belongs in [time]",
      "known keys: per_axis, overlap, cutoff"},
     {"step = 0.001\n", "", 29, "[time]", "time.step is missing", step_note},

@@ -58,7 +58,8 @@ TEST(Run, WritesNothingThatTheCaseDoesNotName) {
   EXPECT_FALSE(fs::exists(output / "particles.pvd"));
   EXPECT_FALSE(fs::exists(output / "images"));
   const auto summary = nlohmann::json::parse(read_file(output / "summary.json"));
-  EXPECT_EQ(summary["effects"], nlohmann::json::array({"transport"}));
+  ASSERT_EQ(summary["effects"].size(), 1u);
+  EXPECT_EQ(summary["effects"][0]["name"], "transport");
   for (const auto& [stage, seconds] : summary["seconds"].items())
     EXPECT_EQ(stage.find("write density"), std::string::npos) << stage;
 }

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 namespace gaussdrift {
@@ -31,19 +33,25 @@ double value(const Cutoff& cutoff, const Vector& x) {
   return sum;
 }
 
-// int x^a y^b z^c zeta_eps
+// int x^a y^b z^c zeta_eps over `dimension` axes. Each term is a product over axes, and so is its sum over the lattice.
 double moment(const Cutoff& cutoff, int dimension, double eps, const std::array<int, 3>& power) {
-  const int half = 14;  // 7 widths each way: what is cut off is below 1e-20
+  const int half = 28;  // 14 eps each way, 7 widths of the wider Gaussian of two-gauss: what is cut off is below 1e-20
   const double spacing = 0.5 * eps;
   double sum = 0;
-  for (int i = -half; i <= half; ++i)
-    for (int j = dimension > 1 ? -half : 0; j <= (dimension > 1 ? half : 0); ++j)
-      for (int k = dimension > 2 ? -half : 0; k <= (dimension > 2 ? half : 0); ++k) {
-        const Vector x{i * spacing, j * spacing, k * spacing};
-        // In fewer dimensions the other factors of `value` are exp(0) = 1.
-        sum += std::pow(x[0], power[0]) * std::pow(x[1], power[1]) * std::pow(x[2], power[2]) * value(cutoff, x);
+  for (const CutoffTerm& term : cutoff) {
+    double product = term.coefficient;
+    for (int k = 0; k < dimension; ++k) {
+      double line = 0;
+      for (int i = -half; i <= half; ++i) {
+        const double x = i * spacing, t = x / term.width;
+        line += std::pow(x, power[k]) * std::pow(-1 / term.width, term.derivative[k]) *
+                hermite(term.derivative[k], t) * std::exp(-t * t);
       }
-  return sum * std::pow(spacing, dimension);
+      product *= line * spacing;
+    }
+    sum += product;
+  }
+  return sum;
 }
 
 struct Named {
@@ -72,10 +80,52 @@ TEST_P(EveryCutoff, HasExactlyItsOrder) {
   // The moment of order k does not vanish: the name promises no more than it keeps.
   const Cutoff cutoff = make_cutoff(GetParam().name, 2, 1.0);
   EXPECT_GT(std::abs(moment(cutoff, 2, 1.0, {GetParam().cutoff_order, 0, 0})), 0.1);
+  EXPECT_EQ(cutoff_order(GetParam().name), GetParam().cutoff_order);
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryCutoff, ::testing::Values(Named{"gauss2", 2}, Named{"gauss4", 4}),
-                         [](const auto& named) { return named.param.name; });
+INSTANTIATE_TEST_SUITE_P(, EveryCutoff,
+                         ::testing::Values(Named{"gauss2", 2}, Named{"gauss4", 4}, Named{"gauss6", 6},
+                                           Named{"gauss8", 8}, Named{"two-gauss", 4}),
+                         [](const auto& named) {
+                           std::string name = named.param.name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(CutoffTwoGauss, IsThePublishedPairInTwoDimensions) {
+  for (const double a : {0.5, 2.0, 3.0}) {
+    const Cutoff cutoff = make_cutoff("two-gauss", 2, 1.0, a);
+    for (const double r : {0.0, 0.4, 1.0, 2.5}) {
+      const double pi = std::numbers::pi, square = a * a;  // [Sch06, 5.2.2]
+      const double published =
+          square / (pi * (square - 1)) * std::exp(-r * r) + std::exp(-r * r / square) / (pi * square * (1 - square));
+      EXPECT_NEAR(value(cutoff, {0, r, 0}), published, 1e-15);
+    }
+  }
+}
+
+TEST(CutoffTwoGauss, HasItsMomentsForEveryRatioAndDimension) {
+  for (const double a : {0.7, 1.5})
+    for (const int dimension : {1, 2, 3}) {
+      const Cutoff cutoff = make_cutoff("two-gauss", dimension, 1.0, a);
+      EXPECT_NEAR(moment(cutoff, dimension, 0.7, {0, 0, 0}), 1, 1e-8);  // widths from 0.7: as above
+      EXPECT_NEAR(moment(cutoff, dimension, 0.7, {2, 0, 0}), 0, 1e-8);
+    }
+  EXPECT_THROW(make_cutoff("two-gauss", 2, 1.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(make_cutoff("two-gauss", 2, 1.0, -2.0), std::invalid_argument);
+}
+
+TEST_P(EveryCutoff, SpreadIsTheConvolutionWithAGaussian) {
+  // Moments of a convolution: the zeroth stays, the second of an axis gains spread/2 (times the integral 1).
+  const double eps = 1.0, spread = 0.8;
+  for (const int dimension : {1, 2, 3}) {
+    const Cutoff before = make_cutoff(GetParam().name, dimension, eps);
+    const Cutoff after = spread_cutoff(before, dimension, spread);
+    EXPECT_NEAR(moment(after, dimension, 1.3, {0, 0, 0}), 1, 1e-7);  // 1.3: wide enough for the wider Gaussians
+    const double second = GetParam().cutoff_order == 2 ? 0.5 : 0;
+    EXPECT_NEAR(moment(after, dimension, 1.3, {2, 0, 0}), second + spread / 2, 1e-6);
+  }
+}
 
 TEST(CutoffGauss4, IsTheClosedFormInTwoDimensions) {
   const Cutoff cutoff = make_cutoff("gauss4", 2, 1.0);

@@ -1,0 +1,69 @@
+// What a scene may ask for beside transport. An effect is constructed only if the case has its table [effects.x], and
+// costs nothing otherwise: the run asks the effects that exist, and those through hooks that are called once for many
+// particles, never for each. docs/method.md, section 8.
+//
+// One run calls, in this order:
+//   begin            once the particles stand; again whenever another effect has replaced them
+//   for every step   exchange (half a step), the step itself with the path integrals, settle, exchange (half a step),
+//                    rearrange
+//   land             at output times: afterwards weights and widths are those of that time
+// Without any effect that acts_between_steps(), settle and land alone are called, at output times.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "effect/path_integral.hpp"
+#include "particle/particles.hpp"
+
+namespace gaussdrift {
+
+/// Which parts of the particles an effect changes.
+struct Changes {
+  bool position = false;
+  bool weight = false;
+  bool width = false;      // of the blobs
+  bool particles = false;  // adds or replaces particles
+};
+
+/// Named numbers.
+using Numbers = std::vector<std::pair<std::string, double>>;
+
+class Effect {
+ public:
+  virtual ~Effect() = default;
+
+  /// As in [effects.name].
+  virtual std::string name() const = 0;
+  /// Its equation with the numbers of the case, one line.
+  virtual std::string describe() const = 0;
+  virtual Changes changes() const = 0;
+  /// What stays the same under it, for people: "mass and centroid", "nothing".
+  virtual std::string conserves() const = 0;
+  /// The longest time step with which it is stable, for the particles seen by begin(); infinity if every one is.
+  virtual double stable_step() const { return std::numeric_limits<double>::infinity(); }
+
+  virtual void begin(Particles& /*particles*/, double /*time*/) {}
+
+  /// What it wants integrated along the paths; null: nothing.
+  virtual const PathIntegral* path_integral() const { return nullptr; }
+  /// Applies integral[j], gathered since the last call; the caller sets it back to 0 afterwards.
+  virtual void settle(Particles& /*particles*/, const double* /*integral*/, double /*time*/) {}
+
+  /// True if it has to see the particles between any two steps.
+  virtual bool acts_between_steps() const { return false; }
+  /// Changes weights over a length of time, at fixed positions.
+  virtual void exchange(Particles& /*particles*/, double /*time*/, double /*length*/) {}
+  /// May replace the particles; true if it did.
+  virtual bool rearrange(Particles& /*particles*/, double /*time*/) { return false; }
+
+  virtual void land(Particles& /*particles*/, double /*time*/) {}
+
+  /// What it did, for summary.json: name and number.
+  virtual Numbers numbers() const { return {}; }
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,40 @@
+// Scalar fields of place and time: rates that weights change by.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/points.hpp"
+#include "expression/expression.hpp"
+
+namespace gaussdrift {
+
+/// A field is immutable; `add` is safe to call from several threads.
+class ScalarField {
+ public:
+  virtual ~ScalarField() = default;
+  /// values[i] += f(x_i, t). Values that are not finite are passed on; the caller reports them with place and time.
+  virtual void add(double t, const PointsView& x, double* values) const = 0;
+  /// True if it does not depend on t.
+  virtual bool is_steady() const = 0;
+  /// Its formula.
+  virtual std::string describe() const = 0;
+};
+
+/// An expression in x, y, (z,) t and the params. One without x, y, z, t is computed once.
+class WrittenScalar : public ScalarField {
+ public:
+  /// Throws ExpressionError.
+  WrittenScalar(const std::string& text, int dimension, const std::vector<std::pair<std::string, double>>& params);
+  void add(double t, const PointsView& x, double* values) const override;
+  bool is_steady() const override { return steady_; }
+  std::string describe() const override { return expression_.text(); }
+
+ private:
+  Expression expression_;
+  bool constant_, steady_;
+  double value_ = 0;  // if constant
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,112 @@
+#include "sim/adaptive_stepper.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "time/runge_kutta.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+constexpr std::size_t block_length = 256;  // as in stepper.cpp
+
+// The usual controller: the error of a step goes like its length to the power of the order, aimed at 0.9 of what is
+// allowed; lengths change by bounded factors, so that one lucky or unlucky estimate does no harm.
+constexpr double safety = 0.9, shrink_most = 0.2, grow_most = 5;
+
+double factor_for(double error, int order) {
+  if (!std::isfinite(error)) return shrink_most;
+  return std::clamp(safety * std::pow(error, -1.0 / order), shrink_most, grow_most);
+}
+
+}  // namespace
+
+AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, double time, double step,
+                                                  std::vector<std::vector<double>>& results) const {
+  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
+  const std::size_t blocks = results.size();
+  std::vector<Largest> largest(blocks);
+  base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
+    const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
+    std::vector<double>& state = results[b];
+    state.resize(length * rows);
+    for (std::size_t k = 0; k < rows; ++k)
+      std::copy_n((k < dimension ? particles.position[k] : particles.path[k - dimension]).data() + begin, length,
+                  state.data() + k * length);
+    time::Stages work(tableau_, state.size());
+    const auto rate = [&](double t, const double* x, double* u) {
+      PointsView points{particles.dimension, length, {}};
+      VectorsView vectors{particles.dimension, length, {}};
+      for (std::size_t k = 0; k < dimension; ++k) points.axis[k] = x + k * length, vectors.axis[k] = u + k * length;
+      std::fill_n(u, length * rows, 0.0);
+      velocity_.add(t, points, vectors);
+      for (std::size_t q = 0; q < integrals_.size(); ++q)
+        integrals_[q]->add_rate(t, points, u + (dimension + q) * length);
+    };
+    time::step(tableau_, time, step, rate, state.data(), work);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      double error = 0;
+      for (std::size_t s = 0; s < work.rates.size(); ++s) error += tableau_.error_weights[s] * work.rates[s][i];
+      const double unit = i < dimension * length ? options_.length : 1;
+      const double relative = std::abs(step * error) / (options_.tolerance * unit);
+      if (std::isfinite(state[i]) && relative <= largest[b].error) continue;
+      largest[b] = {std::isfinite(relative) && std::isfinite(state[i]) ? relative
+                                                                       : std::numeric_limits<double>::infinity(),
+                    begin + i % length};
+      if (!std::isfinite(largest[b].error)) return;
+    }
+  });
+  Largest worst;
+  for (const Largest& block : largest)
+    if (block.error > worst.error) worst = block;
+  return worst;
+}
+
+double AdaptiveStepper::advance(Particles& particles, double time, double end, std::size_t steps_before) {
+  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
+  const double most = options_.largest_step > 0 ? options_.largest_step : end - time;
+  if (proposal_ <= 0) proposal_ = std::min(most, end - time);
+  std::vector<std::vector<double>> results((particles.size() + block_length - 1) / block_length);
+  for (;;) {
+    const double left = end - time;
+    double step = std::min(proposal_, most);
+    const bool lands = step >= left * (1 - 1e-9);
+    if (lands)
+      step = left;
+    else if (step > left / 2)
+      step = left / 2;  // two equal steps rather than a long one and a crumb
+    const Largest worst = attempt(particles, time, step, results);
+    const double factor = factor_for(worst.error, tableau_.time_order);
+    if (worst.error <= 1) {
+      for (std::size_t b = 0; b < results.size(); ++b) {
+        const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
+        for (std::size_t k = 0; k < rows; ++k)
+          std::copy_n(results[b].data() + k * length, length,
+                      (k < dimension ? particles.position[k] : particles.path[k - dimension]).data() + begin);
+      }
+      // A step that was shortened to land says nothing against the longer one.
+      proposal_ = step < proposal_ ? std::max(proposal_, step * factor) : step * factor;
+      return lands ? end : time + step;
+    }
+    ++rejected_;
+    proposal_ = step * std::min(factor, 0.9);
+    if (time + proposal_ / 16 == time || proposal_ < 1e-13 * left) {
+      std::string place;
+      for (std::size_t k = 0; k < dimension; ++k)
+        place += fmt::format("{}{:.6g}", k ? ", " : "", particles.position[k][worst.particle]);
+      throw NumericalError(fmt::format(
+          "no step is short enough for time.tolerance = {:g} in step {} at t = {:.10g}: particle {} at ({}) moves too "
+          "fast, or the velocity is not finite there; guard the expression, raise the tolerance or shorten time.end",
+          options_.tolerance, steps_before + 1, time, particles.id[worst.particle], place));
+    }
+  }
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,52 @@
+// Carries particles with steps chosen by their error, for methods with an embedded one of lower order. method.md, 4.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "effect/path_integral.hpp"
+#include "field/velocity.hpp"
+#include "particle/particles.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift {
+
+/// One step for all particles together: its length is chosen so that the largest error among them meets the tolerance.
+/// A largest error is the same for any blocks and threads, the field sees all points at one time, and frames and effects
+/// find all particles at the same time.
+class AdaptiveStepper {
+ public:
+  struct Options {
+    double tolerance = 1e-8;  // of a position in one step, relative to `length`; of a path integral in one step, absolute
+    double length = 1;        // the longest side of the domain
+    double largest_step = 0;  // 0: none
+    int threads = 0;          // 0: all
+  };
+  /// The field and the integrals must outlive the stepper.
+  AdaptiveStepper(const VelocityField& velocity, const time::Tableau& tableau,
+                  std::vector<const PathIntegral*> integrals, const Options& options)
+      : velocity_(velocity), tableau_(tableau), integrals_(std::move(integrals)), options_(options) {}
+
+  /// One step from `time` towards `end`; returns the time reached, exactly `end` if it is reached. Throws NumericalError
+  /// naming step, time, particle and place where no step is short enough.
+  double advance(Particles& particles, double time, double end, std::size_t steps_before);
+
+  std::size_t rejected() const { return rejected_; }
+
+ private:
+  struct Largest {
+    double error = 0;          // relative to what is allowed
+    std::size_t particle = 0;  // that has it
+  };
+  Largest attempt(const Particles& particles, double time, double step, std::vector<std::vector<double>>& results) const;
+
+  const VelocityField& velocity_;
+  const time::Tableau& tableau_;
+  std::vector<const PathIntegral*> integrals_;
+  Options options_;
+  double proposal_ = 0;  // 0: none yet
+  std::size_t rejected_ = 0;
+};
+
+}  // namespace gaussdrift

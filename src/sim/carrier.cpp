@@ -1,0 +1,156 @@
+#include "sim/carrier.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stable_step.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+std::vector<Effect*> integrating(const Effects& effects) {
+  std::vector<Effect*> some;
+  for (const auto& effect : effects)
+    if (effect->path_integral()) some.push_back(effect.get());
+  return some;
+}
+
+std::vector<const PathIntegral*> integrals_of(const std::vector<Effect*>& effects) {
+  std::vector<const PathIntegral*> integrals;
+  for (const Effect* effect : effects) integrals.push_back(effect->path_integral());
+  return integrals;
+}
+
+std::string stage_of(const Effect& effect) { return "effect " + effect.name(); }
+
+}  // namespace
+
+Carrier::Carrier(const Case& description, const Scene& scene, int threads)
+    : effects_(make_effects(description, scene, threads)),
+      integrating_(integrating(effects_)),
+      between_steps_(std::any_of(effects_.begin(), effects_.end(),
+                                 [](const auto& effect) { return effect->acts_between_steps(); })),
+      tableau_(time::find_tableau(description.time.method)),
+      case_(description),
+      scene_(scene),
+      stepper_(*scene.velocity, tableau_, threads, integrals_of(integrating_)),
+      threads_(base::resolve_threads(threads)) {
+  if (!time::is_adaptive(tableau_)) return;
+  AdaptiveStepper::Options options{description.time.tolerance, 0, description.time.step, threads};
+  for (int k = 0; k < description.domain.dimension; ++k)
+    options.length = std::max(options.length, description.domain.max[static_cast<std::size_t>(k)] -
+                                                  description.domain.min[static_cast<std::size_t>(k)]);
+  adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), options);
+}
+
+void Carrier::begin(Particles& particles) {
+  for (const auto& effect : effects_) effect->begin(particles, 0);
+  particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
+  if (is_adaptive() || case_.time.end <= 0) return;
+  // The longest step taken: one longer than the run is cut.
+  const double step = std::min(case_.time.step, case_.time.end);
+  const double distance = 1e-3 * scene_.core_radius;  // a thousandth of the smallest length that the density resolves
+  const StableStep flow =
+      estimate_stable_step(*scene_.velocity, particles, tableau_, case_.time.end, step, distance);
+  if (flow.step < step * (1 - 1e-9))
+    throw InputError(fmt::format(
+        "time.step = {:g} is not stable with time.method = \"{}\": {}, and over this run what only turns or decays would "
+        "grow by more than {:g} %; the longest stable step is {:.3g}",
+        case_.time.step, tableau_.name, flow.reason, 100 * growth_allowed, flow.step));
+  for (const auto& effect : effects_)
+    if (effect->stable_step() < step * (1 - 1e-9))
+      throw InputError(fmt::format("time.step = {:g} is not stable for [effects.{}]; the longest stable step is {:.3g}",
+                                   case_.time.step, effect->name(), effect->stable_step()));
+}
+
+std::size_t Carrier::carry(Particles& particles, double from, double to, std::size_t steps_before,
+                           base::StageTimes& stages, const std::function<void(double, std::size_t)>& report) {
+  std::size_t steps = 0;
+  if (adaptive_) {
+    for (double now = from; now < to;) {
+      stages.run("transport", [&] { now = adaptive_->advance(particles, now, to, steps_before + steps); });
+      ++steps;
+      if (between_steps_) {
+        settle(particles, now, stages);
+        rearrange(particles, now, stages);
+      }
+      report(now, steps);
+    }
+  } else {
+    const time::Interval interval(from, to, case_.time.step);
+    // Batches are short enough for a lively progress line and long enough that threads start rarely.
+    constexpr std::size_t stages_a_batch = 4'000'000;
+    const std::size_t stages_a_step =
+        std::max<std::size_t>(1, particles.size() * static_cast<std::size_t>(tableau_.stages));
+    const std::size_t batch = std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000);
+    while (steps < interval.steps()) {
+      const std::size_t count = std::min(batch, interval.steps() - steps);
+      advance(particles, interval, steps, count, steps_before, stages);
+      steps += count;
+      report(interval.start(steps), steps);
+    }
+  }
+  land(particles, to, stages);
+  return steps;
+}
+
+void Carrier::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+                      std::size_t steps_before, base::StageTimes& stages) const {
+  if (!between_steps_) return take_steps(particles, interval, first, count, steps_before, stages);
+  // Strang's splitting: half a step of exchange on either side of each step; two halves that meet are one.
+  for (std::size_t i = first; i < first + count; ++i) {
+    const double half = interval.length(i) / 2;
+    if (i == 0) exchange(particles, interval.start(i), half, stages);
+    take_steps(particles, interval, i, 1, steps_before, stages);
+    const double now = interval.start(i + 1);
+    settle(particles, now, stages);
+    rearrange(particles, now, stages);
+    exchange(particles, now, half + (i + 1 < interval.steps() ? interval.length(i + 1) / 2 : 0), stages);
+  }
+}
+
+void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+                         std::size_t steps_before, base::StageTimes& stages) const {
+  const base::Stopwatch watch;
+  const double integrals = stepper_.advance(particles, interval, first, count, steps_before) / threads_;
+  stages.add("transport", watch.seconds() - integrals);
+  // The integrals are evaluated together; their time is shared evenly.
+  for (const Effect* effect : integrating_)
+    stages.add(stage_of(*effect), integrals / static_cast<double>(integrating_.size()));
+}
+
+void Carrier::settle(Particles& particles, double time, base::StageTimes& stages) const {
+  for (std::size_t q = 0; q < integrating_.size(); ++q)
+    stages.run(stage_of(*integrating_[q]), [&] {
+      integrating_[q]->settle(particles, particles.path[q].data(), time);
+      std::fill(particles.path[q].begin(), particles.path[q].end(), 0.0);
+    });
+}
+
+void Carrier::exchange(Particles& particles, double time, double length, base::StageTimes& stages) const {
+  for (const auto& effect : effects_)
+    if (effect->acts_between_steps())
+      stages.run(stage_of(*effect), [&] { effect->exchange(particles, time, length); });
+}
+
+void Carrier::rearrange(Particles& particles, double time, base::StageTimes& stages) const {
+  bool replaced = false;
+  for (const auto& effect : effects_)
+    if (effect->acts_between_steps())
+      stages.run(stage_of(*effect), [&] { replaced = effect->rearrange(particles, time) || replaced; });
+  if (!replaced) return;
+  for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->begin(particles, time); });
+  for (auto& integral : particles.path) integral.assign(particles.size(), 0.0);
+}
+
+void Carrier::land(Particles& particles, double time, base::StageTimes& stages) const {
+  settle(particles, time, stages);
+  for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->land(particles, time); });
+}
+
+}  // namespace gaussdrift

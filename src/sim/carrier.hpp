@@ -1,0 +1,67 @@
+// Carries the particles of a scene through transport and its effects, from time to time. method.md, sections 4 and 8.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/stopwatch.hpp"
+#include "gaussdrift/case.hpp"
+#include "sim/adaptive_stepper.hpp"
+#include "sim/effects.hpp"
+#include "sim/stepper.hpp"
+#include "time/schedule.hpp"
+
+namespace gaussdrift {
+
+
+
+class Carrier {
+ public:
+  /// Constructs the effects that the case names. Case and scene must outlive the carrier. threads: 0 for all.
+  Carrier(const Case& description, const Scene& scene, int threads);
+
+  /// Readies the particles for the effects. Throws InputError if time.step is not stable for the flow or for an effect,
+  /// naming the longest that is.
+  void begin(Particles& particles);
+
+  /// Carries the particles from an output time to the next and brings weights and widths up to it; `steps_before` were
+  /// taken before. `report(time, steps)` is called between batches of steps. Seconds are booked under "transport" and
+  /// "effect <name>". Returns the steps taken.
+  std::size_t carry(Particles& particles, double from, double to, std::size_t steps_before, base::StageTimes& stages,
+                    const std::function<void(double time, std::size_t steps)>& report);
+
+  /// Steps of a fixed length alone: steps first .. first + count - 1 of the interval.
+  void advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+               std::size_t steps_before, base::StageTimes& stages) const;
+
+  /// True if steps are chosen by their error (time.tolerance) instead of by time.step.
+  bool is_adaptive() const { return adaptive_.has_value(); }
+
+  std::size_t steps_rejected() const { return adaptive_ ? adaptive_->rejected() : 0; }
+
+  const Effects& effects() const { return effects_; }
+
+ private:
+  // Brings weights and widths up to `time`, at which the positions are.
+  void land(Particles& particles, double time, base::StageTimes& stages) const;
+
+  void take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+                  std::size_t steps_before, base::StageTimes& stages) const;
+  void exchange(Particles& particles, double time, double length, base::StageTimes& stages) const;
+  void rearrange(Particles& particles, double time, base::StageTimes& stages) const;
+  void settle(Particles& particles, double time, base::StageTimes& stages) const;
+
+  Effects effects_;
+  std::vector<Effect*> integrating_;  // those with a path integral, in the order of Particles::path
+  bool between_steps_ = false;        // some effect acts between any two steps
+  const time::Tableau& tableau_;
+  const Case& case_;
+  const Scene& scene_;
+  Stepper stepper_;
+  std::optional<AdaptiveStepper> adaptive_;
+  int threads_;
+};
+
+}  // namespace gaussdrift
