@@ -33,8 +33,8 @@ std::string progress_text(const Progress& progress) {
       progress.steps_done > 0 ? 1e3 * progress.step_seconds / static_cast<double>(progress.steps_done) : 0;
   // Frames come evenly enough that the whole time so far, not only the steps, tells what is left.
   const double left = fraction > 0 ? progress.seconds * (1 - fraction) / fraction : 0;
-  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g}  step {}  {:.3g} ms a step  {} left",
-                     std::floor(100 * fraction), progress.time, progress.end, steps, per_step, duration(left));
+  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g}  step {}  {:.3g} ms a step  {} left", std::floor(100 * fraction),
+                     progress.time, progress.end, steps, per_step, duration(left));
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr) {}

@@ -1,6 +1,7 @@
 // Reaction, d_t rho + div(rho u) + u0 rho = 0: along the path of a particle alpha' = -u0(X, t) alpha, so that
-// alpha(t) = alpha(0) exp(-integral of u0). The integral is a quadrature over the stages of the path and the exponential
-// is taken of the sum: a weight keeps its sign and cannot overshoot, however large u0. docs/method.md, section 8.1.
+// alpha(t) = alpha(0) exp(-integral of u0). The integral is a quadrature over the stages of the path and the
+// exponential is taken of the sum: a weight keeps its sign and cannot overshoot, however large u0. docs/method.md,
+// section 8.1.
 #pragma once
 
 #include "effect/effect.hpp"

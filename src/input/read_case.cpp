@@ -164,8 +164,8 @@ class Reader {
                                        near ? fmt::format("; did you mean [effects.{}]?", *near) : ""),
                            fmt::format("known effects: {}", fmt::join(known, ", ")));
       } else if (entry.value.kind != Kind::table) {
-        diagnostics_.error(entry.place, fmt::format("effects.{0} must be one table [effects.{0}], found {1}", entry.name,
-                                                    entry.value.description()));
+        diagnostics_.error(entry.place, fmt::format("effects.{0} must be one table [effects.{0}], found {1}",
+                                                    entry.name, entry.value.description()));
       } else {
         check_keys(entry, "effects." + entry.name);
       }
@@ -787,15 +787,15 @@ class Reader {
     particles.width_ratio = ratio->number;
     // Close to 1 the two Gaussians cancel: their weights are 1/(a^2 - 1).
     if (std::abs(ratio->number - 1) < 1e-3)
-      diagnostics_.error(ratio->written->place,
-                         fmt::format("particles.width_ratio = {} makes both Gaussians of two-gauss the same",
-                                     ratio->number),
-                         "2 is usual; gauss4 is the limit at 1");
+      diagnostics_.error(
+          ratio->written->place,
+          fmt::format("particles.width_ratio = {} makes both Gaussians of two-gauss the same", ratio->number),
+          "2 is usual; gauss4 is the limit at 1");
   }
 
   /// The density of equal blobs on a lattice ripples by 2 d zeta^(2 pi c), zeta^ the Fourier transform of the cutoff
-  /// (Poisson's sum) at q = k^2/4: e^{-q} (1 + q + ... + q^{m-1}/(m-1)!) for order 2m, (a^2 e^{-q} - e^{-a^2 q})/(a^2 - 1)
-  /// for two-gauss.
+  /// (Poisson's sum) at q = k^2/4: e^{-q} (1 + q + ... + q^{m-1}/(m-1)!) for order 2m, (a^2 e^{-q} - e^{-a^2 q})/(a^2 -
+  /// 1) for two-gauss.
   static double cutoff_transform(const ParticleSpec& particles, double q) {
     if (particles.cutoff == "two-gauss") {
       const double square = particles.width_ratio * particles.width_ratio;

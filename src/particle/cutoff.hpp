@@ -37,7 +37,8 @@ Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, dou
 int cutoff_order(std::string_view name);
 
 /// The cutoff convolved with the Gaussian of variance spread/2 an axis: the square of every width grows by `spread`,
-/// its integral stays, and the coefficients of the derivatives stay those of the widths before (method.md, equation 13).
+/// its integral stays, and the coefficients of the derivatives stay those of the widths before (method.md, equation
+/// 13).
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread);
 
 }  // namespace gaussdrift

@@ -57,9 +57,9 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
       const double unit = i < dimension * length ? options_.length : 1;
       const double relative = std::abs(step * error) / (options_.tolerance * unit);
       if (std::isfinite(state[i]) && relative <= largest[b].error) continue;
-      largest[b] = {std::isfinite(relative) && std::isfinite(state[i]) ? relative
-                                                                       : std::numeric_limits<double>::infinity(),
-                    begin + i % length};
+      largest[b] = {
+          std::isfinite(relative) && std::isfinite(state[i]) ? relative : std::numeric_limits<double>::infinity(),
+          begin + i % length};
       if (!std::isfinite(largest[b].error)) return;
     }
   });

@@ -13,13 +13,14 @@
 namespace gaussdrift {
 
 /// One step for all particles together: its length is chosen so that the largest error among them meets the tolerance.
-/// A largest error is the same for any blocks and threads, the field sees all points at one time, and frames and effects
-/// find all particles at the same time.
+/// A largest error is the same for any blocks and threads, the field sees all points at one time, and frames and
+/// effects find all particles at the same time.
 class AdaptiveStepper {
  public:
   struct Options {
-    double tolerance = 1e-8;  // of a position in one step, relative to `length`; of a path integral in one step, absolute
-    double length = 1;        // the longest side of the domain
+    double tolerance =
+        1e-8;           // of a position in one step, relative to `length`; of a path integral in one step, absolute
+    double length = 1;  // the longest side of the domain
     double largest_step = 0;  // 0: none
     int threads = 0;          // 0: all
   };
@@ -28,8 +29,8 @@ class AdaptiveStepper {
                   std::vector<const PathIntegral*> integrals, const Options& options)
       : velocity_(velocity), tableau_(tableau), integrals_(std::move(integrals)), options_(options) {}
 
-  /// One step from `time` towards `end`; returns the time reached, exactly `end` if it is reached. Throws NumericalError
-  /// naming step, time, particle and place where no step is short enough.
+  /// One step from `time` towards `end`; returns the time reached, exactly `end` if it is reached. Throws
+  /// NumericalError naming step, time, particle and place where no step is short enough.
   double advance(Particles& particles, double time, double end, std::size_t steps_before);
 
   std::size_t rejected() const { return rejected_; }
@@ -39,7 +40,8 @@ class AdaptiveStepper {
     double error = 0;          // relative to what is allowed
     std::size_t particle = 0;  // that has it
   };
-  Largest attempt(const Particles& particles, double time, double step, std::vector<std::vector<double>>& results) const;
+  Largest attempt(const Particles& particles, double time, double step,
+                  std::vector<std::vector<double>>& results) const;
 
   const VelocityField& velocity_;
   const time::Tableau& tableau_;

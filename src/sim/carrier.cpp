@@ -55,13 +55,13 @@ void Carrier::begin(Particles& particles) {
   // The longest step taken: one longer than the run is cut.
   const double step = std::min(case_.time.step, case_.time.end);
   const double distance = 1e-3 * scene_.core_radius;  // a thousandth of the smallest length that the density resolves
-  const StableStep flow =
-      estimate_stable_step(*scene_.velocity, particles, tableau_, case_.time.end, step, distance);
+  const StableStep flow = estimate_stable_step(*scene_.velocity, particles, tableau_, case_.time.end, step, distance);
   if (flow.step < step * (1 - 1e-9))
-    throw InputError(fmt::format(
-        "time.step = {:g} is not stable with time.method = \"{}\": {}, and over this run what only turns or decays would "
-        "grow by more than {:g} %; the longest stable step is {:.3g}",
-        case_.time.step, tableau_.name, flow.reason, 100 * growth_allowed, flow.step));
+    throw InputError(
+        fmt::format("time.step = {:g} is not stable with time.method = \"{}\": {}, and over this run what only turns "
+                    "or decays would "
+                    "grow by more than {:g} %; the longest stable step is {:.3g}",
+                    case_.time.step, tableau_.name, flow.reason, 100 * growth_allowed, flow.step));
   for (const auto& effect : effects_)
     if (effect->stable_step() < step * (1 - 1e-9))
       throw InputError(fmt::format("time.step = {:g} is not stable for [effects.{}]; the longest stable step is {:.3g}",
@@ -134,8 +134,7 @@ void Carrier::settle(Particles& particles, double time, base::StageTimes& stages
 
 void Carrier::exchange(Particles& particles, double time, double length, base::StageTimes& stages) const {
   for (const auto& effect : effects_)
-    if (effect->acts_between_steps())
-      stages.run(stage_of(*effect), [&] { effect->exchange(particles, time, length); });
+    if (effect->acts_between_steps()) stages.run(stage_of(*effect), [&] { effect->exchange(particles, time, length); });
 }
 
 void Carrier::rearrange(Particles& particles, double time, base::StageTimes& stages) const {

@@ -15,8 +15,6 @@
 
 namespace gaussdrift {
 
-
-
 class Carrier {
  public:
   /// Constructs the effects that the case names. Case and scene must outlive the carrier. threads: 0 for all.

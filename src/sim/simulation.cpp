@@ -58,9 +58,12 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
                              {"position"},
                              {}});
   for (const auto& effect : effects) {
-    EffectSummary row{effect->name(),        seconds_of(summary.stages, "effect " + effect->name()),
-                      effect->describe(),    effect->conserves(),
-                      {},                    effect->numbers()};
+    EffectSummary row{effect->name(),
+                      seconds_of(summary.stages, "effect " + effect->name()),
+                      effect->describe(),
+                      effect->conserves(),
+                      {},
+                      effect->numbers()};
     const Changes changes = effect->changes();
     if (changes.position) row.changes.emplace_back("position");
     if (changes.weight) row.changes.emplace_back("weight");
@@ -82,8 +85,8 @@ Scene make_scene(const Case& description) {
   scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
   scene.evaluation = make_lattice(domain.dimension, domain.min, domain.max, description.evaluate.per_axis);
   scene.core_radius = description.particles.overlap * scene.seeding.spacing;
-  scene.cutoff = make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius,
-                             description.particles.width_ratio);
+  scene.cutoff =
+      make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius, description.particles.width_ratio);
   return scene;
 }
 

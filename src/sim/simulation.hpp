@@ -15,8 +15,8 @@
 #include "field/velocity.hpp"
 #include "gaussdrift/case.hpp"
 #include "particle/cutoff.hpp"
-#include "sim/checks.hpp"
 #include "sim/carrier.hpp"
+#include "sim/checks.hpp"
 #include "sim/density.hpp"
 #include "sim/frame.hpp"
 #include "sim/reference.hpp"
@@ -28,9 +28,9 @@ struct Scene {
   std::unique_ptr<VelocityField> velocity;
   std::unique_ptr<InitialDensity> density;
   std::unique_ptr<ScalarField> reaction_rate;  // u0; null without [effects.reaction]
-  Lattice seeding;         // where particles start
-  Lattice evaluation;      // where rho is summed
-  double core_radius = 0;  // eps = c h
+  Lattice seeding;                             // where particles start
+  Lattice evaluation;                          // where rho is summed
+  double core_radius = 0;                      // eps = c h
   Cutoff cutoff;
 };
 
@@ -67,9 +67,9 @@ struct RunSummary {
   std::size_t steps_rejected = 0;  // tried and taken back by a method that chooses its steps
   double spacing = 0, core_radius = 0;
   int threads = 1;
-  std::string transform_choice;      // of the last frame
-  double transform_tolerance = 0;    // requested by the case, relative to max |rho|
-  double transform_achievable = 0;   // worst frame; above the tolerance only where that cannot be promised
+  std::string transform_choice;        // of the last frame
+  double transform_tolerance = 0;      // requested by the case, relative to max |rho|
+  double transform_achievable = 0;     // worst frame; above the tolerance only where that cannot be promised
   std::vector<EffectSummary> effects;  // that ran: transport and what the scene called for, nothing else
   std::vector<std::pair<double, FrameNumbers>> frames;
   ReferenceReport reference;  // points of all outputs whose exact density is not known

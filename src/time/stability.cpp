@@ -57,9 +57,9 @@ double stability_limit(const Tableau& rk, std::complex<double> direction) {
   const std::vector<double> polynomial = stability_polynomial(rk);
   // Rounding of |R| about 1; a method whose |R| exceeds 1 at once does so by more at the first scanned point.
   constexpr double rounding = 1e-13;
-  const double limit = end_of_stretch(
-      [&](double y) { return std::abs(stability_function(polynomial, y * direction)) <= 1 + rounding; },
-      largest_radius);
+  const double limit =
+      end_of_stretch([&](double y) { return std::abs(stability_function(polynomial, y * direction)) <= 1 + rounding; },
+                     largest_radius);
   return limit < scan_step ? 0 : limit;
 }
 

@@ -11,9 +11,9 @@ struct Tableau {
   std::string name;
   int stages = 0;
   int time_order = 0;
-  std::vector<double> stage_weights;  // a_il, row i has i entries: strictly lower triangle, row by row
-  std::vector<double> weights;        // b_i
-  std::vector<double> nodes;          // c_i
+  std::vector<double> stage_weights;       // a_il, row i has i entries: strictly lower triangle, row by row
+  std::vector<double> weights;             // b_i
+  std::vector<double> nodes;               // c_i
   std::vector<double> error_weights = {};  // b_i minus those of an embedded method of lower order; empty: none
 
   double a(int i, int l) const { return stage_weights[static_cast<std::size_t>(i * (i - 1) / 2 + l)]; }

@@ -41,16 +41,15 @@ TEST_P(EveryTableau, ReachesItsOrderOnATimeDependentProblem) {
           [](double t, const double* at, double* rate) { *rate = -2 * t * *at * *at; }, &y, work);
     return std::abs(y - 0.2);
   };
-  const double order = std::log2(error(40) / error(80));
+  const double order = std::log2(error(80) / error(160));
   EXPECT_NEAR(order, GetParam().time_order, 0.2) << GetParam().name;  // the next term of the expansion, at h = 1/40
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()),
-                         [](const auto& tableau) {
-                           std::string name = tableau.param.name;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(, EveryTableau, ::testing::ValuesIn(time::tableaux()), [](const auto& tableau) {
+  std::string name = tableau.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 // --- stability ----------------------------------------------------------------------------------------------------
 
@@ -64,12 +63,13 @@ TEST_P(EveryTableau, MatchesTheExponentialToItsOrder) {
 TEST(Stability, LimitsAreTheKnownOnes) {
   const struct {
     const char* name;
-    double imaginary, negative;  // where the boundary of |R| <= 1 crosses the axes
+    double imaginary, negative;  // where the boundary of |R| <= 1 crosses the axes; dopri5: s = y^2 with
+                                 // s^3 - 25 s^2 + 225 s = 200, from R = 1 + ... + z^5/120 + z^6/600
   } known[] = {{"euler", 0, 2},
                {"heun", 0, 2},
                {"rk4", std::sqrt(8.0), 2.785293563405282},
                {"rk4-38", std::sqrt(8.0), 2.785293563405282},
-               {"dopri5", 0.99999, 3.306576}};
+               {"dopri5", 0.997189, 3.306576}};
   for (const auto& [name, imaginary, negative] : known) {
     const time::Tableau& rk = time::find_tableau(name);
     EXPECT_NEAR(time::stability_limit(rk, {0, 1}), imaginary, 1e-4) << name;

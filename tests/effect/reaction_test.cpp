@@ -35,7 +35,8 @@ TEST_P(StiffRate, NeitherOvershootsNorLosesItsSign) {
     EXPECT_LE(after.alpha[j], 0);
     EXPECT_TRUE(std::isfinite(after.alpha[j]));
     const double exact = before.alpha[j] * std::exp(-0.5 * GetParam());
-    EXPECT_NEAR(after.alpha[j], exact, 1e-12 * std::abs(exact));  // the exponent, up to 500, is right to 1e-16 of itself
+    EXPECT_NEAR(after.alpha[j], exact,
+                1e-12 * std::abs(exact));  // the exponent, up to 500, is right to 1e-16 of itself
   }
 }
 // Steps of 0.1: an explicit method would need steps below 2/u0.
@@ -88,8 +89,7 @@ TEST(Reaction, HasTheOrderOfTheMethod) {
   const double exact = weight("rk4", 0.001);
   const std::pair<const char*, int> methods[] = {{"heun", 2}, {"rk4", 4}, {"rk4-38", 4}};
   for (const auto& [method, order] : methods) {
-    const double measured =
-        std::log2(std::abs(weight(method, 0.04) - exact) / std::abs(weight(method, 0.02) - exact));
+    const double measured = std::log2(std::abs(weight(method, 0.04) - exact) / std::abs(weight(method, 0.02) - exact));
     EXPECT_NEAR(measured, order, 0.25) << method;  // the next term of the expansion
   }
 }

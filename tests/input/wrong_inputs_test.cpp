@@ -15,7 +15,7 @@ TEST(CaseFile, RejectsAnUnknownKeyNamingTheLine) {
    |
 26 | overlapp = 2
    | ^^^^^^^^
-   = known keys: per_axis, overlap, cutoff
+   = known keys: per_axis, overlap, cutoff, width_ratio
 
 1 error in cone.toml)text");
 }
@@ -47,7 +47,7 @@ TEST(CaseFile, NamesTheOverrideAsThePlace) {
   EXPECT_EQ(errors(cone, {"time.step=0"}), R"text(error: time.step must be greater than 0, found 0
   --> --set time.step=0
                       ^
-   = step: time step; the last one before an output is shortened to land on it
+   = step: time step; the last one before an output is shortened to land on it; needed unless method chooses its own, then the longest it may choose
 
 1 error in cone.toml and --set)text");
   EXPECT_EQ(errors(cone, {"velocity.u=[\"y\",\"z\"]"}), R"text(error: z exists only in 3D; the domain has 2 dimensions
@@ -72,14 +72,14 @@ error: unknown key "overlapp" in [particles]; did you mean "overlap"?
    |
 27 | overlapp = 2
    | ^^^^^^^^
-   = known keys: per_axis, overlap, cutoff
+   = known keys: per_axis, overlap, cutoff, width_ratio
 
 error: time.step must be greater than 0, found -1
   --> cone.toml:32:8
    |
 32 | step = -1
    |        ^^
-   = step: time step; the last one before an output is shortened to land on it
+   = step: time step; the last one before an output is shortened to land on it; needed unless method chooses its own, then the longest it may choose
 
 error: unknown value "fast" for evaluate.method
   --> --set evaluate.method=fast
@@ -131,7 +131,9 @@ std::string expected(const std::string& text, const Wrong& wrong) {
   return result + "\n1 error in cone.toml";
 }
 
-const char* const step_note = "step: time step; the last one before an output is shortened to land on it";
+const char* const step_note =
+    "step: time step; the last one before an output is shortened to land on it; needed "
+    "unless method chooses its own, then the longest it may choose";
 const char* const names_note = "reserved names: x, y, z, t, pi, e and the functions";
 const char* const tables_note =
     "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, check, "
@@ -165,14 +167,16 @@ const std::vector<Wrong> wrongs = {
      "unknown key \"rat\" in [effects.reaction]; did you mean \"rate\"?", "known keys: rate"},
     {"[time]\nend", "[effects.reaction]\n[time]\nend", 29, "[effects.reaction]", "effects.reaction.rate is missing",
      "rate: rate of decay, an expression in x, y, z, t and params; negative where weights grow"},
-    {"[time]\nend", "[effects.reaction]\nrate = \"q*x\"\n[time]\nend", 30, "q", "unknown name \"q\""},
+    {"[time]\nend", "[effects.reaction]\nrate = \"q*x\"\n[time]\nend", 30, "q",
+     "unknown name \"q\"; known here: x, y, t, R, turn, pi, e"},
     {"[time]\nend", "[effects.reaction]\nrate = [1]\n[time]\nend", 30, "[1]",
      "effects.reaction.rate must be an expression in a string, found a list"},
     {"overlap = 2", "overlap = 2\nstep = 0.1", 27, "step", "unknown key \"step\" in [particles]; it belongs in [time]",
-     "known keys: per_axis, overlap, cutoff"},
+     "known keys: per_axis, overlap, cutoff, width_ratio"},
     {"step = 0.001\n", "", 29, "[time]", "time.step is missing", step_note},
     {"per_axis = 300", "per_axes = 300", 25, "per_axes",
-     "unknown key \"per_axes\" in [particles]; did you mean \"per_axis\"?", "known keys: per_axis, overlap, cutoff"},
+     "unknown key \"per_axes\" in [particles]; did you mean \"per_axis\"?",
+     "known keys: per_axis, overlap, cutoff, width_ratio"},
     {"title = \"Rotating cone\"", "title = 3", 4, "3", "case.title must be a string, found the number 3"},
     {"title = \"Rotating cone\"", "title = 1979-05-27", 4, "1979-05-27",
      "case.title must be a string, found a date or time"},
@@ -285,9 +289,9 @@ const std::vector<Wrong> wrongs = {
     {"overlap = 2", "overlap = 0", 26, "0", "particles.overlap must be greater than 0, found 0",
      "overlap: core radius of a blob divided by h: eps = c h"},
     {"cutoff = \"gauss2\"", "cutoff = \"gaus4\"", 27, "\"gaus4\"",
-     "unknown value \"gaus4\" for particles.cutoff; did you mean \"gauss4\"?", "known values: \"gauss2\", \"gauss4\""},
+     "unknown value \"gaus4\" for particles.cutoff; did you mean \"gauss4\"?", "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
     {"cutoff = \"gauss2\"", "cutoff = 2", 27, "2", "particles.cutoff must be a string, found the number 2",
-     "known values: \"gauss2\", \"gauss4\""},
+     "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
     // time
     {"end = \"turn\"", "end = -1", 30, "-1", "time.end must be at least 0, found -1",
      "end: the run ends here; it begins at 0"},
@@ -455,7 +459,7 @@ TEST(Overrides, AreRefusedLikeTheFile) {
       {"tim.step=1", "error: unknown table [tim]; did you mean [time]?\n  --> --set tim.step=1\n            ^^^\n"},
       {"time.stpe=1",
        "error: unknown key \"stpe\" in [time]; did you mean \"step\"?\n  --> --set time.stpe=1\n            "
-       "^^^^^^^^^\n   = known keys: end, step, method\n"},
+       "^^^^^^^^^\n   = known keys: end, step, method, tolerance\n"},
       {"step=1",
        "error: unknown key \"step\" at the top of the file; it belongs in [time]\n  --> --set step=1\n            "
        "^^^^\n"},

@@ -44,8 +44,8 @@ double moment(const Cutoff& cutoff, int dimension, double eps, const std::array<
       double line = 0;
       for (int i = -half; i <= half; ++i) {
         const double x = i * spacing, t = x / term.width;
-        line += std::pow(x, power[k]) * std::pow(-1 / term.width, term.derivative[k]) *
-                hermite(term.derivative[k], t) * std::exp(-t * t);
+        line += std::pow(x, power[k]) * std::pow(-1 / term.width, term.derivative[k]) * hermite(term.derivative[k], t) *
+                std::exp(-t * t);
       }
       product *= line * spacing;
     }
