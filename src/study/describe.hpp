@@ -13,7 +13,6 @@ namespace gaussdrift::study {
 struct Description {
   std::string velocity;              // formula
   std::string initial_density;       // formula, smoothness, mass where it is known
-  std::string velocity;              // formula
   std::vector<std::string> effects;  // beside transport, their equations
   double largest_speed = 0;          // of |u| at the particles, over sampled times
   double largest_divergence = 0;     // of |div u| there, by central differences

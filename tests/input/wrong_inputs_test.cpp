@@ -289,7 +289,8 @@ const std::vector<Wrong> wrongs = {
     {"overlap = 2", "overlap = 0", 26, "0", "particles.overlap must be greater than 0, found 0",
      "overlap: core radius of a blob divided by h: eps = c h"},
     {"cutoff = \"gauss2\"", "cutoff = \"gaus4\"", 27, "\"gaus4\"",
-     "unknown value \"gaus4\" for particles.cutoff; did you mean \"gauss4\"?", "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
+     "unknown value \"gaus4\" for particles.cutoff; did you mean \"gauss4\"?",
+     "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
     {"cutoff = \"gauss2\"", "cutoff = 2", 27, "2", "particles.cutoff must be a string, found the number 2",
      "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
     // time
@@ -301,7 +302,8 @@ const std::vector<Wrong> wrongs = {
     {"step = 0.001", "step = 1e-12", 31, "1e-12",
      "time.end / time.step is 6.28e+12 steps; at most 2147483648 are possible", "raise time.step"},
     {"method = \"rk4\"", "method = \"rk5\"", 32, "\"rk5\"",
-     "unknown value \"rk5\" for time.method; did you mean \"rk4\"?", "known values: \"rk4\""},
+     "unknown value \"rk5\" for time.method; did you mean \"rk4\"?",
+     "known values: \"rk4\", \"euler\", \"heun\", \"rk4-38\", \"dopri5\""},
     // evaluate
     {"tolerance = 1e-8", "tolerance = 1", 36, "1", "evaluate.tolerance must be at least 1e-14 and less than 1, found 1",
      "tolerance: error allowed in the Gauss transform, relative to the largest density at that output"},
