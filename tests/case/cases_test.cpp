@@ -77,7 +77,14 @@ const std::vector<Reduced> reduced_cases = {
     {"rotating_gap",
      {"particles.per_axis=100", "time.end=2*pi", "output.times=[0, \"2*pi\"]", "evaluate.per_axis=61"},
      0.29},
-    {"zalesak", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.105},         // eps/sqrt(pi) along the edge
+    {"zalesak", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.105},  // eps/sqrt(pi) along the edge
+    // What blobs of these widths cannot show of filaments and sheets, largest at the last output or at T/2.
+    {"swirl", {"particles.per_axis=600", "evaluate.per_axis=61"}, 0.95},
+    {"double_gyre", {"particles.per_axis=800", "evaluate.per_axis=61"}, 0.27},
+    {"taylor_green", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.036},
+    {"doswell", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.063},
+    {"enright", {"particles.per_axis=60", "evaluate.per_axis=25", "output.times=[0, \"T\"]"}, 0.83},
+    {"abc", {"particles.per_axis=60", "evaluate.per_axis=25"}, 0.78},
     {"divergent_flow", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.015},  // (eps/R)^4 of gauss4 at t = 0
 };
 
