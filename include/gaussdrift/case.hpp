@@ -126,9 +126,18 @@ struct ReactionSpec {
   std::string rate;  // expression in x, y, z, t and the params
 };
 
+/// d_t rho + div(rho u) = coefficient Laplacian rho.
+struct DiffusionSpec {
+  enum class Method { core_spreading, particle_exchange };
+  double coefficient = 0;  // D
+  Method method = Method::core_spreading;
+  double halo = 0;  // width of the particles of weight 0 around the density; 0: from D and time.end
+};
+
 /// The effects that a case names; what is absent is not constructed.
 struct EffectsSpec {
   std::optional<ReactionSpec> reaction;
+  std::optional<DiffusionSpec> diffusion;
 };
 
 struct Case {

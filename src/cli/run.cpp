@@ -144,6 +144,8 @@ ExitCode run(const RunOptions& options) {
                "warning: evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
                "{:.1e} of max rho\n",
                scene.evaluate.tolerance, summary.transform_achievable);
+  for (const EffectSummary& effect : summary.effects)
+    if (!effect.warning.empty()) fmt::print(stderr, "warning: {}: {}\n", effect.name, effect.warning);
   if (summary.reference.untraced > 0)
     fmt::print(
         stderr,

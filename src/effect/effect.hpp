@@ -43,6 +43,8 @@ class Effect {
   virtual Changes changes() const = 0;
   /// What stays the same under it, for people: "mass and centroid", "nothing".
   virtual std::string conserves() const = 0;
+  /// What is not exact about it in this scene, one sentence for people; empty: nothing. Asked after begin().
+  virtual std::string warning() const { return ""; }
   /// The longest time step with which it is stable, for the particles seen by begin(); infinity if every one is.
   virtual double stable_step() const { return std::numeric_limits<double>::infinity(); }
 

@@ -948,7 +948,18 @@ class Reader {
     ReferenceSpec& reference = scene.reference;
     const Key& key = find_key("reference", "kind");
     const Entry *kind = find("reference", "kind"), *rho = find("reference", "rho");
-    const std::string chosen = choice("reference", "kind");
+    std::string chosen = choice("reference", "kind");
+    const bool diffuses = scene.effects.diffusion.has_value();  // then no path knows the density
+    if (diffuses && kind && chosen == "characteristics")
+      diagnostics_.error(kind->value.place, "the density does not follow characteristics with [effects.diffusion]",
+                         "kind = \"exact\" and a formula as rho, or kind = \"none\"");
+    if (diffuses && !kind && !rho) {
+      chosen = "none";
+      diagnostics_.warning(
+          table("effects.diffusion")->place,
+          "with diffusion there is no exact density to compare with, so no errors are measured",
+          "[reference] kind = \"exact\" compares with a formula, kind = \"none\" says that this is meant");
+    }
     const auto index = std::find(key.choices.begin(), key.choices.end(), chosen) - key.choices.begin();
     reference.kind = static_cast<ReferenceSpec::Kind>(index);
     if (reference.kind == ReferenceSpec::Kind::exact && !rho && !is_meant("reference.rho"))
@@ -1051,6 +1062,23 @@ class Reader {
       if (const Entry* rate = require(find_key("effects.reaction", "rate")))
         reaction.rate = field_expression(rate->value, "effects.reaction.rate", true);
       effects.reaction = reaction;
+    }
+    if (table("effects.diffusion")) {
+      DiffusionSpec diffusion;
+      if (const auto coefficient = number("effects.diffusion", "D")) diffusion.coefficient = coefficient->number;
+      const bool exchanges = choice("effects.diffusion", "method") == "particle-exchange";
+      if (exchanges) diffusion.method = DiffusionSpec::Method::particle_exchange;
+      if (const auto halo = number("effects.diffusion", "halo")) {
+        diffusion.halo = halo->number;
+        if (!exchanges) diagnostics_.error(halo->written->place, "\"halo\" goes with method = \"particle-exchange\"");
+      }
+      const Entry* method = find("time", "method");
+      if (exchanges && method && method->value.text == "dopri5")
+        diagnostics_.error(method->value.place,
+                           "steps that are chosen by their error do not go with [effects.diffusion] method = "
+                           "\"particle-exchange\"",
+                           "method = \"rk4\" with a step of at most about eps^2 / (2 D)");
+      effects.diffusion = diffusion;
     }
   }
 

@@ -61,6 +61,9 @@ const std::vector<Table>& tables() {
       {.name = "effects.reaction",
        .required = false,
        .meaning = "weights change along the paths: alpha' = -rate alpha, so d_t rho + div(rho u) + rate rho = 0"},
+      {.name = "effects.diffusion",
+       .required = false,
+       .meaning = "d_t rho + div(rho u) = D Laplacian rho. `reference.kind` is then `none` unless it is `exact`"},
   };
   return list;
 }
@@ -335,6 +338,30 @@ std::vector<Key> written_keys() {
        .unit = "1 / time",
        .symbol = "u_0",
        .meaning = "rate of decay, an expression in x, y, z, t and params; negative where weights grow"},
+      {.table = "effects.diffusion",
+       .name = "D",
+       .type = Type::number,
+       .required = true,
+       .range = {0, infinity, true},
+       .unit = "length^2 / time",
+       .symbol = "D",
+       .meaning = "coefficient of diffusion, constant in space and time"},
+      {.table = "effects.diffusion",
+       .name = "method",
+       .type = Type::choice,
+       .fallback = "core-spreading",
+       .choices = {"core-spreading", "particle-exchange"},
+       .meaning =
+           "`core-spreading` widens the blobs, eps(t)^2 = eps^2 + 4 D t: exact where the flow does not strain, and "
+           "a warning tells how far it does; `particle-exchange` moves weight between neighbours: of order "
+           "eps^2 in any flow, with steps of at most about eps^2 / (2 D)"},
+      {.table = "effects.diffusion",
+       .name = "halo",
+       .type = Type::number,
+       .range = {0, infinity, true},
+       .unit = "length",
+       .meaning = "width of the particles of weight 0 around the density that `particle-exchange` starts with; without "
+                  "it 7 sqrt(2 D time.end + eps^2 / 2)"},
   };
 }
 

@@ -169,6 +169,12 @@ std::string resolved_toml(const Case& scene) {
     out.table("effects.reaction");
     out.entry("rate", written(reaction->rate));
   }
+  if (const auto& diffusion = scene.effects.diffusion) {
+    out.table("effects.diffusion");
+    out.entry("D", written(diffusion->coefficient));
+    out.entry("method", written(choice("effects.diffusion", "method", diffusion->method)));
+    if (diffusion->halo > 0) out.entry("halo", written(diffusion->halo));
+  }
   out.table("reference");
   out.entry("kind", written(choice("reference", "kind", scene.reference.kind)));
   if (scene.reference.kind == ReferenceSpec::Kind::exact) out.entry("rho", written(scene.reference.rho));

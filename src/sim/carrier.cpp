@@ -54,8 +54,8 @@ void Carrier::begin(Particles& particles) {
   if (is_adaptive() || case_.time.end <= 0) return;
   // The longest step taken: one longer than the run is cut.
   const double step = std::min(case_.time.step, case_.time.end);
-  const double distance = 1e-3 * scene_.core_radius;  // a thousandth of the smallest length that the density resolves
-  const StableStep flow = estimate_stable_step(*scene_.velocity, particles, tableau_, case_.time.end, step, distance);
+  const StableStep flow =
+      estimate_stable_step(*scene_.velocity, particles, tableau_, case_.time.end, step, difference_length(scene_));
   if (flow.step < step * (1 - 1e-9))
     throw InputError(
         fmt::format("time.step = {:g} is not stable with time.method = \"{}\": {}, and over this run what only turns "

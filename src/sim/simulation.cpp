@@ -56,14 +56,16 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
                              "X' = u(X, t), " + scene.velocity->describe(),
                              "every weight",
                              {"position"},
-                             {}});
+                             {},
+                             ""});
   for (const auto& effect : effects) {
     EffectSummary row{effect->name(),
                       seconds_of(summary.stages, "effect " + effect->name()),
                       effect->describe(),
                       effect->conserves(),
                       {},
-                      effect->numbers()};
+                      effect->numbers(),
+                      effect->warning()};
     const Changes changes = effect->changes();
     if (changes.position) row.changes.emplace_back("position");
     if (changes.weight) row.changes.emplace_back("weight");
@@ -183,7 +185,9 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   options.tolerance = case_.evaluate.tolerance;
   options.method = case_.evaluate.method;
   options.threads = threads_;
-  const DensityGrid density = evaluate_density(particles_, scene_.cutoff, scene_.evaluation, options, &report);
+  const Cutoff& start = scene_.cutoff;
+  const Cutoff blob = particles_.spread > 0 ? spread_cutoff(start, particles_.dimension, particles_.spread) : start;
+  const DensityGrid density = evaluate_density(particles_, blob, scene_.evaluation, options, &report);
   summary.stages.add("density", report.evaluate_seconds);
   summary.stages.add("measure transform error", report.measure_seconds);
   summary.transform_choice = report.choice;

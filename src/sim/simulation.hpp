@@ -34,6 +34,10 @@ struct Scene {
   Cutoff cutoff;
 };
 
+/// The length over which gradients of the velocity are taken as differences: a thousandth of the smallest length that
+/// the density resolves.
+inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius; }
+
 Scene make_scene(const Case& description);
 
 /// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.
@@ -59,6 +63,7 @@ struct EffectSummary {
   std::string equation, conserves;
   std::vector<std::string> changes;  // some of position, weight, width, particles
   Numbers numbers;
+  std::string warning;  // what is not exact about it in this scene; empty: nothing
 };
 
 /// What a run did, for summary.json and the closing lines.

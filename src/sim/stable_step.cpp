@@ -9,6 +9,7 @@
 #include <complex>
 #include <vector>
 
+#include "field/differences.hpp"
 #include "time/stability.hpp"
 
 namespace gaussdrift {
@@ -17,41 +18,6 @@ namespace {
 
 constexpr std::size_t sampled_particles = 500;
 
-using Columns = std::array<std::vector<double>, max_dimension>;
-
-Columns velocity_at(const VelocityField& field, double t, const Columns& x, int dimension) {
-  const std::size_t count = x[0].size();
-  Columns u;
-  PointsView points{dimension, count, {}};
-  VectorsView view{dimension, count, {}};
-  for (int k = 0; k < dimension; ++k) {
-    u[k].assign(count, 0.0);
-    points.axis[k] = x[k].data();
-    view.axis[k] = u[k].data();
-  }
-  field.add(t, points, view);
-  return u;
-}
-
-// gradient[k][i][j] = d u_k / d x_i at point j.
-std::array<Columns, max_dimension> gradient_at(const VelocityField& field, double t, Columns x, int dimension,
-                                               double distance) {
-  std::array<Columns, max_dimension> gradient;
-  for (int i = 0; i < dimension; ++i) {
-    const std::vector<double> kept = x[i];
-    for (double& value : x[i]) value += distance;
-    const Columns right = velocity_at(field, t, x, dimension);
-    for (std::size_t j = 0; j < kept.size(); ++j) x[i][j] = kept[j] - distance;
-    const Columns left = velocity_at(field, t, x, dimension);
-    x[i] = kept;
-    for (int k = 0; k < dimension; ++k) {
-      gradient[k][i].resize(kept.size());
-      for (std::size_t j = 0; j < kept.size(); ++j) gradient[k][i][j] = (right[k][j] - left[k][j]) / (2 * distance);
-    }
-  }
-  return gradient;
-}
-
 }  // namespace
 
 StableStep estimate_stable_step(const VelocityField& velocity, const Particles& particles, const time::Tableau& tableau,
@@ -59,14 +25,12 @@ StableStep estimate_stable_step(const VelocityField& velocity, const Particles& 
   StableStep result{step, ""};
   if (length <= 0 || particles.size() == 0) return result;
   const int dimension = particles.dimension;
-  const std::size_t wanted = std::min(sampled_particles, particles.size());
-  Columns x;
-  for (std::size_t i = 0; i < wanted; ++i)
-    for (int k = 0; k < dimension; ++k) x[k].push_back(particles.position[k][i * particles.size() / wanted]);
+  const Columns x = sample_of(particles.view(), sampled_particles);
+  const std::size_t sampled = x[0].size();
 
   for (const double t : {0.0, 0.5 * length, length}) {
-    const auto gradient = gradient_at(velocity, t, x, dimension, distance);
-    for (std::size_t j = 0; j < wanted; ++j) {
+    const auto gradient = gradient_by_differences(velocity, t, x, dimension, distance);
+    for (std::size_t j = 0; j < sampled; ++j) {
       Eigen::MatrixXd matrix(dimension, dimension);
       for (int k = 0; k < dimension; ++k)
         for (int i = 0; i < dimension; ++i) matrix(k, i) = gradient[k][i][j];

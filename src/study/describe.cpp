@@ -182,7 +182,10 @@ Description describe(const Case& description, int threads) {
   Particles particles = seed_scene(scene, threads);
   Carrier carrier(description, scene, threads);
   carrier.begin(particles);
-  for (const auto& effect : carrier.effects()) result.effects.push_back(effect->describe());
+  for (const auto& effect : carrier.effects()) {
+    result.effects.push_back(effect->describe());
+    if (const std::string warning = effect->warning(); !warning.empty()) result.effect_warnings.push_back(warning);
+  }
   result.velocity = scene.velocity->describe();
   result.initial_density = scene.density->describe();
   result.lattice_points = scene.seeding.size();
@@ -243,6 +246,7 @@ std::string to_text(const Case& scene, const Description& r) {
                       grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
                       scene.particles.cutoff, grouped(r.particles));
   text += fmt::format("effects    {}\n", effects_text(r.effects));
+  for (const std::string& warning : r.effect_warnings) text += fmt::format("           {}\n", warning);
   text += fmt::format("transform  {}\n", r.density.choice);
   text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n",
                       scene.evaluate.tolerance, r.density.measured_error, r.density.sample);
@@ -271,6 +275,7 @@ std::string to_json(const Case& scene, const Description& r) {
                                         {"largest_speed", r.largest_speed},
                                         {"largest_divergence", r.largest_divergence},
                                         {"effects", effects},
+                                        {"effect_warnings", r.effect_warnings},
                                         {"lattice_points", r.lattice_points},
                                         {"particles", r.particles},
                                         {"spacing", r.spacing},

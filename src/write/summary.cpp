@@ -52,6 +52,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
              {"changes", effect.changes},
              {"conserves", effect.conserves}};
     for (const auto& [name, value] : effect.numbers) row[name] = value;
+    if (!effect.warning.empty()) row["warning"] = effect.warning;
     effects.push_back(std::move(row));
   }
 

@@ -139,7 +139,7 @@ const char* const tables_note =
     "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, check, "
     "effects";
 
-const char* const effects_note = "known effects: reaction";
+const char* const effects_note = "known effects: reaction, diffusion";
 
 const std::vector<Wrong> wrongs = {
     // version and structure
@@ -169,6 +169,15 @@ const std::vector<Wrong> wrongs = {
      "rate: rate of decay, an expression in x, y, z, t and params; negative where weights grow"},
     {"[time]\nend", "[effects.reaction]\nrate = \"q*x\"\n[time]\nend", 30, "q",
      "unknown name \"q\"; known here: x, y, t, R, turn, pi, e"},
+    {"[time]\nend", "[effects.diffusion]\n[time]\nend", 29, "[effects.diffusion]", "effects.diffusion.D is missing",
+     "D: coefficient of diffusion, constant in space and time"},
+    {"[time]\nend", "[effects.diffusion]\nD = -1\n[time]\nend", 30, "-1",
+     "effects.diffusion.D must be greater than 0, found -1", "D: coefficient of diffusion, constant in space and time"},
+    {"[time]\nend", "[effects.diffusion]\nD = 1\n[reference]\nkind = \"characteristics\"\n[time]\nend", 32,
+     "\"characteristics\"", "the density does not follow characteristics with [effects.diffusion]",
+     "kind = \"exact\" and a formula as rho, or kind = \"none\""},
+    {"[time]\nend", "[effects.diffusion]\nD = 1\nhalo = 1\n[time]\nend", 31, "1",
+     "\"halo\" goes with method = \"particle-exchange\""},
     {"[time]\nend", "[effects.reaction]\nrate = [1]\n[time]\nend", 30, "[1]",
      "effects.reaction.rate must be an expression in a string, found a list"},
     {"overlap = 2", "overlap = 2\nstep = 0.1", 27, "step", "unknown key \"step\" in [particles]; it belongs in [time]",

@@ -1,0 +1,55 @@
+#include "effect/core_spreading.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "field/differences.hpp"
+
+namespace gaussdrift {
+
+CoreSpreading::CoreSpreading(double coefficient, const VelocityField& velocity, double end, double distance)
+    : coefficient_(coefficient), end_(end), distance_(distance), velocity_(velocity) {
+  if (!std::isfinite(4 * coefficient * end))
+    throw InputError(fmt::format("effects.diffusion.D = {:g} spreads blobs beyond all numbers until time.end = {:g}",
+                                 coefficient, end));
+}
+
+std::string CoreSpreading::describe() const {
+  return fmt::format("diffusion by core spreading, eps(t)^2 = eps^2 + 4 D t with D = {:g}", coefficient_);
+}
+
+void CoreSpreading::begin(Particles& particles, double time) {
+  land(particles, time);
+  if (time > 0 || end_ <= 0) return;  // the strain is that of the flow, sampled once
+  constexpr std::size_t sampled_particles = 500;
+  const int dimension = particles.dimension;
+  const Columns x = sample_of(particles.view(), sampled_particles);
+  for (const double t : {0.0, 0.5 * end_, end_}) {
+    const auto gradient = gradient_by_differences(velocity_, t, x, dimension, distance_);
+    for (std::size_t j = 0; j < x[0].size(); ++j) {
+      Eigen::MatrixXd rate(dimension, dimension);
+      for (int k = 0; k < dimension; ++k)
+        for (int i = 0; i < dimension; ++i) rate(k, i) = (gradient[k][i][j] + gradient[i][k][j]) / 2;
+      if (!rate.allFinite()) continue;
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rate, Eigen::EigenvaluesOnly);
+      strain_ = std::max(strain_, solver.eigenvalues().cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+std::string CoreSpreading::warning() const {
+  constexpr double noticed = 0.1;
+  if (strain_ * end_ <= noticed) return "";
+  return fmt::format(
+      "core spreading keeps blobs round, but this flow strains at the rate {:.3g} and stretches lengths by up to "
+      "exp({:.3g}) over the run: the spread by diffusion is not deformed with the flow (docs/method.md, section 8.2)",
+      strain_, strain_ * end_);
+}
+
+Numbers CoreSpreading::numbers() const { return {{"D", coefficient_}, {"largest_strain_rate", strain_}}; }
+
+}  // namespace gaussdrift

@@ -1,0 +1,35 @@
+// Diffusion by core spreading, d_t rho + div(rho u) = D Laplacian rho: every blob is itself a solution of the heat
+// equation, so the square of each Gaussian width grows by 4 D t and weights and paths stay. Exact where the flow only
+// carries and turns; where it strains, blobs stay round that should have been stretched. docs/method.md, section 8.2.
+#pragma once
+
+#include "effect/effect.hpp"
+#include "field/velocity.hpp"
+
+namespace gaussdrift {
+
+class CoreSpreading : public Effect {
+ public:
+  /// D > 0. The velocity, whose strain is sampled by differences over `distance` at times from 0 to `end`, must outlive
+  /// the effect. Throws InputError if 4 D end is too large for a number.
+  CoreSpreading(double coefficient, const VelocityField& velocity, double end, double distance);
+
+  std::string name() const override { return "diffusion"; }
+  std::string describe() const override;
+  Changes changes() const override { return {.width = true}; }
+  std::string conserves() const override { return "every weight"; }
+
+  void begin(Particles& particles, double time) override;
+  void land(Particles& particles, double time) override { particles.spread = 4 * coefficient_ * time; }
+
+  /// Tells a strain that stretches fluid by more than a tenth over the run.
+  std::string warning() const override;
+  Numbers numbers() const override;
+
+ private:
+  double coefficient_, end_, distance_;
+  const VelocityField& velocity_;
+  double strain_ = 0;  // the largest rate at which lengths change, of those sampled
+};
+
+}  // namespace gaussdrift
