@@ -44,12 +44,6 @@ constexpr std::size_t coefficient_budget = 1 << 19;  // numbers of target boxes 
 constexpr std::size_t grid_group = 16;               // nodes of a grid that are computed together
 constexpr double grid_group_sides = 2;               // and lie within so many boxes
 
-std::size_t to_power(std::size_t p, int n) {
-  std::size_t result = 1;
-  for (; n > 0; --n) result *= p;
-  return result;
-}
-
 template <int d>
 std::array<int, d> axes_upwards() {
   std::array<int, d> axis;
@@ -442,39 +436,42 @@ template <int d>
 void ChebyshevSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count,
                                double* values) const {
   if (request.combinations.size() * columns_ == 0 || count == 0) return;
-  const auto [low, high] = bounding_box<d>(targets, count, threads_);
+  const BoundingBox<d> around = bounding_box<d>(targets, count, threads_);
   // boxes that hold targets, as far as sources are in their reach
   BoxRange<d> range{{}, {}, axes_downwards<d>()};
+  BoxIndex<d> least, most;
   for (std::size_t l = 0; l < d; ++l) {
-    const double n = static_cast<double>(neighbours(l)), last = static_cast<double>(plan_.lattice.boxes[l] - 1) + n;
+    least[l] = -neighbours(l);
+    most[l] = plan_.lattice.boxes[l] - 1 + neighbours(l);
     const auto index = [&](double y) {
       const double box = box_of(y, plan_.lattice.origin[l], plan_.lattice.side[l]);
-      return static_cast<std::int64_t>(std::clamp(box, -n, last));
+      return static_cast<std::int64_t>(std::clamp(box, static_cast<double>(least[l]), static_cast<double>(most[l])));
     };
-    range.low[l] = index(low[l]);
-    range.high[l] = index(high[l]);
+    range.low[l] = index(around.low[l]);
+    range.high[l] = index(around.high[l]);
   }
   if (are_few(range.count(), static_cast<double>(box_numbers_), static_cast<double>(count))) {
-    evaluate_few(request, range, targets, count, values);
+    evaluate_few(request, range, least, most, targets, count, values);
     return;
   }
+  // one box more, where the rounding of a quotient may have missed it
+  for (std::size_t l = 0; l < d; ++l) {
+    range.low[l] = std::max(least[l], range.low[l] - 1);
+    range.high[l] = std::min(most[l], range.high[l] + 1);
+  }
   for (std::size_t begin = 0; begin < count; begin += target_block)
-    evaluate_block(request, targets + begin * d, std::min(target_block, count - begin), values + begin, count);
+    evaluate_block(request, range, targets + begin * d, std::min(target_block, count - begin), values + begin, count);
 }
 
 template <int d>
-void ChebyshevSum<d>::evaluate_few(const Request<d>& request, const BoxRange<d>& range, const double* targets,
-                                   std::size_t count, double* values) const {
+void ChebyshevSum<d>::evaluate_few(const Request<d>& request, const BoxRange<d>& range, const BoxIndex<d>& least,
+                                   const BoxIndex<d>& most, const double* targets, std::size_t count,
+                                   double* values) const {
   const std::size_t outputs = request.combinations.size() * columns_;
   const std::vector<BoxIndex<d>> boxes = range.boxes();
   Buffer<double> coefficients(boxes.size() * outputs * box_numbers_ + chain_padding);
   translate(request, matrices_between_boxes(request), make_tree<d>(boxes, range.axis), 0, boxes.size(),
             coefficients.data());
-  BoxIndex<d> least, most;
-  for (std::size_t l = 0; l < d; ++l) {
-    least[l] = -neighbours(l);
-    most[l] = plan_.lattice.boxes[l] - 1 + neighbours(l);
-  }
   block_values<d>(plan_.lattice, range, least, most, plan_.nodes, {targets, 1, d, count}, outputs, coefficients.data(),
                   values, count, threads_);
 }
@@ -532,28 +529,16 @@ void ChebyshevSum<d>::translate(const Request<d>& request, const std::array<Axis
 /// Sorts the targets, computes coefficients for boxes of targets, as many as the budget allows at a time, and
 /// interpolates.
 template <int d>
-void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const double* targets, std::size_t count,
-                                     double* values, std::size_t stride) const {
+void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const BoxRange<d>& range, const double* targets,
+                                     std::size_t count, double* values, std::size_t stride) const {
   const std::size_t outputs = request.combinations.size() * columns_;
-  const Lattice<d>& lattice = plan_.lattice;
   const std::array<AxisMatrices, d> matrices = matrices_between_boxes(request);
-  const auto [lowest, highest] = bounding_box<d>(targets, count, threads_);
-  BoxIndex<d> low, high;
-  for (std::size_t l = 0; l < d; ++l) {
-    const std::int64_t n = neighbours(l);
-    const double first = static_cast<double>(-n), last = static_cast<double>(lattice.boxes[l] - 1 + n);
-    const auto index = [&](double y) {
-      return std::clamp(box_of(y, lattice.origin[l], lattice.side[l]), first - 1, last + 1);
-    };
-    low[l] = static_cast<std::int64_t>(std::clamp(index(lowest[l]) - 1, first, last));
-    high[l] = static_cast<std::int64_t>(std::clamp(index(highest[l]) + 1, first, last));
-  }
   const SortedPoints<d> sorted =
-      sort_points<d>(lattice, {targets, 1, d, count}, low, high, axes_downwards<d>(), threads_);
+      sort_points<d>(plan_.lattice, {targets, 1, d, count}, range.low, range.high, range.axis, threads_);
   for (const std::size_t i : sorted.outside)
     for (std::size_t q = 0; q < outputs; ++q) values[q * stride + i] = 0;
 
-  const std::array<BoxLevel, d> tree = make_tree<d>(sorted.box, axes_downwards<d>());
+  const std::array<BoxLevel, d> tree = make_tree<d>(sorted.box, range.axis);
   const std::size_t numbers = outputs * box_numbers_, at_a_time = boxes_at_a_time(numbers);
   std::vector<double> coefficients;
   for (std::size_t begin = 0; begin < sorted.box.size(); begin += at_a_time) {

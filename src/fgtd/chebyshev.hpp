@@ -58,10 +58,12 @@ class ChebyshevSum : public Summation<d> {
   /// coefficients[box - begin][outputs][P^d], overwritten.
   void translate(const Request<d>& request, const std::array<AxisMatrices, d>& matrices,
                  const std::array<BoxLevel, d>& tree, std::size_t begin, std::size_t end, double* coefficients) const;
-  void evaluate_few(const Request<d>& request, const BoxRange<d>& range, const double* targets, std::size_t count,
-                    double* values) const;
-  void evaluate_block(const Request<d>& request, const double* targets, std::size_t count, double* values,
-                      std::size_t stride) const;
+  /// Targets beyond the boxes least .. most are out of reach.
+  void evaluate_few(const Request<d>& request, const BoxRange<d>& range, const BoxIndex<d>& least,
+                    const BoxIndex<d>& most, const double* targets, std::size_t count, double* values) const;
+  /// Targets beyond the range are out of reach.
+  void evaluate_block(const Request<d>& request, const BoxRange<d>& range, const double* targets, std::size_t count,
+                      double* values, std::size_t stride) const;
 
   ChebyshevPlan<d> plan_;
   double sigma_;

@@ -34,15 +34,15 @@ std::vector<double> node_polynomials(int nodes, bool nodes_first) {
   return t;
 }
 
-/// Multiplies every axis of box numbers by a P x P matrix: both ways between polynomials and nodes.
+/// Multiplies every axis of box numbers by a P x P matrix: from polynomials to nodes or back.
 class AxisTransform {
  public:
-  /// result index first; `with` is `by` transposed.
-  AxisTransform(int d, int nodes, std::vector<double> by, std::vector<double> with)
-      : dimension_(d), nodes_(static_cast<std::size_t>(nodes)), by_(std::move(by)), with_(std::move(with)) {
-    numbers_ = 1;
-    for (int l = 0; l < d; ++l) numbers_ *= nodes_;
-  }
+  AxisTransform(int d, int nodes, bool to_nodes)
+      : dimension_(d),
+        nodes_(static_cast<std::size_t>(nodes)),
+        numbers_(to_power(nodes_, d)),
+        left_(node_polynomials(nodes, to_nodes)),
+        right_(node_polynomials(nodes, !to_nodes)) {}
 
   /// to[P^d] = from[P^d] transformed; both readable chain_padding numbers beyond. scratch: 2 (P^d + chain_padding).
   void operator()(const double* from, double* to, double* scratch) const {
@@ -51,12 +51,11 @@ class AxisTransform {
     for (int l = 0; l < dimension_; ++l, width *= nodes_) {
       double* into = l + 1 == dimension_ ? to : next[l % 2];
       if (l == 0) {
-        const double* right = with_.data();
-        multiply(numbers_ / nodes_, nodes_, from, nodes_, right, nodes_, into, nodes_);
+        multiply(numbers_ / nodes_, nodes_, from, nodes_, right_.data(), nodes_, into, nodes_);
       } else {
         const std::size_t slice = nodes_ * width;
         for (std::size_t above = 0; above < numbers_; above += slice)
-          multiply(nodes_, width, by_.data(), nodes_, from + above, width, into + above, width);
+          multiply(nodes_, width, left_.data(), nodes_, from + above, width, into + above, width);
       }
       from = into;
     }
@@ -80,7 +79,7 @@ class AxisTransform {
 
   int dimension_;
   std::size_t nodes_, numbers_;
-  std::vector<double> by_, with_;
+  std::vector<double> left_, right_;  // the matrix, and its transpose for the axis that stands on the left
 };
 
 /// A block of points sorted by box.
@@ -145,12 +144,6 @@ class Block {
   Buffer<double> local_, weight_;
 };
 
-std::size_t power(std::size_t p, int n) {
-  std::size_t result = 1;
-  for (; n > 0; --n) result *= p;
-  return result;
-}
-
 }  // namespace
 
 template <int d>
@@ -181,7 +174,7 @@ double box_of(double coordinate, double origin, double side) { return std::floor
 template <int d>
 void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int nodes, const PointView& points,
                    const double* weights, std::size_t columns, int threads, Buffer<double>& moments) {
-  const std::size_t p = static_cast<std::size_t>(nodes), box_numbers = power(p, d);
+  const std::size_t p = static_cast<std::size_t>(nodes), box_numbers = to_power(p, d);
   const std::size_t boxes = static_cast<std::size_t>(range.count()), all = boxes * columns * box_numbers;
   moments.resize(all + chain_padding);
   std::fill(moments.end() - static_cast<std::ptrdiff_t>(chain_padding), moments.end(), 0.0);
@@ -217,7 +210,7 @@ void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int node
                              .scratch = scratch.numbers.data()});
     }
   });
-  const AxisTransform to_nodes(d, nodes, node_polynomials(nodes, true), node_polynomials(nodes, false));
+  const AxisTransform to_nodes(d, nodes, true);
   gaussdrift::base::parallel_for(std::min<std::size_t>(boxes, 64), threads, [&](std::size_t part) {
     const std::size_t share = std::min<std::size_t>(boxes, 64);
     std::vector<double> scratch(3 * (box_numbers + chain_padding));
@@ -235,10 +228,10 @@ template <int d>
 void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const BoxIndex<d>& least,
                   const BoxIndex<d>& most, int nodes, const PointView& points, std::size_t outputs,
                   const double* at_nodes, double* values, std::size_t stride, int threads) {
-  const std::size_t p = static_cast<std::size_t>(nodes), box_numbers = power(p, d);
+  const std::size_t p = static_cast<std::size_t>(nodes), box_numbers = to_power(p, d);
   const std::size_t boxes = static_cast<std::size_t>(range.count());
   Buffer<double> coefficients(boxes * outputs * box_numbers + chain_padding);
-  const AxisTransform to_polynomials(d, nodes, node_polynomials(nodes, false), node_polynomials(nodes, true));
+  const AxisTransform to_polynomials(d, nodes, false);
   const std::size_t share = std::min<std::size_t>(boxes, 64);
   gaussdrift::base::parallel_for(share, threads, [&](std::size_t part) {
     std::vector<double> scratch(2 * (box_numbers + chain_padding));
@@ -288,7 +281,8 @@ void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const Box
 
 namespace {
 double block_bytes(double boxes, double columns) {
-  return static_cast<double>(block_points(boxes)) * (2 * 4 + 8.0 * (2 * record_numbers + columns)) + 4 * (boxes + 2) + 1024;
+  return static_cast<double>(block_points(boxes)) * (2 * 4 + 8.0 * (2 * record_numbers + columns)) + 4 * (boxes + 2) +
+         1024;
 }
 }  // namespace
 

@@ -47,6 +47,13 @@ template <int d>
 SortedPoints<d> sort_points(const Lattice<d>& lattice, const PointView& points, const BoxIndex<d>& low,
                             const BoxIndex<d>& high, const std::array<int, d>& axis, int threads);
 
+/// p^n, numbers of a box with p nodes an axis.
+constexpr std::size_t to_power(std::size_t p, int n) {
+  std::size_t result = 1;
+  for (; n > 0; --n) result *= p;
+  return result;
+}
+
 /// Bytes that sort_points() returns and takes beside, for so many points.
 double sorting_bytes(int d, double points);
 
