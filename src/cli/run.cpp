@@ -179,7 +179,8 @@ namespace {
 
 ExitCode reproduce_cone(const ReproduceOptions& options) {
   if (!options.table.empty() || options.full)
-    throw CommandLineError("the cone has no tables to choose from and no --full; that is for: reproduce fgtd");
+    throw CommandLineError(
+        "the cone has no tables to choose from and no --full; that is for: reproduce fgtd, reproduce divergence");
   study::ConeReproduction result;
   {
     ProgressLine line;
@@ -191,8 +192,9 @@ ExitCode reproduce_cone(const ReproduceOptions& options) {
   return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;
 }
 
-ExitCode reproduce_fgtd(const ReproduceOptions& options) {
+ExitCode reproduce_tables(study::TableSet set, const ReproduceOptions& options) {
   study::FgtdOptions fgtd = options.full ? study::FgtdOptions::everything() : study::FgtdOptions{};
+  fgtd.set = set;
   fgtd.table = options.table;
   fgtd.threads = options.threads;
   study::FgtdReproduction result;
@@ -208,14 +210,18 @@ ExitCode reproduce_fgtd(const ReproduceOptions& options) {
 
 ExitCode reproduce(const ReproduceOptions& options) {
   if (options.what == "cone") return reproduce_cone(options);
-  if (options.what == "fgtd") return reproduce_fgtd(options);
+  if (options.what == "fgtd") return reproduce_tables(study::TableSet::fgtd, options);
+  if (options.what == "divergence") return reproduce_tables(study::TableSet::divergence, options);
   if (!options.what.empty())
-    throw CommandLineError(fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd", options.what));
+    throw CommandLineError(
+        fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence", options.what));
   fmt::print(
       "tables that can be reproduced:\n"
-      "  cone   heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
-      "  fgtd   errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n",
-      fmt::join(study::fgtd_tables(), ", "));
+      "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
+      "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
+      "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n",
+      fmt::join(study::table_numbers(study::TableSet::fgtd), ", "),
+      fmt::join(study::table_numbers(study::TableSet::divergence), " and "));
   return ExitCode::ok;
 }
 

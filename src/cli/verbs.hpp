@@ -55,9 +55,9 @@ ExitCode explain(const ExplainOptions& options);
 ExitCode run(const RunOptions& options);
 ExitCode check(const CaseOptions& options);
 struct ReproduceOptions {
-  std::string what;   // "cone", "fgtd"; empty: a list
-  std::string table;  // of fgtd, as in 4.6; empty: all
-  bool full = false;  // fgtd: every row, and no samples of targets
+  std::string what;   // "cone", "fgtd", "divergence"; empty: a list
+  std::string table;  // of fgtd or divergence, as in 4.6; empty: all
+  bool full = false;  // fgtd, divergence: every row, and no samples of targets
   int threads = 0;    // 0: all
   bool json = false;
 };

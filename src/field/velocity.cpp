@@ -122,6 +122,10 @@ bool SumField::is_solenoidal() const {
   return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_solenoidal(); });
 }
 
+bool SumField::evaluates_in_blocks() const {
+  return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->evaluates_in_blocks(); });
+}
+
 std::string SumField::describe() const {
   std::string text;
   for (const auto& field : fields_) text += (text.empty() ? "" : " + ") + field->describe();

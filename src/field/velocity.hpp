@@ -27,6 +27,8 @@ class VelocityField {
   /// Position at time `to` of what is at x at time `from`, from the closed form of the flow; nothing where none is
   /// known.
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
+  /// True if calls for a few hundred points cost no more a point than one call for all of them.
+  virtual bool evaluates_in_blocks() const { return true; }
   /// One line for people: formula and what is known of it.
   virtual std::string describe() const = 0;
 };
@@ -73,6 +75,7 @@ class SumField : public VelocityField {
   bool is_steady() const override;
   bool is_solenoidal() const override;
   std::optional<Vector> flow(double from, double to, const Vector& x) const override;
+  bool evaluates_in_blocks() const override;
   std::string describe() const override;
 
  private:

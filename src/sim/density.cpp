@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
+#include "base/weight_within.hpp"
 
 namespace gaussdrift {
 
@@ -113,7 +114,7 @@ class Evaluation {
     double error = 0;
     for (const WidthGroup<d>& group : groups_) {
       const double reach = std::sqrt((2 * std::log(1 / options_.tolerance) + 40) / group.sigma);
-      error += group.scale * largest_weight_within(particles, reach);
+      error += group.scale * largest_weight_within(particles.view(), particles.alpha.data(), reach);
     }
     return error;
   }
@@ -220,56 +221,6 @@ void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, Den
 }
 
 }  // namespace
-
-double largest_weight_within(const Particles& particles, double reach) {
-  // Boxes of half the reach: a ball of that radius around any point of a box lies within two boxes on each side.
-  const std::size_t count = particles.size();
-  if (count == 0) return 0;
-  const int dimension = particles.dimension;
-  Vector low{}, high{};
-  for (int k = 0; k < dimension; ++k) {
-    const auto [a, b] = std::minmax_element(particles.position[k].begin(), particles.position[k].end());
-    low[k] = *a, high[k] = *b;
-    if (!std::isfinite(high[k] - low[k]))
-      throw NumericalError("the particles lie so far apart that their distance is no number; shorten time.end");
-  }
-  // The box array may have a few entries a particle; a very short reach gets longer boxes, which only raises the bound.
-  const double allowed = 4.0 * static_cast<double>(count) + 1e6;
-  double side = reach / 2;
-  std::array<std::size_t, max_dimension> boxes{1, 1, 1};
-  for (;; side *= 1.5) {
-    double total = 1;
-    for (int k = 0; k < dimension; ++k) total *= std::floor((high[k] - low[k]) / side) + 1;
-    if (total <= allowed) break;
-  }
-  for (int k = 0; k < dimension; ++k) boxes[k] = static_cast<std::size_t>((high[k] - low[k]) / side) + 1;
-
-  std::vector<double> weight(boxes[0] * boxes[1] * boxes[2], 0.0);
-  for (std::size_t j = 0; j < count; ++j) {
-    std::size_t index = 0;
-    for (int k = dimension - 1; k >= 0; --k)
-      index = index * boxes[k] +
-              std::min(boxes[k] - 1, static_cast<std::size_t>((particles.position[k][j] - low[k]) / side));
-    weight[index] += std::abs(particles.alpha[j]);
-  }
-  // Sums over 5 boxes, one axis after the other.
-  std::size_t stride = 1;
-  std::vector<double> line;
-  for (int k = 0; k < dimension; ++k) {
-    line.resize(boxes[k]);
-    for (std::size_t start = 0; start < weight.size(); ++start) {
-      if ((start / stride) % boxes[k] != 0) continue;
-      for (std::size_t i = 0; i < boxes[k]; ++i) line[i] = weight[start + i * stride];
-      for (std::size_t i = 0; i < boxes[k]; ++i) {
-        double sum = 0;
-        for (std::size_t n = i < 2 ? 0 : i - 2; n <= std::min(i + 2, boxes[k] - 1); ++n) sum += line[n];
-        weight[start + i * stride] = sum;
-      }
-    }
-    stride *= boxes[k];
-  }
-  return *std::max_element(weight.begin(), weight.end());
-}
 
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report) {

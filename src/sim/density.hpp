@@ -33,7 +33,4 @@ struct DensityReport {
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report = nullptr);
 
-/// An upper bound for the weight sum_{|X_j - y| < reach} |alpha_j| over all y, from box sums.
-double largest_weight_within(const Particles& particles, double reach);
-
 }  // namespace gaussdrift

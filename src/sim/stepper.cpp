@@ -93,7 +93,9 @@ void check_velocity(const Particles& particles, const VectorsView& u, double tim
 double Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                         std::size_t steps_before) const {
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
-  const std::size_t blocks = (particles.size() + block_length - 1) / block_length;
+  const std::size_t longest =
+      velocity_.evaluates_in_blocks() ? block_length : std::max<std::size_t>(1, particles.size());
+  const std::size_t blocks = (particles.size() + longest - 1) / longest;
   std::vector<std::vector<double>> results(blocks);
   std::vector<double> seconds(integrals_.empty() ? 0 : blocks, 0.0);
   const auto column = [&](std::size_t row) {
@@ -101,7 +103,7 @@ double Stepper::advance(Particles& particles, const time::Interval& interval, st
   };
 
   base::parallel_for(blocks, threads_, [&](std::size_t b) {
-    const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
+    const std::size_t begin = b * longest, length = std::min(longest, particles.size() - begin);
     Block block{particles.dimension, length, std::vector<double>(length * rows)};
     const auto load = [&] {
       for (std::size_t k = 0; k < rows; ++k) std::copy_n(column(k) + begin, length, block.state.data() + k * length);
@@ -144,7 +146,7 @@ double Stepper::advance(Particles& particles, const time::Interval& interval, st
   });
 
   for (std::size_t b = 0; b < blocks; ++b) {
-    const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
+    const std::size_t begin = b * longest, length = std::min(longest, particles.size() - begin);
     for (std::size_t k = 0; k < rows; ++k) std::copy_n(results[b].data() + k * length, length, column(k) + begin);
   }
   return std::accumulate(seconds.begin(), seconds.end(), 0.0);

@@ -16,5 +16,7 @@ std::vector<Table> dimension_table(const FgtdOptions& options);      // 4.5
 std::vector<Table> width_table(const FgtdOptions& options);          // 4.6
 std::vector<Table> spacing_table(const FgtdOptions& options);        // 4.7
 std::vector<Table> point_set_table(const FgtdOptions& options);      // 4.8
+std::vector<Table> field_table(const FgtdOptions& options);          // 6.1
+std::vector<Table> divergence_table(const FgtdOptions& options);     // 6.2
 
 }  // namespace gaussdrift::study

@@ -1,12 +1,66 @@
 // One sum of [Sch06, ch. 4] measured three ways: direct, hermite with the thesis's parameters, and automatic.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
+#include "base/stopwatch.hpp"
 #include "fgtd/fgtd.hpp"
 
 namespace gaussdrift::study {
+
+/// Work is repeated until 0.02 s have passed, ten times at most, and the fastest run counts: what other programs take
+/// from the machine is left out. The thesis averages ten runs.
+template <class Work>
+double fastest_seconds(const Work& work) {
+  constexpr double repeated_seconds = 0.02;
+  constexpr int most_repetitions = 10;
+  const base::Stopwatch total;
+  double fastest = std::numeric_limits<double>::infinity();
+  for (int run = 0; run == 0 || (run < most_repetitions && total.seconds() < repeated_seconds); ++run) {
+    const base::Stopwatch watch;
+    work();
+    fastest = std::min(fastest, watch.seconds());
+  }
+  return fastest;
+}
+
+/// `wanted` of the points, evenly spaced, or all of them.
+template <int d>
+fgtd::Points<d> sample(const fgtd::Points<d>& points, std::size_t wanted) {
+  const auto all = static_cast<std::size_t>(points.cols());
+  const std::size_t count = std::min(wanted, all);
+  if (count == all) return points;
+  fgtd::Points<d> some(d, static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i)
+    some.col(static_cast<Eigen::Index>(i)) = points.col(static_cast<Eigen::Index>((2 * i + 1) * all / (2 * count)));
+  return some;
+}
+
+/// What `direct` and every promise add for rounding, relative to N_alpha times the weight (docs/fgtd.md).
+constexpr double rounding = 3e-14;
+
+/// r of boxes that fill the unit cube nu times on every axis; the side is rounded up, so that it fits into the cube.
+inline double box_scale(int nu, double sigma) {
+  return (1 + 4 * std::numeric_limits<double>::epsilon()) / (nu * std::sqrt(2 / sigma));
+}
+
+/// Boxes start at the lowest source. Two more sources, in corners of the unit cube, make it the bounding box, as in the
+/// thesis; their weights are 0.
+template <int d>
+fgtd::Points<d> with_corners(const fgtd::Points<d>& points) {
+  fgtd::Points<d> more(d, points.cols() + 2);
+  more << points, Eigen::Matrix<double, d, 1>::Zero(), Eigen::Matrix<double, d, 1>::Ones();
+  return more;
+}
+inline Eigen::MatrixXd with_corners(const Eigen::MatrixXd& weights) {
+  Eigen::MatrixXd more = Eigen::MatrixXd::Zero(weights.rows() + 2, weights.cols());
+  more.topRows(weights.rows()) = weights;
+  return more;
+}
 
 template <int d>
 struct Problem {

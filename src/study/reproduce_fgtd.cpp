@@ -20,7 +20,8 @@ struct Group {
   std::vector<Table> (*compute)(const FgtdOptions&);
 };
 
-const std::vector<Group>& groups() {
+const std::vector<Group>& groups(TableSet set) {
+  static const std::vector<Group> divergence{{{"6.1"}, field_table}, {{"6.2"}, divergence_table}};
   static const std::vector<Group> all{{{"3.2", "3.3"}, [](const FgtdOptions&) { return analytic_tables(); }},
                                       {{"3.4", "3.5"}, [](const FgtdOptions&) { return parameter_tables(); }},
                                       {{"4.1", "4.2"}, point_number_tables},
@@ -30,7 +31,7 @@ const std::vector<Group>& groups() {
                                       {{"4.6"}, width_table},
                                       {{"4.7"}, spacing_table},
                                       {{"4.8"}, point_set_table}};
-  return all;
+  return set == TableSet::fgtd ? all : divergence;
 }
 
 bool comparable(const Column& column, const Entry& entry) {
@@ -78,24 +79,22 @@ bool agrees(const Column& column, const Entry& entry) {
   }
 }
 
-const std::vector<std::string>& fgtd_tables() {
-  static const std::vector<std::string> numbers = [] {
-    std::vector<std::string> all;
-    for (const Group& group : groups()) all.insert(all.end(), group.numbers.begin(), group.numbers.end());
-    return all;
-  }();
-  return numbers;
+std::vector<std::string> table_numbers(TableSet set) {
+  std::vector<std::string> all;
+  for (const Group& group : groups(set)) all.insert(all.end(), group.numbers.begin(), group.numbers.end());
+  return all;
 }
 
 FgtdReproduction reproduce_fgtd(const FgtdOptions& options, const std::function<void(const std::string&)>& progress) {
-  const auto& numbers = fgtd_tables();
+  const auto numbers = table_numbers(options.set);
   if (!options.table.empty() && std::find(numbers.begin(), numbers.end(), options.table) == numbers.end())
     throw CommandLineError(
         fmt::format("there is no table \"{}\"; there are {}", options.table, fmt::join(numbers, ", ")));
   const base::Stopwatch watch;
   FgtdReproduction result;
+  result.source = fmt::format("Schroeder 2006, Tables {}", fmt::join(numbers, ", "));
   result.threads = options.threads > 0 ? options.threads : 1;
-  for (const Group& group : groups()) {
+  for (const Group& group : groups(options.set)) {
     const auto wanted = [&](const std::string& number) { return options.table.empty() || options.table == number; };
     if (std::none_of(group.numbers.begin(), group.numbers.end(), wanted)) continue;
     if (progress) progress(fmt::format("Table {}", fmt::join(group.numbers, ", ")));

@@ -1,5 +1,6 @@
-// Tables 3.2 to 3.5 and 4.1 to 4.8 of [Sch06] again: `hermite` with the thesis's parameters and points beside the
-// published numbers, and `automatic` asked for the error that these parameters gave. docs/reproduce.md.
+// Tables 3.2 to 3.5, 4.1 to 4.8 (the transform), 6.1 and 6.2 (divergence-free fields) of [Sch06] again: `hermite` with
+// the thesis's parameters and points beside the published numbers, and `automatic` asked for the error that these
+// parameters gave. docs/reproduce.md.
 #pragma once
 
 #include <cstddef>
@@ -57,8 +58,11 @@ bool agrees(const Column& column, const Entry& entry);
 /// floor(log10 x), where 1e-3 is -3 although it is rounded.
 int power_of_ten(double x);
 
+enum class TableSet { fgtd, divergence };
+
 struct FgtdOptions {
-  std::string table;  // one of fgtd_tables(), or empty for all
+  TableSet set = TableSet::fgtd;
+  std::string table;  // one of table_numbers(set), or empty for all
   int threads = 0;    // 0: all, but one where seconds are measured, as the thesis's machine had one
   // What is larger is left out (rows) or measured at a sample of the targets; infinite for everything.
   double most_points = 1e6;
@@ -73,6 +77,7 @@ struct FgtdOptions {
 };
 
 struct FgtdReproduction {
+  std::string source;  // "Schroeder 2006, Tables ..."
   std::vector<Table> tables;
   int threads = 1;  // of the times
   double seconds = 0;
@@ -82,8 +87,8 @@ struct FgtdReproduction {
   std::vector<std::string> disagreements;
 };
 
-/// "3.2", ..., "4.8"
-const std::vector<std::string>& fgtd_tables();
+/// "3.2", ..., "4.8"; "6.1", "6.2"
+std::vector<std::string> table_numbers(TableSet set);
 
 /// `progress` is told the table that is being computed.
 FgtdReproduction reproduce_fgtd(const FgtdOptions& options,

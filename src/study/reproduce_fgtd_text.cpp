@@ -135,7 +135,7 @@ std::string to_json(const FgtdReproduction& result) {
     }
     tables.push_back({{"table", table.number}, {"title", table.title}, {"what", table.what}, {"rows", rows}});
   }
-  const nlohmann::ordered_json document{{"source", "Schroeder 2006, Tables 3.2 to 3.5 and 4.1 to 4.8"},
+  const nlohmann::ordered_json document{{"source", result.source},
                                         {"tables", tables},
                                         {"threads", result.threads},
                                         {"compared", result.compared},

@@ -74,7 +74,7 @@ TEST_P(EveryTable, QuotesThePaperAndIsAsGoodOrBetter) {
   EXPECT_GT(numbers, 10u);
 }
 
-INSTANTIATE_TEST_SUITE_P(ReproduceFgtd, EveryTable, testing::ValuesIn(fgtd_tables()));
+INSTANTIATE_TEST_SUITE_P(ReproduceFgtd, EveryTable, testing::ValuesIn(table_numbers(TableSet::fgtd)));
 
 TEST(ReproduceFgtd, GivesAllDigitsOfTable48WhereThePointsAreKnown) {
   const Table table = reduced("4.8");

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/weight_within.hpp"
 #include "field/density.hpp"
 #include "particle/seeding.hpp"
 
@@ -108,7 +109,7 @@ TEST(LargestWeight, IsAnUpperBoundAndNotAWildOne) {
           weight += particles.alpha[j];
       exact = std::max(exact, weight);
     }
-    const double bound = largest_weight_within(particles, reach);
+    const double bound = largest_weight_within(particles.view(), particles.alpha.data(), reach);
     EXPECT_GE(bound, exact * (1 - 1e-12)) << reach;  // order of summation
     if (reach >= 0.1) {
       EXPECT_LE(bound, 5 * exact) << reach;  // 25 boxes of (reach/2)^2 against a disk: a factor 2, and lattice effects

@@ -1,0 +1,13 @@
+// How much weight can lie near one place: what turns the promise of fgtd, which is about single Gaussians, into one
+// about their sum.
+#pragma once
+
+#include "base/points.hpp"
+
+namespace gaussdrift {
+
+/// An upper bound for the weight sum_{|x_j - y| < reach} |weight_j| over all y, from box sums; weight [points.count].
+/// Throws NumericalError if the points lie so far apart that their distance is no number.
+double largest_weight_within(const PointsView& points, const double* weight, double reach);
+
+}  // namespace gaussdrift

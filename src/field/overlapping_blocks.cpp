@@ -1,0 +1,150 @@
+#include "field/overlapping_blocks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+using Index = Eigen::Index;
+
+/// Halves of the longest side, again and again, until a part has at most `core` points.
+template <int d>
+void bisect(const fgtd::Points<d>& points, std::vector<Index>::iterator begin, std::vector<Index>::iterator end,
+            std::size_t core, std::vector<std::vector<Index>>& parts) {
+  const auto count = static_cast<std::size_t>(end - begin);
+  if (count <= core) {
+    parts.emplace_back(begin, end);
+    return;
+  }
+  Eigen::Matrix<double, d, 1> low = points.col(*begin), high = low;
+  for (auto it = begin; it != end; ++it) {
+    low = low.cwiseMin(points.col(*it));
+    high = high.cwiseMax(points.col(*it));
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  const auto middle = begin + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(begin, middle, end, [&](Index a, Index b) {
+    return points(axis, a) != points(axis, b) ? points(axis, a) < points(axis, b) : a < b;
+  });
+  bisect<d>(points, begin, middle, core, parts);
+  bisect<d>(points, middle, end, core, parts);
+}
+
+/// The `wanted` points nearest to the bounding box of `part`, its own among them, in ascending order.
+template <int d>
+std::vector<Index> with_neighbours(const fgtd::Points<d>& points, const std::vector<Index>& part, std::size_t wanted) {
+  Eigen::Matrix<double, d, 1> low = points.col(part[0]), high = low;
+  for (const Index k : part) {
+    low = low.cwiseMin(points.col(k));
+    high = high.cwiseMax(points.col(k));
+  }
+  const auto count = static_cast<std::size_t>(points.cols());
+  std::vector<std::pair<double, Index>> distance(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto x = points.col(static_cast<Index>(k));
+    distance[k] = {(low - x).cwiseMax(x - high).cwiseMax(0.0).squaredNorm(), static_cast<Index>(k)};
+  }
+  wanted = std::min(wanted, count);
+  std::nth_element(distance.begin(), distance.begin() + static_cast<std::ptrdiff_t>(wanted - 1), distance.end());
+  std::vector<Index> chosen;
+  for (std::size_t i = 0; i < wanted; ++i) chosen.push_back(distance[i].second);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+}  // namespace
+
+template <int d>
+Eigen::MatrixXd dense_gaussian_matrix(GaussianMatrix matrix, const fgtd::Points<d>& points, double sigma,
+                                      double shift) {
+  const Index count = points.cols(), columns = gaussian_columns(matrix, d);
+  Eigen::MatrixXd dense(count * columns, count * columns);
+  const Eigen::MatrixXd target = points.transpose();
+  for (Index j = 0; j < count; ++j)
+    for (Index k = 0; k < columns; ++k) {  // a column: the field of a unit coefficient
+      const Eigen::VectorXd at = points.col(j), unit = Eigen::VectorXd::Unit(columns, k);
+      sum_gaussian_pairs({.matrix = matrix,
+                          .dimension = d,
+                          .sigma = sigma,
+                          .sources = 1,
+                          .position = at.data(),
+                          .coefficients = unit.data(),
+                          .targets = static_cast<std::size_t>(count),
+                          .target = target.data(),
+                          .target_stride = static_cast<std::size_t>(count),
+                          .values = dense.col(k * count + j).data(),
+                          .value_stride = static_cast<std::size_t>(count)},
+                         1);
+    }
+  dense.diagonal().array() += shift;
+  return dense;
+}
+
+template <int d>
+OverlappingBlocks<d>::OverlappingBlocks(GaussianMatrix matrix, const fgtd::Points<d>& points, double sigma,
+                                        double shift, int threads, std::size_t memory_limit)
+    : count_(points.cols()), columns_(gaussian_columns(matrix, d)), threads_(threads) {
+  std::vector<Index> order(static_cast<std::size_t>(count_));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::vector<std::vector<Index>> parts;
+  bisect<d>(points, order.begin(), order.end(), core, parts);
+  const double unknowns = static_cast<double>(block_points) * static_cast<double>(columns_);
+  const double bytes = 8.0 * unknowns * unknowns * static_cast<double>(parts.size());
+  if (bytes > static_cast<double>(memory_limit))
+    throw InputError(
+        fmt::format("a fit to {} samples would take {:.1f} GB; at most {:.1f} GB are used: fit fewer samples", count_,
+                    bytes / 1e9, static_cast<double>(memory_limit) / 1e9));
+  blocks_.resize(parts.size());
+  base::parallel_for(parts.size(), threads, [&](std::size_t b) {
+    Block& block = blocks_[b];
+    block.points = with_neighbours<d>(points, parts[b], block_points);
+    fgtd::Points<d> some(d, static_cast<Index>(block.points.size()));
+    for (std::size_t i = 0; i < block.points.size(); ++i) some.col(static_cast<Index>(i)) = points.col(block.points[i]);
+    Eigen::MatrixXd dense = dense_gaussian_matrix<d>(matrix, some, sigma, shift);
+    // A block may be singular to rounding where the whole fit, to a tolerance, is not: then its diagonal is raised.
+    const double diagonal = dense(0, 0);
+    double raise = 1e-14 * diagonal;
+    for (block.factors.compute(dense); block.factors.info() != Eigen::Success; block.factors.compute(dense)) {
+      dense.diagonal().array() += raise;
+      raise *= 10;
+      if (!(raise < diagonal)) throw InputError("the samples give no definite matrix");
+    }
+  });
+}
+
+template <int d>
+Eigen::VectorXd OverlappingBlocks<d>::solve(const Eigen::VectorXd& x) const {
+  std::vector<Eigen::VectorXd> parts(blocks_.size());
+  base::parallel_for(blocks_.size(), threads_, [&](std::size_t b) {
+    const Block& block = blocks_[b];
+    const auto size = static_cast<Index>(block.points.size());
+    Eigen::VectorXd& part = parts[b];
+    part.resize(size * columns_);
+    for (Index k = 0; k < columns_; ++k)
+      for (Index i = 0; i < size; ++i) part[k * size + i] = x[k * count_ + block.points[static_cast<std::size_t>(i)]];
+    block.factors.solveInPlace(part);
+  });
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(x.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {  // in this order for any number of threads
+    const auto size = static_cast<Index>(blocks_[b].points.size());
+    for (Index k = 0; k < columns_; ++k)
+      for (Index i = 0; i < size; ++i)
+        sum[k * count_ + blocks_[b].points[static_cast<std::size_t>(i)]] += parts[b][k * size + i];
+  }
+  return sum;
+}
+
+template class OverlappingBlocks<2>;
+template class OverlappingBlocks<3>;
+template Eigen::MatrixXd dense_gaussian_matrix<2>(GaussianMatrix, const fgtd::Points<2>&, double, double);
+template Eigen::MatrixXd dense_gaussian_matrix<3>(GaussianMatrix, const fgtd::Points<3>&, double, double);
+
+}  // namespace gaussdrift
