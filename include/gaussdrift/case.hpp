@@ -14,7 +14,8 @@
 
 namespace gaussdrift {
 
-struct GridData;  // field/grid_data.hpp
+struct GridData;       // field/grid_data.hpp
+struct GaussianModel;  // field/gaussian_velocity.hpp
 
 /// Named constants of `[params]`, in file order.
 using Params = std::vector<std::pair<std::string, double>>;
@@ -50,7 +51,15 @@ struct FileVelocity {
   std::string interpolation, outside;
   std::shared_ptr<const GridData> data;
 };
-using VelocitySpec = std::variant<ExpressionVelocity, StreamfunctionVelocity, NamedVelocity, FileVelocity>;
+/// gaussians = "...": divergence-free Gaussians at the points of a table, already read and fitted.
+struct GaussianVelocitySpec {
+  std::filesystem::path file;  // absolute
+  std::string kind;            // of the numbers in it: "velocity", "vorticity", ...
+  double residual = 0, regularisation = 0, tolerance = 0;
+  std::shared_ptr<const GaussianModel> model;
+};
+using VelocitySpec =
+    std::variant<ExpressionVelocity, StreamfunctionVelocity, NamedVelocity, FileVelocity, GaussianVelocitySpec>;
 
 // --- initial density --------------------------------------------------------------------------------------------
 

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 Case read(const CaseOptions& options) {
-  input::ReadResult result = input::read_case(options.file, options.overrides);
+  input::ReadResult result = input::read_case(options.file, options.overrides, options.threads);
   for (const std::string& warning : result.warnings) fmt::print(stderr, "{}\n", warning);
   return std::move(result.scene);
 }

@@ -137,14 +137,18 @@ void check_distinct(const fgtd::Points<d>& points, const Eigen::MatrixXd& sample
 }
 
 template <int d>
+double spacing_of(const fgtd::Points<d>& points) {
+  const Eigen::VectorXd extent = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
+  return std::pow(extent.prod() / static_cast<double>(points.cols()), 1.0 / d);
+}
+
+template <int d>
 [[noreturn]] void refuse(const fgtd::Points<d>& points, double sigma, const GaussianFitOptions& options,
                          const std::string& what) {
-  const Eigen::VectorXd extent = points.rowwise().maxCoeff() - points.rowwise().minCoeff();
-  const double spacing = std::pow(extent.prod() / static_cast<double>(points.cols()), 1.0 / d);
   throw InputError(fmt::format(
       "{}: Gaussians of width {:.4g} can hardly be told apart at samples that lie {:.2g} apart on the average{}; lower "
       "width, remove samples that lie very close together, or {} regularisation (1e-8 is a beginning)",
-      what, 1 / std::sqrt(sigma), spacing,
+      what, 1 / std::sqrt(sigma), spacing_of<d>(points),
       options.regularisation > 0 ? fmt::format(", with regularisation = {}", options.regularisation) : "",
       options.regularisation > 0 ? "raise" : "set"));
 }
@@ -188,19 +192,20 @@ GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, 
     return fit;
   }
 
+  const OverlappingBlocks<d> blocks(matrix, points, sigma, system.shift(), options.threads);
+  // A solution exists for every condition, but beyond this its digits mean nothing.
+  constexpr double smallest_reciprocal_condition = 100 * std::numeric_limits<double>::epsilon();
+  if (const double rcond = blocks.reciprocal_condition(); rcond < smallest_reciprocal_condition)
+    refuse<d>(points, sigma, options,
+              rcond > 0 ? fmt::format("the matrix has a condition of {:.0e} or more", 1 / rcond)
+                        : "the matrix is not definite to rounding");
+
   Eigen::VectorXd gamma;
-  if (system.rows() <= dense_unknowns) {
+  if (blocks.is_exact()) {
     fit.solver = "cholesky";
-    const Eigen::LLT<Eigen::MatrixXd> factors(dense_gaussian_matrix<d>(matrix, points, sigma, system.shift()));
-    if (factors.info() != Eigen::Success) refuse<d>(points, sigma, options, "the samples give no definite matrix");
-    // A solution exists for every condition, but beyond this its digits mean nothing.
-    constexpr double smallest_reciprocal_condition = 100 * std::numeric_limits<double>::epsilon();
-    if (factors.rcond() < smallest_reciprocal_condition)
-      refuse<d>(points, sigma, options, fmt::format("the matrix has a condition of {:.0e}", 1 / factors.rcond()));
-    gamma = factors.solve(right);
+    gamma = blocks.solve(right);
   } else {
     fit.solver = "conjugate gradients";
-    const OverlappingBlocks<d> blocks(matrix, points, sigma, system.shift(), options.threads);
     Eigen::ConjugateGradient<GaussianSystem<d>, Eigen::Lower | Eigen::Upper, Preconditioner<d>> solver;
     solver.preconditioner().set(blocks);
     solver.setMaxIterations(options.most_iterations);
@@ -220,6 +225,14 @@ GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, 
                   ? fmt::format("conjugate gradients reached a residual of {:.1e} after {} iterations, not {:.1e}",
                                 fit.residual, fit.iterations, options.residual)
                   : fmt::format("the residual is {:.1e}, not {:.1e}", fit.residual, options.residual));
+  fit.left_out = blocks.left_out_error(right);
+  if (!(fit.left_out < 1))
+    throw InputError(fmt::format(
+        "the samples do not follow from each other: left out one by one, they are predicted with an error of {:.2g} of "
+        "their size; Gaussians of width {:.4g} do not bridge samples that lie {:.2g} apart on the average: raise "
+        "width, or "
+        "add samples",
+        fit.left_out, 1 / std::sqrt(sigma), spacing_of<d>(points)));
   return fit;
 }
 

@@ -24,19 +24,19 @@ struct GaussianFit {
   std::string solver;            // "cholesky" or "conjugate gradients"
   int iterations = 0;            // conjugate gradients
   double residual = 0;           // reached, of the system, recomputed from the coefficients
-  double misfit =
-      0;  // largest difference between field and sample, relative to the largest sample; residual if lambda = 0
+  double misfit = 0;             // largest difference between field and sample, relative to the largest sample
+  double left_out = 0;           // how well samples follow from the others: OverlappingBlocks::left_out_error
 };
 
 /// matrix: `field` for samples of the velocity S, `vorticity` for samples of the vorticity of the curl form.
 /// points   d x N, distinct;  samples  N x c with c = gaussian_columns(matrix, d)
-/// Up to dense_unknowns unknowns by a dense factorisation, more by conjugate gradients over products with A.
-/// Throws InputError naming the samples if two points are equal, and if the residual cannot be reached.
+/// Up to OverlappingBlocks::dense_unknowns unknowns by a dense factorisation, more by preconditioned conjugate gradients
+/// over products with A. Throws InputError naming the samples if two points are equal; if the matrix is too near to
+/// singular or the residual cannot be reached (Gaussians too wide); and if samples do not follow from each other at all
+/// (too narrow).
 template <int d>
 GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, const Eigen::MatrixXd& samples,
                           double sigma, const GaussianFitOptions& options = {});
-
-constexpr Eigen::Index dense_unknowns = 1000;  // 0.1 s
 
 extern template GaussianFit fit_gaussians<2>(GaussianMatrix, const fgtd::Points<2>&, const Eigen::MatrixXd&, double,
                                              const GaussianFitOptions&);

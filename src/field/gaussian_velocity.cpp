@@ -14,7 +14,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-bool is_fitted(GaussianKind kind) { return kind == GaussianKind::velocity || kind == GaussianKind::vorticity; }
 bool is_curl(GaussianKind kind) { return kind == GaussianKind::vorticity || kind == GaussianKind::curl_coefficients; }
 
 template <int d>
@@ -36,6 +35,14 @@ class GaussianVelocity : public VelocityField {
     for (int l = 0; l < d; ++l)
       Eigen::Map<Eigen::VectorXd>(u.axis[static_cast<std::size_t>(l)], values.rows()) += values.col(l);
   }
+  // Each Gaussian is free of divergence, and derivatives from fgtd keep that to rounding [Sch06, Bemerkung 6.4.3].
+  void add_divergence(double /*t*/, const PointsView& x, double* values) const override {
+    for (int l = 0; l < d; ++l)
+      Eigen::Map<Eigen::VectorXd>(values, static_cast<Index>(x.count)) +=
+          0 * Eigen::Map<const Eigen::VectorXd>(x.axis[static_cast<std::size_t>(l)], static_cast<Index>(x.count));
+  }
+  bool is_steady() const override { return true; }
+  bool is_solenoidal() const override { return true; }
   bool evaluates_in_blocks() const override { return sum_.pairwise(); }
   std::string describe() const override { return description_; }
 
@@ -45,64 +52,104 @@ class GaussianVelocity : public VelocityField {
   std::string description_;
 };
 
-/// The largest |u| at some of the points: a lower bound of max |u|.
+/// `wanted` of the points, evenly spaced, or all of them.
 template <int d>
-double largest_velocity(GaussianMatrix matrix, const fgtd::Points<d>& points, const Eigen::MatrixXd& coefficients,
-                        double sigma, int threads) {
-  constexpr Index wanted = 200;
-  const Index count = std::min(wanted, points.cols());
+fgtd::Points<d> some_of(const fgtd::Points<d>& points, std::size_t wanted) {
+  const Index count = std::min(static_cast<Index>(wanted), points.cols());
   fgtd::Points<d> some(d, count);
   for (Index i = 0; i < count; ++i) some.col(i) = points.col((2 * i + 1) * points.cols() / (2 * count));
-  const GaussianSum<d> exact(points, coefficients, sigma, {.method = fgtd::Method::direct, .threads = threads});
-  return exact.evaluate(matrix, some).cwiseAbs().maxCoeff();
+  return some;
 }
 
 template <int d>
-std::unique_ptr<VelocityField> make(const std::vector<double>& positions, const std::vector<double>& numbers,
-                                    const GaussianVelocityOptions& options) {
-  const Index columns = gaussian_values(options.kind, d), count = static_cast<Index>(positions.size()) / d;
-  const fgtd::Points<d> points = Eigen::Map<const fgtd::Points<d>>(positions.data(), d, count);
-  const Eigen::MatrixXd values = Eigen::Map<const Eigen::MatrixXd>(numbers.data(), columns, count).transpose();
-  const double width = options.width > 0 ? options.width : default_gaussian_width(d, positions);
-  const double sigma = 1 / (width * width);
-  const GaussianMatrix matrix = is_curl(options.kind) ? GaussianMatrix::curl : GaussianMatrix::field;
+fgtd::Points<d> points_of(const std::vector<double>& positions) {
+  return Eigen::Map<const fgtd::Points<d>>(positions.data(), d, static_cast<Index>(positions.size()) / d);
+}
 
-  std::string about = fmt::format("divergence-free Gaussians of width {:.4g} at {} points", width, count);
-  Eigen::MatrixXd coefficients = values;
+Eigen::MatrixXd rows_of(const std::vector<double>& numbers, Index count) {
+  return Eigen::Map<const Eigen::MatrixXd>(numbers.data(), static_cast<Index>(numbers.size()) / count, count)
+      .transpose();
+}
+
+// The promise of fgtd is about single Gaussians; what it must be for the field to keep its own, relative to its
+// largest.
+template <int d>
+double term_tolerance(GaussianMatrix matrix, const fgtd::Points<d>& points, const Eigen::MatrixXd& coefficients,
+                      double sigma, double tolerance, int threads) {
+  const GaussianSum<d> pairs(points, coefficients, sigma, {.method = fgtd::Method::direct, .threads = threads});
+  const double unit_error = pairs.unit_error(matrix);
+  constexpr double coarsest = 0.1;  // nothing is gained above
+  if (unit_error == 0) return coarsest;
+  constexpr std::size_t looked_at = 200;
+  const double largest = pairs.evaluate(matrix, some_of<d>(points, looked_at)).cwiseAbs().maxCoeff();
+  const double wanted = tolerance * largest / unit_error;
+  if (!(wanted >= fgtd::smallest_tolerance))
+    throw InputError(fmt::format(
+        "the Gaussians cancel: together they are {:.1e} times smaller than one by one, so a tolerance of {:.0e} of the "
+        "velocity cannot be kept, {:.0e} can; lower width, set regularisation, or raise tolerance",
+        unit_error / largest, tolerance, fgtd::smallest_tolerance * unit_error / largest));
+  return std::min(wanted, coarsest);
+}
+
+template <int d>
+GaussianModel make_model(const std::vector<double>& positions, const std::vector<double>& values,
+                         const GaussianModelOptions& options) {
+  const fgtd::Points<d> points = points_of<d>(positions);
+  const Eigen::MatrixXd numbers = rows_of(values, points.cols());
+  GaussianModel model;
+  model.dimension = d;
+  model.matrix = is_curl(options.kind) ? GaussianMatrix::curl : GaussianMatrix::field;
+  model.width = options.width > 0 ? options.width : default_gaussian_width(d, positions);
+  model.positions = positions;
+  const double sigma = 1 / (model.width * model.width);
+  if (!(std::isfinite(sigma) && sigma > 0))
+    throw InputError(fmt::format("Gaussians of width {} are beyond double precision", model.width));
+
+  model.about = fmt::format("divergence-free Gaussians of width {:.4g} at {} points", model.width, points.cols());
+  Eigen::MatrixXd coefficients = numbers;
   if (is_fitted(options.kind)) {
     const GaussianMatrix sampled = is_curl(options.kind) ? GaussianMatrix::vorticity : GaussianMatrix::field;
-    GaussianFitOptions fit_options = options.fit;
-    fit_options.threads = options.threads;
-    const GaussianFit fit = fit_gaussians<d>(sampled, points, values, sigma, fit_options);
+    const GaussianFit fit = fit_gaussians<d>(sampled, points, numbers, sigma, options.fit);
     coefficients = fit.coefficients;
-    about += fmt::format(
-        ", fitted to their {} by {}: residual {:.1e}",
-        options.kind == GaussianKind::velocity ? "velocities" : "vorticities",
-        fit.iterations > 0 ? fmt::format("{} in {} iterations", fit.solver, fit.iterations) : fit.solver, fit.residual);
+    model.about +=
+        fmt::format(", fitted to their {} by {}: residual {:.1e}, samples follow from the others to {:.1e}",
+                    options.kind == GaussianKind::velocity ? "velocities" : "vorticities",
+                    fit.iterations > 0 ? fmt::format("{} in {} iterations", fit.solver, fit.iterations) : fit.solver,
+                    fit.residual, fit.left_out);
     if (options.fit.regularisation > 0)
-      about += fmt::format(", regularisation {:.1e}, samples missed by up to {:.1e} of the largest",
-                           options.fit.regularisation, fit.misfit);
+      model.about += fmt::format(", regularisation {:.1e}, samples missed by up to {:.1e} of the largest",
+                                 options.fit.regularisation, fit.misfit);
   }
-  about += "; div u = 0";
+  model.about += "; div u = 0";
+  model.term_tolerance =
+      term_tolerance<d>(model.matrix, points, coefficients, sigma, options.tolerance, options.fit.threads);
+  const Eigen::MatrixXd by_point = coefficients.transpose();
+  model.coefficients.assign(by_point.data(), by_point.data() + by_point.size());
+  return model;
+}
 
-  GaussianSumOptions sum_options{.tolerance = 0.1,
-                                 .derivative_order = matrix == GaussianMatrix::curl ? 1 : 2,
-                                 .threads = options.threads,
-                                 .expected_targets = options.expected_targets};
-  const double largest = largest_velocity<d>(matrix, points, coefficients, sigma, options.threads);
-  const double unit_error =
-      GaussianSum<d>(points, coefficients, sigma, {.method = fgtd::Method::direct}).unit_error(matrix);
-  if (unit_error > 0) {
-    const double wanted = options.tolerance * largest / unit_error;
-    if (!(wanted >= fgtd::smallest_tolerance))
-      throw InputError(
-          fmt::format("the Gaussians cancel: together they are {:.1e} times smaller than they could be, so a tolerance "
-                      "of {:.0e} of the "
-                      "velocity cannot be kept, {:.0e} can; lower width, set regularisation, or raise tolerance",
-                      unit_error / largest, options.tolerance, fgtd::smallest_tolerance * unit_error / largest));
-    sum_options.tolerance = std::min(wanted, 0.1);
+template <int d>
+std::unique_ptr<VelocityField> make_field(const GaussianModel& model, std::size_t expected_targets, int threads) {
+  const fgtd::Points<d> points = points_of<d>(model.positions);
+  const GaussianSumOptions options{.tolerance = model.term_tolerance,
+                                   .derivative_order = model.matrix == GaussianMatrix::curl ? 1 : 2,
+                                   .threads = threads,
+                                   .expected_targets = expected_targets};
+  return std::make_unique<GaussianVelocity<d>>(
+      model.matrix,
+      GaussianSum<d>(points, rows_of(model.coefficients, points.cols()), 1 / (model.width * model.width), options),
+      model.about);
+}
+
+// Errors of fgtd in the words of the case file.
+template <class Work>
+auto told_for_the_case(const Work& work) {
+  try {
+    return work();
+  } catch (const fgtd::Error& error) {
+    throw InputError(std::string("the Gaussians of the velocity cannot be summed: ") + error.what() +
+                     "; check width and the coordinates of the points");
   }
-  return std::make_unique<GaussianVelocity<d>>(matrix, GaussianSum<d>(points, coefficients, sigma, sum_options), about);
 }
 
 }  // namespace
@@ -126,15 +173,37 @@ double default_gaussian_width(int dimension, const std::vector<double>& position
   return longest > 0 ? 2 * longest / count : 1;  // points on a line or plane; one point
 }
 
-std::unique_ptr<VelocityField> make_gaussian_velocity(int dimension, const std::vector<double>& positions,
-                                                      const std::vector<double>& values,
-                                                      const GaussianVelocityOptions& options) {
-  try {
-    return dimension == 2 ? make<2>(positions, values, options) : make<3>(positions, values, options);
-  } catch (const fgtd::Error& error) {
-    throw InputError(std::string("the Gaussians of the velocity cannot be summed: ") + error.what() +
-                     "; check width and the coordinates of the points");
+std::vector<std::string> gaussian_columns_of(GaussianKind kind, int dimension) {
+  const std::vector<std::string> axes =
+      dimension == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
+  std::vector<std::string> names = axes;
+  if (kind == GaussianKind::velocity) {
+    for (const char* component : {"u", "v", "w"})
+      if (names.size() < 2 * axes.size()) names.emplace_back(component);
+    return names;
   }
+  const std::string letter = kind == GaussianKind::vorticity ? "omega" : "gamma";
+  if (gaussian_values(kind, dimension) == 1) {
+    names.push_back(letter);
+  } else {
+    for (const std::string& axis : axes) names.push_back(letter + "_" + axis);
+  }
+  return names;
+}
+
+GaussianModel make_gaussian_model(int dimension, const std::vector<double>& positions,
+                                  const std::vector<double>& values, const GaussianModelOptions& options) {
+  return told_for_the_case([&] {
+    return dimension == 2 ? make_model<2>(positions, values, options) : make_model<3>(positions, values, options);
+  });
+}
+
+std::unique_ptr<VelocityField> make_gaussian_velocity(const GaussianModel& model, std::size_t expected_targets,
+                                                      int threads) {
+  return told_for_the_case([&] {
+    return model.dimension == 2 ? make_field<2>(model, expected_targets, threads)
+                                : make_field<3>(model, expected_targets, threads);
+  });
 }
 
 }  // namespace gaussdrift

@@ -2,9 +2,11 @@
 // scattered samples of a velocity or of a vorticity. method.md, section 7.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "field/divergence_free_fit.hpp"
@@ -20,26 +22,49 @@ enum class GaussianKind {
   curl_coefficients,  // Gamma_k of the curl form
 };
 
+/// Are the numbers samples, to which coefficients are fitted?
+constexpr bool is_fitted(GaussianKind kind) {
+  return kind == GaussianKind::velocity || kind == GaussianKind::vorticity;
+}
+
 /// Numbers a point: `dimension`, but 1 in two dimensions for a vorticity and the coefficients of the curl form.
 int gaussian_values(GaussianKind kind, int dimension);
 
-struct GaussianVelocityOptions {
+constexpr std::array<std::string_view, 4> gaussian_kind_names{"velocity", "vorticity", "coefficients",
+                                                              "curl-coefficients"};
+
+/// Names of the columns of a table of points: coordinates, then the numbers beside them.
+std::vector<std::string> gaussian_columns_of(GaussianKind kind, int dimension);
+
+struct GaussianModelOptions {
   GaussianKind kind = GaussianKind::velocity;
   double width = 0;         // of phi = exp(-r^2 / width^2), sigma = 1/width^2; 0: default_gaussian_width
   double tolerance = 1e-8;  // of the velocity, relative to the largest at the points
   GaussianFitOptions fit = {};
-  int threads = 0;                   // 0: all
-  std::size_t expected_targets = 0;  // for the choice of method only; 0: as many as points
+};
+
+/// A field that is ready to be evaluated: points, coefficients, and what is known of them. Plain data.
+struct GaussianModel {
+  int dimension = 2;
+  GaussianMatrix matrix = GaussianMatrix::field;  // or curl
+  double width = 1;
+  double term_tolerance = 1e-8;      // of fgtd, so that the field keeps its tolerance
+  std::vector<double> positions;     // [point][dimension]
+  std::vector<double> coefficients;  // [point][components]
+  std::string about;                 // one line for people
 };
 
 /// Twice the average spacing (V/N)^(1/d) of the points in their bounding box: wide enough that the Gaussians overlap,
 /// narrow enough that the fit is well-conditioned.
 double default_gaussian_width(int dimension, const std::vector<double>& positions);
 
-/// positions  [point][dimension];  values  [point][gaussian_values]
+/// positions  [point][dimension], at least one;  values  [point][gaussian_values]
 /// Throws InputError if the fit fails, or if the Gaussians cancel so far that the tolerance cannot be kept.
-std::unique_ptr<VelocityField> make_gaussian_velocity(int dimension, const std::vector<double>& positions,
-                                                      const std::vector<double>& values,
-                                                      const GaussianVelocityOptions& options);
+GaussianModel make_gaussian_model(int dimension, const std::vector<double>& positions,
+                                  const std::vector<double>& values, const GaussianModelOptions& options);
+
+/// expected_targets: points that are evaluated at once, for the choice of method only. threads: 0 for all.
+std::unique_ptr<VelocityField> make_gaussian_velocity(const GaussianModel& model, std::size_t expected_targets,
+                                                      int threads);
 
 }  // namespace gaussdrift

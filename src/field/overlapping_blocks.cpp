@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -92,11 +94,14 @@ template <int d>
 OverlappingBlocks<d>::OverlappingBlocks(GaussianMatrix matrix, const fgtd::Points<d>& points, double sigma,
                                         double shift, int threads, std::size_t memory_limit)
     : count_(points.cols()), columns_(gaussian_columns(matrix, d)), threads_(threads) {
-  std::vector<Index> order(static_cast<std::size_t>(count_));
+  const bool one = count_ * columns_ <= dense_unknowns;
+  const auto all = static_cast<std::size_t>(count_);
+  std::vector<Index> order(all);
   std::iota(order.begin(), order.end(), Index{0});
   std::vector<std::vector<Index>> parts;
-  bisect<d>(points, order.begin(), order.end(), core, parts);
-  const double unknowns = static_cast<double>(block_points) * static_cast<double>(columns_);
+  bisect<d>(points, order.begin(), order.end(), one ? all : core, parts);
+  const std::size_t wanted = one ? all : block_points;
+  const double unknowns = static_cast<double>(wanted) * static_cast<double>(columns_);
   const double bytes = 8.0 * unknowns * unknowns * static_cast<double>(parts.size());
   if (bytes > static_cast<double>(memory_limit))
     throw InputError(
@@ -105,32 +110,32 @@ OverlappingBlocks<d>::OverlappingBlocks(GaussianMatrix matrix, const fgtd::Point
   blocks_.resize(parts.size());
   base::parallel_for(parts.size(), threads, [&](std::size_t b) {
     Block& block = blocks_[b];
-    block.points = with_neighbours<d>(points, parts[b], block_points);
+    block.points = with_neighbours<d>(points, parts[b], wanted);
+    for (const Index k : parts[b]) {
+      const auto place = std::lower_bound(block.points.begin(), block.points.end(), k);
+      block.own.push_back(static_cast<Index>(place - block.points.begin()));
+    }
     fgtd::Points<d> some(d, static_cast<Index>(block.points.size()));
     for (std::size_t i = 0; i < block.points.size(); ++i) some.col(static_cast<Index>(i)) = points.col(block.points[i]);
-    Eigen::MatrixXd dense = dense_gaussian_matrix<d>(matrix, some, sigma, shift);
-    // A block may be singular to rounding where the whole fit, to a tolerance, is not: then its diagonal is raised.
-    const double diagonal = dense(0, 0);
-    double raise = 1e-14 * diagonal;
-    for (block.factors.compute(dense); block.factors.info() != Eigen::Success; block.factors.compute(dense)) {
-      dense.diagonal().array() += raise;
-      raise *= 10;
-      if (!(raise < diagonal)) throw InputError("the samples give no definite matrix");
-    }
+    block.factors.compute(dense_gaussian_matrix<d>(matrix, some, sigma, shift));
   });
+}
+
+template <int d>
+Eigen::VectorXd OverlappingBlocks<d>::gathered(const Block& block, const Eigen::VectorXd& x) const {
+  const auto size = static_cast<Index>(block.points.size());
+  Eigen::VectorXd part(size * columns_);
+  for (Index k = 0; k < columns_; ++k)
+    for (Index i = 0; i < size; ++i) part[k * size + i] = x[k * count_ + block.points[static_cast<std::size_t>(i)]];
+  return part;
 }
 
 template <int d>
 Eigen::VectorXd OverlappingBlocks<d>::solve(const Eigen::VectorXd& x) const {
   std::vector<Eigen::VectorXd> parts(blocks_.size());
   base::parallel_for(blocks_.size(), threads_, [&](std::size_t b) {
-    const Block& block = blocks_[b];
-    const auto size = static_cast<Index>(block.points.size());
-    Eigen::VectorXd& part = parts[b];
-    part.resize(size * columns_);
-    for (Index k = 0; k < columns_; ++k)
-      for (Index i = 0; i < size; ++i) part[k * size + i] = x[k * count_ + block.points[static_cast<std::size_t>(i)]];
-    block.factors.solveInPlace(part);
+    parts[b] = gathered(blocks_[b], x);
+    blocks_[b].factors.solveInPlace(parts[b]);
   });
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(x.size());
   for (std::size_t b = 0; b < blocks_.size(); ++b) {  // in this order for any number of threads
@@ -140,6 +145,40 @@ Eigen::VectorXd OverlappingBlocks<d>::solve(const Eigen::VectorXd& x) const {
         sum[k * count_ + blocks_[b].points[static_cast<std::size_t>(i)]] += parts[b][k * size + i];
   }
   return sum;
+}
+
+template <int d>
+double OverlappingBlocks<d>::reciprocal_condition() const {
+  double worst = 1;
+  for (const Block& block : blocks_)
+    worst = std::min(worst, block.factors.info() == Eigen::Success ? block.factors.rcond() : 0.0);
+  return worst;
+}
+
+// Without sample i the others predict it with the error B_i^-1 (A^-1 u)_i, B_i the diagonal block of A^-1 that belongs
+// to i: changing u_i by that error makes the coefficients of i zero.
+template <int d>
+double OverlappingBlocks<d>::left_out_error(const Eigen::VectorXd& samples) const {
+  constexpr std::size_t most = 24;
+  const std::size_t looked_at = std::min(most, blocks_.size());
+  std::vector<double> squares(looked_at);
+  std::vector<std::size_t> numbers(looked_at);
+  base::parallel_for(looked_at, threads_, [&](std::size_t n) {
+    const Block& block = blocks_[n * blocks_.size() / looked_at];
+    const auto size = static_cast<Index>(block.points.size());
+    const Eigen::VectorXd gamma = block.factors.solve(gathered(block, samples));
+    const Eigen::MatrixXd inverse = block.factors.solve(Eigen::MatrixXd::Identity(gamma.size(), gamma.size()));
+    for (const Index i : block.own) {
+      const auto components = Eigen::seqN(i, columns_, size);
+      const Eigen::MatrixXd own = inverse(components, components);
+      const Eigen::VectorXd own_gamma = gamma(components);
+      squares[n] += own.llt().solve(own_gamma).squaredNorm();
+    }
+    numbers[n] = block.own.size();
+  });
+  const double total = std::accumulate(squares.begin(), squares.end(), 0.0);
+  const auto number = static_cast<double>(std::accumulate(numbers.begin(), numbers.end(), std::size_t{0}));
+  return std::sqrt(total / number) / (samples.norm() / std::sqrt(static_cast<double>(count_)));
 }
 
 template class OverlappingBlocks<2>;

@@ -76,6 +76,10 @@ class Parser {
  public:
   Parser(std::string_view text, const std::string& name, PointsRole role, std::size_t memory_limit)
       : text_(text), name_(name), role_(role), memory_limit_(memory_limit) {}
+  /// A table of these columns instead; all are read as coordinates.
+  Parser(std::string_view text, const std::string& name, const std::vector<std::string>& expected,
+         std::size_t memory_limit)
+      : text_(text), name_(name), role_(PointsRole::targets), expected_(expected), memory_limit_(memory_limit) {}
 
   PointsTable parse() {
     check_encoding();
@@ -120,6 +124,11 @@ class Parser {
       if (comma == std::string_view::npos) break;
       begin = comma + 1;
     }
+    for (const std::string& wanted : expected_)
+      if (std::find(header_.names.begin(), header_.names.end(), wanted) == header_.names.end())
+        fail(1, 1,
+             fmt::format("there is no column \"{}\" among {}; the columns must be {}", wanted,
+                         fmt::join(header_.names, ", "), fmt::join(expected_, ",")));
     if (role_ == PointsRole::sources && header_.weight == Header::none) {
       const auto meant = base::suggest(weight_name, header_.names);
       fail(1, 1,
@@ -145,7 +154,13 @@ class Parser {
       fail(1, column, fmt::format("{} is not the name of a column; the file must be plain text", quoted(name)));
     if (std::find(header_.names.begin(), header_.names.end(), name) != header_.names.end())
       fail(1, column, fmt::format("column {} is there twice", quoted(name)));
-    if (name == weight_name) {
+    if (!expected_.empty()) {
+      if (std::find(expected_.begin(), expected_.end(), name) == expected_.end())
+        fail(1, column,
+             fmt::format("column {} is not one of those that are wanted; the columns must be {}", quoted(name),
+                         fmt::join(expected_, ",")));
+      table_.coordinates.emplace_back(name);
+    } else if (name == weight_name) {
       if (role_ == PointsRole::targets) fail(1, column, "targets have coordinates only; remove the column \"weight\"");
       header_.weight = header_.names.size();
     } else {
@@ -211,6 +226,7 @@ class Parser {
   std::string_view text_;
   const std::string& name_;
   PointsRole role_;
+  std::vector<std::string> expected_;
   std::size_t memory_limit_;
   Header header_;
   PointsTable table_;
@@ -261,6 +277,25 @@ PointsTable parse_points_table(std::string_view text, const std::string& name, P
 
 PointsTable read_points_table(const fs::path& file, PointsRole role, std::size_t memory_limit) {
   return parse_points_table(read_text(file, memory_limit), file.string(), role, memory_limit);
+}
+
+std::vector<double> parse_named_columns(std::string_view text, const std::string& name,
+                                        const std::vector<std::string>& names, std::size_t memory_limit) {
+  const PointsTable table = Parser(text, name, names, memory_limit).parse();
+  const std::size_t columns = names.size();
+  std::vector<std::size_t> from(columns);
+  for (std::size_t k = 0; k < columns; ++k)
+    from[k] = static_cast<std::size_t>(std::find(table.coordinates.begin(), table.coordinates.end(), names[k]) -
+                                       table.coordinates.begin());
+  std::vector<double> rows(table.positions.size());
+  for (std::size_t row = 0; row < rows.size(); row += columns)
+    for (std::size_t k = 0; k < columns; ++k) rows[row + k] = table.positions[row + from[k]];
+  return rows;
+}
+
+std::vector<double> read_named_columns(const fs::path& file, const std::vector<std::string>& names,
+                                       std::size_t memory_limit) {
+  return parse_named_columns(read_text(file, memory_limit), file.string(), names, memory_limit);
 }
 
 }  // namespace gaussdrift::input

@@ -30,4 +30,13 @@ PointsTable read_points_table(const std::filesystem::path& file, PointsRole role
 PointsTable parse_points_table(std::string_view text, const std::string& name, PointsRole role,
                                std::size_t memory_limit);
 
+/// A table of exactly these columns, in any order in the file: [row][column], in the order of `names`.
+/// Throws as read_points_table() does.
+std::vector<double> read_named_columns(const std::filesystem::path& file, const std::vector<std::string>& names,
+                                       std::size_t memory_limit);
+
+/// The same from a text; `name` stands for the file in messages.
+std::vector<double> parse_named_columns(std::string_view text, const std::string& name,
+                                        const std::vector<std::string>& names, std::size_t memory_limit);
+
 }  // namespace gaussdrift::input

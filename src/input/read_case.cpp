@@ -16,10 +16,12 @@
 #include "base/lattice.hpp"
 #include "base/suggest.hpp"
 #include "expression/expression.hpp"
+#include "field/gaussian_velocity.hpp"
 #include "field/named_fields.hpp"
 #include "field/shapes.hpp"
 #include "input/diagnostics.hpp"
 #include "input/document.hpp"
+#include "input/gaussian_table.hpp"
 #include "input/registry.hpp"
 #include "read/grid_file.hpp"
 
@@ -70,8 +72,8 @@ struct Parameter {
 /// Turns the tree into a Case. Every read_ function complains about everything wrong in its table and carries on.
 class Reader {
  public:
-  Reader(const Value& root, const Source& source, Diagnostics& diagnostics, std::filesystem::path folder)
-      : root_(root), source_(source), diagnostics_(diagnostics), folder_(std::move(folder)) {}
+  Reader(const Value& root, const Source& source, Diagnostics& diagnostics, std::filesystem::path folder, int threads)
+      : root_(root), source_(source), diagnostics_(diagnostics), folder_(std::move(folder)), threads_(threads) {}
 
   Case read() {
     Case scene;
@@ -677,6 +679,7 @@ class Reader {
     each_part("velocity", [&](std::string_view kind, const Value& value) {
       if (kind == "u") velocity.emplace_back(expression_velocity(value));
       if (kind == "file") velocity.emplace_back(grid_file<FileVelocity>("velocity", value, dimension_, 3));
+      if (kind == "gaussians") velocity.emplace_back(gaussians(value));
       if (kind == "streamfunction") velocity.emplace_back(streamfunction(value));
       if (kind == "field")
         velocity.emplace_back(NamedVelocity{
@@ -703,6 +706,44 @@ class Reader {
       grid_files_.push_back({value.place, spec.data});
     } catch (const read::GridFileError& error) {
       diagnostics_.error(value.place, error.what(), error.remedy());
+    }
+    return spec;
+  }
+
+  /// Divergence-free Gaussians, read and fitted at once so that everything wrong with them has its place in the case
+  /// file.
+  GaussianVelocitySpec gaussians(const Value& value) {
+    const int errors_before = diagnostics_.errors();
+    GaussianVelocitySpec spec;
+    spec.kind = choice("velocity", "kind");
+    const auto named = std::find(gaussian_kind_names.begin(), gaussian_kind_names.end(), spec.kind);
+    GaussianModelOptions options;
+    options.kind = static_cast<GaussianKind>(named - gaussian_kind_names.begin());
+    options.fit.threads = threads_;
+    if (const auto width = number("velocity", "width")) options.width = width->number;
+    if (const auto tolerance = number("velocity", "tolerance")) spec.tolerance = options.tolerance = tolerance->number;
+    if (is_fitted(options.kind)) {
+      if (const auto residual = number("velocity", "residual")) spec.residual = options.fit.residual = residual->number;
+      if (const auto lambda = number("velocity", "regularisation"))
+        spec.regularisation = options.fit.regularisation = lambda->number;
+    } else {
+      for (const char* key : {"residual", "regularisation"})
+        if (const Entry* entry = find("velocity", key))
+          diagnostics_.error(entry->place,
+                             fmt::format("\"{}\" is for fits to samples; kind = \"{}\" takes coefficients as "
+                                         "they are",
+                                         key, spec.kind));
+    }
+    if (value.kind != Kind::text)
+      wrong_type(value, label_of(find_key("velocity", "gaussians")), "the name of a file in a string");
+    if (!dimension_ || diagnostics_.errors() > errors_before) return spec;
+    spec.file = std::filesystem::absolute(folder_ / value.text).lexically_normal();
+    try {
+      const GaussianTable table = read_gaussian_table(spec.file, options.kind, dimension_);
+      spec.model = std::make_shared<const GaussianModel>(
+          make_gaussian_model(dimension_, table.positions, table.values, options));
+    } catch (const Error& error) {
+      diagnostics_.error(value.place, error.what());
     }
     return spec;
   }
@@ -1094,6 +1135,7 @@ class Reader {
   std::string part_label_;
   const Value* part_ = nullptr;
   const std::filesystem::path folder_;  // of the case file
+  const int threads_;
   std::vector<std::pair<Place, std::shared_ptr<const GridData>>> grid_files_;
   std::optional<double> end_;
   std::vector<std::string> meant_;  // tables and keys that a misspelt name was taken for: not missing, then
@@ -1102,12 +1144,12 @@ class Reader {
 }  // namespace
 
 ReadResult parse_case(const std::string& text, const std::filesystem::path& file,
-                      const std::vector<std::string>& overrides) {
+                      const std::vector<std::string>& overrides, int threads) {
   const Source source(file.string(), text, overrides);
   Diagnostics diagnostics(source);
   const auto root = read_document(text, source, diagnostics);
   ReadResult result;
-  if (root) result.scene = Reader(*root, source, diagnostics, file.parent_path()).read();
+  if (root) result.scene = Reader(*root, source, diagnostics, file.parent_path(), threads).read();
   if (diagnostics.errors() > 0) throw CaseError(diagnostics.error_text(), diagnostics.errors());
   result.scene.name = file.stem().string();
   result.scene.file = file;
@@ -1116,7 +1158,7 @@ ReadResult parse_case(const std::string& text, const std::filesystem::path& file
   return result;
 }
 
-ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides, int threads) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw FileError(fmt::format("{} is a folder, not a case file", file.string()));
@@ -1126,7 +1168,7 @@ ReadResult read_case(const std::filesystem::path& file, const std::vector<std::s
                                 std::filesystem::exists(file, error) ? "no permission" : "there is no such file"));
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (stream.bad()) throw FileError(fmt::format("the case file {} cannot be read", file.string()));
-  return parse_case(text, file, overrides);
+  return parse_case(text, file, overrides, threads);
 }
 
 }  // namespace gaussdrift::input

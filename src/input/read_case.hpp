@@ -26,12 +26,14 @@ struct ReadResult {
 };
 
 /// Reads and validates. `overrides` are "key=value" with dotted keys as in --set; values have the types of the file.
-/// Throws FileError (the file cannot be read) or CaseError with all errors of the file in one pass.
-ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+/// Throws FileError (the file cannot be read) or CaseError with all errors of the file in one pass. Tables and data that
+/// the case names are read as well, and fields fitted to samples on `threads` threads (0: all).
+ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
+                     int threads = 0);
 
 /// The same from a text; `file` names it in messages.
 ReadResult parse_case(const std::string& text, const std::filesystem::path& file,
-                      const std::vector<std::string>& overrides = {});
+                      const std::vector<std::string>& overrides = {}, int threads = 0);
 
 /// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case, but for parameters
 /// that only stood in numbers, which are written as values.

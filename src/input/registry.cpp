@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "expression/expression.hpp"
+#include "field/gaussian_velocity.hpp"
 #include "field/grid_data.hpp"
 #include "field/named_fields.hpp"
 #include "field/shapes.hpp"
@@ -38,7 +39,7 @@ const std::vector<Table>& tables() {
       {.name = "velocity",
        .required = true,
        .meaning = "the prescribed velocity u; several `[[velocity]]` add up",
-       .kinds = {"u", "streamfunction", "field", "file"}},
+       .kinds = {"u", "streamfunction", "field", "file", "gaussians"}},
       {.name = "density",
        .required = true,
        .meaning = "the density rho_0 at t = 0; several `[[density]]` add up",
@@ -161,6 +162,54 @@ std::vector<Key> written_keys() {
        .choices = {outside_names.begin(), outside_names.end()},
        .meaning = "outside the grid: an error, the value of the nearest point of its surface, or zero",
        .with = "file"},
+
+      {.table = "velocity",
+       .name = "gaussians",
+       .meaning =
+           "a table (CSV) of scattered points: the field is a sum of divergence-free Gaussians there; relative to "
+           "the case file"},
+      {.table = "velocity",
+       .name = "kind",
+       .type = Type::choice,
+       .fallback = "velocity",
+       .choices = {gaussian_kind_names.begin(), gaussian_kind_names.end()},
+       .meaning =
+           "what the table has beside the coordinates `x,y[,z]`: samples of the velocity `u,v[,w]`, to which the "
+           "field is fitted; samples of the vorticity (`omega`; in 3D `omega_x,omega_y,omega_z`), to which its "
+           "curl is fitted; or coefficients of either (`gamma_x,gamma_y[,gamma_z]`; of the curl form in 2D "
+           "`gamma`)",
+       .with = "gaussians"},
+      {.table = "velocity",
+       .name = "width",
+       .type = Type::number,
+       .fallback = "",
+       .range = positive,
+       .unit = "length",
+       .symbol = "1/sqrt(sigma)",
+       .meaning = "of the Gaussians exp(-r^2/width^2); twice the average spacing of the points if it is left out",
+       .with = "gaussians"},
+      {.table = "velocity",
+       .name = "residual",
+       .type = Type::number,
+       .fallback = "1e-6",
+       .range = {1e-12, 1, false, true},
+       .meaning = "of a fit: what is left of the samples, in the Euclidean norm",
+       .with = "gaussians"},
+      {.table = "velocity",
+       .name = "regularisation",
+       .type = Type::number,
+       .fallback = "0",
+       .range = {0, infinity},
+       .meaning = "of a fit: added to the diagonal of its matrix, relative to that; 0 interpolates the samples, more "
+                  "smooths them",
+       .with = "gaussians"},
+      {.table = "velocity",
+       .name = "tolerance",
+       .type = Type::number,
+       .fallback = "1e-8",
+       .range = {1e-14, 1, false, true},
+       .meaning = "of the sum of the Gaussians, relative to the largest velocity at the points",
+       .with = "gaussians"},
 
       {.table = "density",
        .name = "expression",

@@ -79,6 +79,14 @@ class Writer {
     entry("interpolation", written(spec.interpolation));
     entry("outside", written(spec.outside));
   }
+  void gaussians(const GaussianVelocitySpec& spec) {
+    entry("gaussians", written(spec.file.string()));
+    entry("kind", written(spec.kind));
+    entry("width", written(spec.model->width));
+    if (spec.residual > 0) entry("residual", written(spec.residual));
+    if (spec.residual > 0) entry("regularisation", written(spec.regularisation));
+    entry("tolerance", written(spec.tolerance));
+  }
   const std::string& text() const { return text_; }
 
  private:
@@ -131,6 +139,8 @@ std::string resolved_toml(const Case& scene) {
       out.entry("streamfunction", written(stream->psi));
     } else if (const auto* grid = std::get_if<FileVelocity>(&part)) {
       out.file(*grid);
+    } else if (const auto* gaussians = std::get_if<GaussianVelocitySpec>(&part)) {
+      out.gaussians(*gaussians);
     } else if (const auto* named = std::get_if<NamedVelocity>(&part)) {
       out.entry("field", written(named->field));
       out.arguments("velocity", named->field, named->arguments);

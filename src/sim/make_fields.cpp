@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/lattice.hpp"
+#include "field/gaussian_velocity.hpp"
 #include "field/gridded.hpp"
 #include "field/named_fields.hpp"
 #include "field/shapes.hpp"
@@ -16,15 +18,15 @@ namespace {
 
 Box box_of(const Domain& domain) { return {domain.dimension, domain.min, domain.max}; }
 
-std::unique_ptr<VelocityField> make_part(const ExpressionVelocity& spec, const Case& description) {
+std::unique_ptr<VelocityField> make_part(const ExpressionVelocity& spec, const Case& description, int /*threads*/) {
   return std::make_unique<ExpressionField>(spec.components, description.params);
 }
 
-std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocity& spec, const Case& description) {
+std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocity& spec, const Case& description, int /*threads*/) {
   return std::make_unique<StreamfunctionField>(spec.psi, description.params);
 }
 
-std::unique_ptr<VelocityField> make_part(const NamedVelocity& spec, const Case& description) {
+std::unique_ptr<VelocityField> make_part(const NamedVelocity& spec, const Case& description, int /*threads*/) {
   return make_named_field(spec.field, box_of(description.domain), spec.arguments);
 }
 
@@ -40,41 +42,47 @@ GridInterpolator interpolator(const FileSpec& spec) {
           named_choice<Outside>(outside_names, spec.outside)};
 }
 
-std::unique_ptr<VelocityField> make_part(const FileVelocity& spec, const Case& /*description*/) {
+std::unique_ptr<VelocityField> make_part(const FileVelocity& spec, const Case& /*description*/, int /*threads*/) {
   return std::make_unique<GriddedVelocity>(interpolator(spec));
 }
 
-std::unique_ptr<InitialDensity> make_part(const FileDensity& spec, const Case& /*description*/) {
+std::unique_ptr<VelocityField> make_part(const GaussianVelocitySpec& spec, const Case& description, int threads) {
+  const Domain& domain = description.domain;
+  const Lattice seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
+  return make_gaussian_velocity(*spec.model, seeding.size(), threads);
+}
+
+std::unique_ptr<InitialDensity> make_part(const FileDensity& spec, const Case& /*description*/, int /*threads*/) {
   return std::make_unique<GriddedDensity>(interpolator(spec));
 }
 
-std::unique_ptr<InitialDensity> make_part(const ExpressionDensity& spec, const Case& description) {
+std::unique_ptr<InitialDensity> make_part(const ExpressionDensity& spec, const Case& description, int /*threads*/) {
   return std::make_unique<WrittenDensity>(spec.text, description.domain.dimension, description.params);
 }
 
-std::unique_ptr<InitialDensity> make_part(const ShapeDensity& spec, const Case& description) {
+std::unique_ptr<InitialDensity> make_part(const ShapeDensity& spec, const Case& description, int /*threads*/) {
   const NamedShape& shape = find_named_shape(spec.shape);
   return shape.make(description.domain.dimension, complete(shape.about, spec.arguments, box_of(description.domain)));
 }
 
 /// The parts of a case; Sum adds several up.
 template <class Sum, class Part, class Spec>
-std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& description) {
+std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& description, int threads) {
   std::vector<std::unique_ptr<Part>> parts;
   for (const Spec& spec : specs)
-    parts.push_back(std::visit([&](const auto& one) { return make_part(one, description); }, spec));
+    parts.push_back(std::visit([&](const auto& one) { return make_part(one, description, threads); }, spec));
   if (parts.size() == 1) return std::move(parts.front());
   return std::make_unique<Sum>(std::move(parts));
 }
 
 }  // namespace
 
-std::unique_ptr<VelocityField> make_velocity(const Case& description) {
-  return make_sum<SumField, VelocityField>(description.velocity, description);
+std::unique_ptr<VelocityField> make_velocity(const Case& description, int threads) {
+  return make_sum<SumField, VelocityField>(description.velocity, description, threads);
 }
 
 std::unique_ptr<InitialDensity> make_density(const Case& description) {
-  return make_sum<SumDensity, InitialDensity>(description.density, description);
+  return make_sum<SumDensity, InitialDensity>(description.density, description, 1);
 }
 
 }  // namespace gaussdrift

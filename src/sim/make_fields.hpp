@@ -10,7 +10,8 @@
 namespace gaussdrift {
 
 /// The sum of all [[velocity]]. The case must be valid, as `input` leaves it.
-std::unique_ptr<VelocityField> make_velocity(const Case& description);
+/// threads: of fields that are evaluated best for all points at once; 0 for all.
+std::unique_ptr<VelocityField> make_velocity(const Case& description, int threads = 0);
 
 /// The sum of all [[density]].
 std::unique_ptr<InitialDensity> make_density(const Case& description);

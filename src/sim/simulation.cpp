@@ -77,10 +77,10 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
 
 }  // namespace
 
-Scene make_scene(const Case& description) {
+Scene make_scene(const Case& description, int threads) {
   Scene scene;
   const Domain& domain = description.domain;
-  scene.velocity = make_velocity(description);
+  scene.velocity = make_velocity(description, threads);
   scene.density = make_density(description);
   if (const auto& reaction = description.effects.reaction)
     scene.reaction_rate = std::make_unique<WrittenScalar>(reaction->rate, domain.dimension, description.params);
@@ -142,7 +142,7 @@ std::size_t total_steps(const Case& description) {
 Simulation::Simulation(const Case& description, int threads)
     : case_(description),
       threads_(base::resolve_threads(threads)),
-      scene_(make_scene(case_)),
+      scene_(make_scene(case_, threads_)),
       carrier_(case_, scene_, threads_),
       reference_(make_reference(case_, scene_, threads_)) {}
 

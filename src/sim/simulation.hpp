@@ -38,7 +38,8 @@ struct Scene {
 /// the density resolves.
 inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius; }
 
-Scene make_scene(const Case& description);
+/// threads: see make_velocity().
+Scene make_scene(const Case& description, int threads = 0);
 
 /// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.
 std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads);

@@ -1,0 +1,60 @@
+#include "input/gaussian_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <compare>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "input/points_table.hpp"
+
+namespace gaussdrift::input {
+
+namespace {
+
+// A fit to two samples at one place has no solution, or no meaning. Line of row k: a header stands before, and blank
+// lines only behind all rows.
+void check_distinct(const std::vector<double>& rows, std::size_t columns, std::size_t dimension,
+                    const std::string& name) {
+  std::vector<std::size_t> order(rows.size() / columns);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto row = [&](std::size_t k) { return rows.begin() + static_cast<std::ptrdiff_t>(k * columns); };
+  const auto length = static_cast<std::ptrdiff_t>(dimension);
+  const auto compare = [&](std::size_t a, std::size_t b) {
+    return std::lexicographical_compare_three_way(row(a), row(a) + length, row(b), row(b) + length);
+  };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto places = compare(a, b);
+    return places != 0 ? places < 0 : a < b;
+  });
+  std::size_t first = rows.size(), second = first;  // the pair that the file tells first
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (compare(order[i - 1], order[i]) == 0 && order[i] < second) first = order[i - 1], second = order[i];
+  if (second == rows.size()) return;
+  const std::vector<double> place(row(first), row(first) + length);
+  const bool same = std::equal(row(first), row(first) + static_cast<std::ptrdiff_t>(columns), row(second));
+  throw InputError(fmt::format(
+      "{}:{}:1: the sample at ({:g}) stands in line {} already{}; no field can be fitted to both: remove one", name,
+      second + 2, fmt::join(place, ", "), first + 2, same ? "" : ", with different values"));
+}
+
+}  // namespace
+
+GaussianTable read_gaussian_table(const std::filesystem::path& file, GaussianKind kind, int dimension) {
+  constexpr std::size_t memory_limit = std::size_t{2} << 30;
+  const std::vector<std::string> names = gaussian_columns_of(kind, dimension);
+  const std::vector<double> rows = read_named_columns(file, names, memory_limit);
+  const std::size_t columns = names.size(), d = static_cast<std::size_t>(dimension);
+  if (is_fitted(kind)) check_distinct(rows, columns, d, file.string());
+  GaussianTable table;
+  for (std::size_t at = 0; at < rows.size(); at += columns) {
+    const auto row = rows.begin() + static_cast<std::ptrdiff_t>(at);
+    table.positions.insert(table.positions.end(), row, row + dimension);
+    table.values.insert(table.values.end(), row + dimension, row + static_cast<std::ptrdiff_t>(columns));
+  }
+  return table;
+}
+
+}  // namespace gaussdrift::input
