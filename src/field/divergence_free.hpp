@@ -1,4 +1,4 @@
-// Divergence-free fields made of Gaussians [Sch06, ch. 6], method.md, section 7: with phi = exp(-sigma r^2),
+// Divergence-free fields made of Gaussians [Sch06, ch. 6], method.md, section 9: with phi = exp(-sigma r^2),
 //   S(y) = sum_k Phi(y - x_k) Gamma_k,   Phi = grad grad^T phi - Laplacian phi I    [Sch06, 6.3]
 //   u(y) = sum_k grad phi(y - x_k) x Gamma_k,   the velocity whose vorticity is S    [Sch06, 6.2]
 // and their derivatives, by fgtd or, where that is faster, pair by pair.

@@ -1,6 +1,6 @@
 // Coefficients of a divergence-free Gaussian field from scattered samples of velocity or vorticity: the linear system
 // (A + lambda a I) Gamma = samples, A_ij = matrix(x_i - x_j), a = the diagonal of A. A is symmetric and positive
-// definite for distinct points, but the wider the Gaussians the nearer to singular. method.md, section 7.
+// definite for distinct points, but the wider the Gaussians the nearer to singular. method.md, section 9.
 #pragma once
 
 #include <fgtd/fgtd.hpp>

@@ -80,8 +80,16 @@ double term_tolerance(GaussianMatrix matrix, const fgtd::Points<d>& points, cons
   const double unit_error = pairs.unit_error(matrix);
   constexpr double coarsest = 0.1;  // nothing is gained above
   if (unit_error == 0) return coarsest;
-  constexpr std::size_t looked_at = 200;
-  const double largest = pairs.evaluate(matrix, some_of<d>(points, looked_at)).cwiseAbs().maxCoeff();
+  // max |u| from below, at some of the points and beside them: the velocity of a curl is 0 in its middle and largest
+  // where sigma r^2 = 1/2.
+  constexpr std::size_t looked_at = 100;
+  fgtd::Points<d> places = some_of<d>(points, looked_at);
+  double largest = pairs.evaluate(matrix, places).cwiseAbs().maxCoeff();
+  for (int l = 0; l < d; ++l) {
+    fgtd::Points<d> beside = places;
+    beside.row(l).array() += std::sqrt(0.5 / sigma);
+    largest = std::max(largest, pairs.evaluate(matrix, beside).cwiseAbs().maxCoeff());
+  }
   const double wanted = tolerance * largest / unit_error;
   if (!(wanted >= fgtd::smallest_tolerance))
     throw InputError(fmt::format(

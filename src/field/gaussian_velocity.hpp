@@ -1,5 +1,5 @@
 // Velocity fields made of Gaussians, divergence-free by construction [Sch06, ch. 6]: from coefficients, or fitted to
-// scattered samples of a velocity or of a vorticity. method.md, section 7.
+// scattered samples of a velocity or of a vorticity. method.md, section 9.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ std::vector<std::string> gaussian_columns_of(GaussianKind kind, int dimension);
 struct GaussianModelOptions {
   GaussianKind kind = GaussianKind::velocity;
   double width = 0;         // of phi = exp(-r^2 / width^2), sigma = 1/width^2; 0: default_gaussian_width
-  double tolerance = 1e-8;  // of the velocity, relative to the largest at the points
+  double tolerance = 1e-8;  // of the velocity, relative to the largest at and near the points
   GaussianFitOptions fit = {};
 };
 
