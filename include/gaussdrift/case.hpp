@@ -140,13 +140,22 @@ struct DiffusionSpec {
   enum class Method { core_spreading, particle_exchange };
   double coefficient = 0;  // D
   Method method = Method::core_spreading;
-  double halo = 0;  // width of the particles of weight 0 around the density; 0: from D and time.end
+  double tolerance = 1e-6;  // of particle_exchange: part of the largest density above which a particle has a halo
+};
+
+/// Weights go back to a fresh lattice.
+struct RemeshSpec {
+  int every = 0;         // steps between two; 0: as `stretch` says
+  double stretch = 1.5;  // whenever neighbours are farther apart than so many spacings
+  std::string kernel = "gauss8";
+  double tolerance = 1e-9;  // part of the largest weight below which a node is left out
 };
 
 /// The effects that a case names; what is absent is not constructed.
 struct EffectsSpec {
   std::optional<ReactionSpec> reaction;
   std::optional<DiffusionSpec> diffusion;
+  std::optional<RemeshSpec> remesh;
 };
 
 struct Case {

@@ -23,7 +23,7 @@ std::string CoreSpreading::describe() const {
 }
 
 void CoreSpreading::begin(Particles& particles, double time) {
-  land(particles, time);
+  since_ = time - particles.spread / (4 * coefficient_);
   if (time > 0 || end_ <= 0) return;  // the strain is that of the flow, sampled once
   constexpr std::size_t sampled_particles = 500;
   const int dimension = particles.dimension;
@@ -46,7 +46,9 @@ std::string CoreSpreading::warning() const {
   if (strain_ * end_ <= noticed) return "";
   return fmt::format(
       "core spreading keeps blobs round, but this flow strains at the rate {:.3g} and stretches lengths by up to "
-      "exp({:.3g}) over the run: the spread by diffusion is not deformed with the flow (docs/method.md, section 8.2)",
+      "exp({:.3g}) over the run: the spread by diffusion is not deformed with the flow, unless [effects.remesh] puts "
+      "it "
+      "into the weights often (docs/method.md, section 8.2)",
       strain_, strain_ * end_);
 }
 

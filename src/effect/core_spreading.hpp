@@ -1,6 +1,7 @@
 // Diffusion by core spreading, d_t rho + div(rho u) = D Laplacian rho: every blob is itself a solution of the heat
 // equation, so the square of each Gaussian width grows by 4 D t and weights and paths stay. Exact where the flow only
-// carries and turns; where it strains, blobs stay round that should have been stretched. docs/method.md, section 8.2.
+// carries and turns; where it strains, blobs stay round that should have been stretched, unless [effects.remesh] puts
+// what they have spread into the weights. docs/method.md, section 8.2.
 #pragma once
 
 #include "effect/effect.hpp"
@@ -20,7 +21,7 @@ class CoreSpreading : public Effect {
   std::string conserves() const override { return "every weight"; }
 
   void begin(Particles& particles, double time) override;
-  void land(Particles& particles, double time) override { particles.spread = 4 * coefficient_ * time; }
+  void land(Particles& particles, double time) override { particles.spread = 4 * coefficient_ * (time - since_); }
 
   /// Tells a strain that stretches fluid by more than a tenth over the run.
   std::string warning() const override;
@@ -28,6 +29,7 @@ class CoreSpreading : public Effect {
 
  private:
   double coefficient_, end_, distance_;
+  double since_ = 0;  // blobs had the widths of the case at this time
   const VelocityField& velocity_;
   double strain_ = 0;  // the largest rate at which lengths change, of those sampled
 };

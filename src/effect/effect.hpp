@@ -4,8 +4,8 @@
 //
 // One run calls, in this order:
 //   begin            once the particles stand; again whenever another effect has replaced them
-//   for every step   exchange (half a step), the step itself with the path integrals, settle, exchange (half a step),
-//                    rearrange
+//   for every step   exchange (half a step), the step itself with the path integrals, settle, land, rearrange, exchange
+//                    (half a step)
 //   land             at output times: afterwards weights and widths are those of that time
 // Without any effect that acts_between_steps(), settle and land alone are called, at output times.
 #pragma once

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fgtd/fgtd.hpp>
 #include <numbers>
+#include <set>
 
 #include "base/error.hpp"
 
@@ -13,129 +14,57 @@ namespace gaussdrift {
 
 namespace {
 
-constexpr double tolerance = 1e-10;       // of each Gaussian of the exchange
-constexpr double significant = 1e-10;     // of the largest weight: less needs no halo of its own
-constexpr double allowed_at_edge = 1e-6;  // of the weight
-constexpr double most_particles = 1e8;
+// eta_eps(x) = eps^-d 4 pi^{-d/2} exp(-|x|^2/eps^2): second moments 2 delta_ij, so that
+// eps^-2 int (f(y) - f(x)) eta_eps(x - y) dy = Laplacian f + O(eps^2).
+double peak_of_eta(int dimension, double eps) { return 4 * std::pow(std::sqrt(std::numbers::pi) * eps, -dimension); }
 
 template <int d>
-Eigen::MatrixXd sums_at_particles(const Particles& particles, const Eigen::MatrixXd& weights, double radius,
-                                  int threads) {
+fgtd::Points<d> points_of(const Particles& particles) {
   fgtd::Points<d> points(d, static_cast<Eigen::Index>(particles.size()));
   for (int k = 0; k < d; ++k)
     points.row(k) = Eigen::Map<const Eigen::RowVectorXd>(particles.position[k].data(), points.cols());
-  fgtd::Options options;
-  options.tolerance = tolerance;
-  options.threads = threads;
-  options.expected_targets = particles.size();
-  const double peak = std::pow(std::sqrt(std::numbers::pi) * radius, -d);
-  return peak * fgtd::Plan<d>(points, weights, 1 / (radius * radius), options).evaluate(points);
-}
-
-// Column by column, sum_k w_k G_eps(X_j - X_k).
-Eigen::MatrixXd sums(const Particles& particles, const Eigen::MatrixXd& weights, double radius, int threads) {
-  try {
-    return particles.dimension == 2 ? sums_at_particles<2>(particles, weights, radius, threads)
-                                    : sums_at_particles<3>(particles, weights, radius, threads);
-  } catch (const fgtd::Error& error) {
-    throw NumericalError(std::string("the exchange of [effects.diffusion] cannot be summed: ") + error.what());
-  }
+  return points;
 }
 
 Eigen::Map<const Eigen::VectorXd> column(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
-// Grows the marked points of a lattice by `reach` points along every axis.
-void dilate(std::vector<char>& marked, const Lattice& lattice, std::size_t reach) {
-  std::size_t stride = 1;
-  for (int k = 0; k < lattice.dimension; ++k) {
-    const std::size_t length = lattice.points[static_cast<std::size_t>(k)];
-    for (std::size_t start = 0; start < marked.size(); ++start) {
-      if ((start / stride) % length != 0) continue;
-      std::vector<std::size_t> before(length + 1, 0);  // marked points before each
-      for (std::size_t i = 0; i < length; ++i) before[i + 1] = before[i] + (marked[start + i * stride] ? 1 : 0);
-      for (std::size_t i = 0; i < length; ++i) {
-        const std::size_t low = i < reach ? 0 : i - reach, high = std::min(length, i + reach + 1);
-        marked[start + i * stride] = before[high] > before[low] ? 1 : 0;
-      }
-    }
-    stride *= length;
-  }
+fgtd::Options sum_options(double tolerance, int threads) {
+  fgtd::Options options;
+  options.tolerance = tolerance;
+  options.threads = threads;
+  return options;
 }
 
 }  // namespace
 
+ParticleExchange::ParticleExchange(const Lattice& lattice, double core_radius, const VelocityField& velocity,
+                                   Follow follow, const Options& options)
+    : nodes_(lattice),
+      core_radius_(core_radius),
+      velocity_(velocity),
+      follow_(std::move(follow)),
+      options_(options),
+      solenoidal_(velocity.is_solenoidal()),
+      // Beyond it eta is below the tolerance of its peak.
+      halo_(static_cast<std::int64_t>(
+          std::ceil(core_radius / lattice.spacing * std::sqrt(std::log(1 / options.tolerance))))) {}
+
 std::string ParticleExchange::describe() const {
-  return fmt::format("diffusion by particle exchange, D = {:g}", options_.coefficient);
+  return fmt::format("diffusion D Laplacian rho, D = {:g}, by particle exchange", options_.coefficient);
 }
 
-void ParticleExchange::begin(Particles& particles, double time) {
-  if (time > 0)
-    throw InputError(
-        "effects.diffusion.method = \"particle-exchange\" does not know the volumes of particles that another effect "
-        "has "
-        "replaced; use \"core-spreading\"");
-  const Lattice& start = options_.lattice;
-  const double spread =
-      options_.halo > 0
-          ? options_.halo
-          : 7 * std::sqrt(2 * options_.coefficient * options_.end + options_.core_radius * options_.core_radius / 2);
-  // Two points more are the edge, which nothing but the tail reaches.
-  constexpr double edge_points = 2;
-  const double margin = std::ceil(spread / start.spacing) + edge_points;
-  Lattice around = start;
-  double total = 1;
-  for (int k = 0; k < start.dimension; ++k) {
-    total *= static_cast<double>(start.points[static_cast<std::size_t>(k)]) + 2 * margin;
-    around.origin[k] -= margin * start.spacing;
-  }
-  if (!(total <= most_particles))
-    throw InputError(
-        fmt::format("the halo of [effects.diffusion], {:.3g} wide, would have up to {:.2g} particles; lower "
-                    "effects.diffusion.halo or particles.per_axis, or use method = \"core-spreading\"",
-                    spread, total));
-  const auto reach = static_cast<std::size_t>(margin);
-  for (int k = 0; k < start.dimension; ++k) around.points[static_cast<std::size_t>(k)] += 2 * reach;
-
-  const auto index_around = [&](std::int64_t id) {
-    std::size_t rest = static_cast<std::size_t>(id), index = 0, stride = 1;
-    for (int k = 0; k < start.dimension; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      index += (rest % start.points[axis] + reach) * stride;
-      rest /= start.points[axis];
-      stride *= around.points[axis];
-    }
-    return index;
-  };
-  double largest = 0;
-  for (const double alpha : particles.alpha) largest = std::max(largest, std::abs(alpha));
-  std::vector<char> inside(around.size(), 0), carried(around.size(), 0);
-  for (std::size_t j = 0; j < particles.size(); ++j) {
-    carried[index_around(particles.id[j])] = 1;
-    if (std::abs(particles.alpha[j]) >= significant * largest) inside[index_around(particles.id[j])] = 1;
-  }
-  dilate(inside, around, reach - static_cast<std::size_t>(edge_points));
-  std::vector<char> wanted = inside;
-  dilate(wanted, around, static_cast<std::size_t>(edge_points));
-
-  for (std::size_t j = 0; j < particles.size(); ++j)
-    if (!inside[index_around(particles.id[j])]) edge_.push_back(j);
-  for (std::size_t index = 0; index < around.size(); ++index) {
-    if (!wanted[index] || carried[index]) continue;
-    if (!inside[index]) edge_.push_back(particles.size());
-    std::size_t rest = index;
-    for (int k = 0; k < start.dimension; ++k) {
-      const std::size_t length = around.points[static_cast<std::size_t>(k)];
-      particles.position[k].push_back(around.coordinate(k, rest % length));
-      rest /= length;
-    }
-    particles.alpha.push_back(0);
-    particles.id.push_back(static_cast<std::int64_t>(start.size() + added_++));
-  }
-  particles.volume.assign(particles.size(), std::pow(start.spacing, start.dimension));
-  const double densest = sums(particles, column(particles.volume), options_.core_radius, options_.threads).maxCoeff();
-  stable_step_ = options_.core_radius * options_.core_radius / (2 * options_.coefficient * densest);
+void ParticleExchange::begin(Particles& particles, double /*time*/) {
+  particles.volume.assign(particles.size(), nodes_.cell());
+  at_.clear();
+  at_.reserve(particles.size());
+  for (std::size_t j = 0; j < particles.size(); ++j) at_.emplace(particles.id[j], j);
+  surrounded_.assign(particles.size(), 0);
+  if (started_ == 0) started_ = particles.size();
+  grow_halo(particles);
+  const double rate = nodes_.dimension() == 2 ? largest_rate<2>(particles) : largest_rate<3>(particles);
+  stable_step_ = 2 / rate;
 }
 
 void ParticleExchange::settle(Particles& particles, const double* integral, double time) {
@@ -143,41 +72,141 @@ void ParticleExchange::settle(Particles& particles, const double* integral, doub
     particles.volume[j] *= std::exp(integral[j]);
     if (!std::isfinite(particles.volume[j]))
       throw NumericalError(
-          fmt::format("the volume of particle {} is too large for a number at t = {:.6g}; shorten time.end",
+          fmt::format("the volume of particle {} has grown beyond all numbers by t = {:.6g}: the velocity diverges too "
+                      "long; shorten "
+                      "time.end or add [effects.remesh]",
                       particles.id[j], time));
   }
 }
 
-void ParticleExchange::exchange(Particles& particles, double time, double length) {
-  const double rate = 4 * options_.coefficient / (options_.core_radius * options_.core_radius);
-  const Eigen::VectorXd alpha = column(particles.alpha), volume = column(particles.volume);
-  const auto flow = [&](const Eigen::VectorXd& weight, const Eigen::VectorXd& summed, const Eigen::VectorXd& crowd) {
-    return Eigen::VectorXd(rate * (volume.array() * summed.array() - weight.array() * crowd.array()));
+// Every particle whose density exceeds the tolerance gets all nodes around it, up to the width of the halo. Only those
+// with a neighbour below the tolerance need to be looked at: on the way from any other one to a node around it lies one
+// of them that is nearer to that node.
+void ParticleExchange::grow_halo(Particles& particles) {
+  double largest = 0;
+  for (std::size_t j = 0; j < particles.size(); ++j)
+    largest = std::max(largest, std::abs(particles.alpha[j]) / particles.volume[j]);
+  const auto counts = [&](std::size_t j) {
+    return std::abs(particles.alpha[j]) > options_.tolerance * largest * particles.volume[j];
   };
-  Eigen::MatrixXd both(alpha.size(), 2);
-  both << alpha, volume;
-  const Eigen::MatrixXd first = sums(particles, both, options_.core_radius, options_.threads);
-  const Eigen::VectorXd k1 = flow(alpha, first.col(0), first.col(1)), ahead = alpha + length * k1;
-  const Eigen::VectorXd second = sums(particles, ahead, options_.core_radius, options_.threads);
-  const Eigen::VectorXd after = alpha + length / 2 * (k1 + flow(ahead, second, first.col(1)));
-  if (!after.allFinite())
-    throw NumericalError(fmt::format("the exchange of [effects.diffusion] is not finite at t = {:.6g}", time));
-  std::copy_n(after.data(), after.size(), particles.alpha.begin());
+  const int dimension = particles.dimension;
+  std::set<std::int64_t> missing;  // in ascending order, so that the new particles' order is always the same
+  const std::size_t count = particles.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    if (surrounded_[j] || !counts(j)) continue;
+    surrounded_[j] = 1;
+    const NodeIndex centre = nodes_.index(particles.id[j]);
+    bool inside = true;
+    for (int k = 0; k < dimension && inside; ++k)
+      for (const int side : {-1, 1}) {
+        NodeIndex next = centre;
+        next[k] += side;
+        const auto found = at_.find(nodes_.id(next));
+        inside = inside && found != at_.end() && counts(found->second);
+      }
+    if (inside) continue;
+    const std::int64_t depth = dimension > 2 ? halo_ : 0;
+    for (std::int64_t z = -depth; z <= depth; ++z)
+      for (std::int64_t y = -halo_; y <= halo_; ++y)
+        for (std::int64_t x = -halo_; x <= halo_; ++x) {
+          if (x * x + y * y + z * z > halo_ * halo_) continue;
+          const std::int64_t id = nodes_.id({centre[0] + x, centre[1] + y, centre[2] + z});
+          if (at_.find(id) == at_.end()) missing.insert(id);
+        }
+    if (count + missing.size() > options_.most_particles)
+      throw NumericalError(
+          fmt::format("diffusion by particle exchange needs more than {} particles; lower "
+                      "particles.per_axis, raise [effects.diffusion] tolerance or shorten time.end",
+                      options_.most_particles));
+  }
+  most_ = std::max(most_, count + missing.size());
+  if (missing.empty()) return;
 
-  double edge = 0;
-  for (const std::size_t j : edge_) edge += std::abs(particles.alpha[j]);
-  at_edge_ = std::max(at_edge_, edge / after.cwiseAbs().sum());
-  if (at_edge_ > allowed_at_edge)
+  // New particles come from their nodes by the flow, as if they had been carried without weight from the beginning.
+  Particles fresh;
+  fresh.dimension = dimension;
+  for (const std::int64_t id : missing) {
+    const Vector x = nodes_.position(nodes_.index(id));
+    for (int k = 0; k < dimension; ++k) fresh.position[k].push_back(x[k]);
+    fresh.id.push_back(id);
+  }
+  fresh.alpha.assign(fresh.id.size(), 0.0);
+  fresh.volume.assign(fresh.id.size(), nodes_.cell());
+  follow_(fresh);
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  for (int k = 0; k < dimension; ++k) append(particles.position[k], fresh.position[k]);
+  append(particles.alpha, fresh.alpha);
+  append(particles.id, fresh.id);
+  append(particles.volume, fresh.volume);
+  for (auto& integral : particles.path) integral.resize(particles.size(), 0.0);
+  surrounded_.resize(particles.size(), 0);
+  for (std::size_t j = count; j < particles.size(); ++j) at_.emplace(particles.id[j], j);
+}
+
+// (K f)_i = sum_j eta_eps(X_i - X_j) f_j. The exchange alpha' = L alpha, L = D/eps^2 (diag(V) K - diag(K V)), is
+// similar to D/eps^2 (V^1/2 K V^1/2 - diag(K V)) with K positive definite, so its eigenvalues are at least -D/eps^2
+// max_i (K V)_i; they are at most 0 because its columns add up to 0 and only its diagonal is negative.
+template <int d>
+double ParticleExchange::largest_rate(const Particles& particles) const {
+  const fgtd::Points<d> points = points_of<d>(particles);
+  const fgtd::Plan<d> plan(points, column(particles.volume), 1 / (core_radius_ * core_radius_),
+                           sum_options(1e-6, options_.threads));
+  const double most = plan.evaluate(points).maxCoeff() * peak_of_eta(d, core_radius_);
+  return options_.coefficient / (core_radius_ * core_radius_) * most;
+}
+
+void ParticleExchange::exchange(Particles& particles, double time, double length) {
+  if (length <= 0 || particles.size() == 0) return;
+  try {
+    if (particles.dimension == 2)
+      exchange_in_dimension<2>(particles, time, length);
+    else
+      exchange_in_dimension<3>(particles, time, length);
+  } catch (const fgtd::Error& error) {
+    throw NumericalError(
+        fmt::format("diffusion by particle exchange cannot be summed at t = {:.6g}: {}", time, error.what()));
+  }
+  grow_halo(particles);
+}
+
+template <int d>
+void ParticleExchange::exchange_in_dimension(Particles& particles, double time, double length) {
+  const double eps = core_radius_, factor = options_.coefficient / (eps * eps) * peak_of_eta(d, eps);
+  const fgtd::Points<d> points = points_of<d>(particles);
+  const auto volume = column(particles.volume);
+  Eigen::VectorXd alpha = column(particles.alpha);
+  Eigen::MatrixXd weights(alpha.size(), 2);
+  weights << volume, alpha;
+  // The error of the sums is far below that of the halo.
+  fgtd::Plan<d> plan(points, weights, 1 / (eps * eps), sum_options(1e-3 * options_.tolerance, options_.threads));
+  const Eigen::MatrixXd sums = plan.evaluate(points);
+  const Eigen::ArrayXd kv = sums.col(0).array();
+  const double rate = factor * kv.maxCoeff();
+  if (length * rate > 2 * (1 + 1e-6))  // 1e-6: the tolerance of largest_rate()
     throw NumericalError(fmt::format(
-        "diffusion has carried {:.2g} of the weight to the edge of the particles at t = {:.6g}, where nothing "
-        "can receive it; raise effects.diffusion.halo or shorten time.end",
-        at_edge_, time));
+        "diffusion by particle exchange has become unstable by t = {:.6g}: particles have come so close together that "
+        "time.step may not exceed {:.3g}; lower it, or add [effects.remesh]",
+        time, 2 / rate));
+  // L applied to weights w whose sum K w is known. What one particle gives another receives; the tolerance of the sums
+  // breaks that, and what is too much or too little is spread over all exchanges, so that the mass stays.
+  const auto exchanged = [&](const Eigen::VectorXd& w, const Eigen::ArrayXd& kw) {
+    const Eigen::ArrayXd gained = volume.array() * kw, given = w.array() * kv;
+    Eigen::ArrayXd change = gained - given;
+    const Eigen::ArrayXd size = gained.abs() + given.abs();
+    if (const double all = size.sum(); all > 0) change -= change.sum() / all * size;
+    return Eigen::VectorXd((factor * change).matrix());
+  };
+  // Heun's method; L does not change as long as positions stand: alpha + t L alpha + t^2/2 L^2 alpha.
+  const Eigen::VectorXd first = exchanged(alpha, sums.col(1).array());
+  plan.set_weights(first);
+  const Eigen::VectorXd second = exchanged(first, plan.evaluate(points).col(0).array());
+  alpha += length * first + length * length / 2 * second;
+  Eigen::Map<Eigen::VectorXd>(particles.alpha.data(), alpha.size()) = alpha;
 }
 
 Numbers ParticleExchange::numbers() const {
-  return {{"D", options_.coefficient},
-          {"halo_particles", static_cast<double>(added_)},
-          {"largest_share_at_edge", at_edge_},
+  return {{"particles_at_start", static_cast<double>(started_)},
+          {"particles_at_most", static_cast<double>(most_)},
           {"stable_step", stable_step_}};
 }
 

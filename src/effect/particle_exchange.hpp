@@ -1,12 +1,15 @@
-// Diffusion by particle strength exchange [DM89]: weights flow between neighbours,
-//   alpha_j' = 4 D / eps^2 sum_k (v_j alpha_k - v_k alpha_j) G_eps(X_j - X_k),   G_eps Gaussian of radius eps, v
-//   volumes,
-// which is D Laplacian rho to order eps^2 and follows a flow that strains, since it sees the particles where they are.
-// Particles of weight 0 around the density, the halo, receive what diffuses out of it. docs/method.md, section 8.2.
+// Diffusion by particle strength exchange, d_t rho + div(rho u) = D Laplacian rho: the Laplacian is an integral over
+// neighbours, and its sum over the particles is a Gauss transform at the particles themselves. Weights change, blobs
+// keep their width, and particles without weight surround those with weight as far as diffusion reaches in a step.
+// docs/method.md, section 8.2.
 #pragma once
 
-#include "base/lattice.hpp"
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
 #include "effect/effect.hpp"
+#include "effect/nodes.hpp"
 #include "field/velocity.hpp"
 
 namespace gaussdrift {
@@ -14,48 +17,55 @@ namespace gaussdrift {
 class ParticleExchange : public Effect, private PathIntegral {
  public:
   struct Options {
-    double coefficient = 0;  // D > 0
-    double core_radius = 0;  // eps
-    Lattice lattice;         // on which particles start
-    double end = 0;          // of the run
-    double halo = 0;         // width of the halo; 0: 7 sqrt(2 D end + eps^2/2), beyond which lies next to nothing
-    int threads = 0;         // 0: all
+    double coefficient = 0;   // D > 0
+    double tolerance = 1e-6;  // particles with more than this part of the largest density are surrounded by others
+    int threads = 0;          // 0: all
+    std::size_t most_particles = std::size_t{1} << 28;  // with the halo; beyond, an error
   };
-  /// The velocity must outlive the effect.
-  ParticleExchange(const VelocityField& velocity, const Options& options) : velocity_(velocity), options_(options) {}
+  /// Carries particles that stand on their nodes, as they stood when begin() was called last, to the present, with
+  /// their path integrals.
+  using Follow = std::function<void(Particles& particles)>;
+
+  /// The velocity must outlive the effect. Its divergence changes volumes: they are integrated along the paths unless
+  /// the field is solenoidal by construction.
+  ParticleExchange(const Lattice& lattice, double core_radius, const VelocityField& velocity, Follow follow,
+                   const Options& options);
 
   std::string name() const override { return "diffusion"; }
   std::string describe() const override;
   Changes changes() const override { return {.weight = true, .particles = true}; }
-  std::string conserves() const override { return "mass, to the tolerance 1e-10 of its Gauss transforms"; }
-  /// eps^2 / (2 D m): Heun's method on the real axis, whose rates reach 4 D / eps^2 m with m the largest sum_k v_k
-  /// G_eps.
+  std::string conserves() const override { return "mass; the centroid to the tolerance of the sum"; }
+  /// The step up to which Heun's method, with which weights are exchanged, is stable: 2 / (D / eps^2 max_i (K V)_i).
   double stable_step() const override { return stable_step_; }
 
-  /// Surrounds the particles with the halo. Throws InputError if that takes more than 1e8 particles, or if another
-  /// effect has replaced the particles since.
   void begin(Particles& particles, double time) override;
-
-  const PathIntegral* path_integral() const override { return velocity_.is_solenoidal() ? nullptr : this; }
-  /// v_j grows by the exponential of the integral of div u.
+  const PathIntegral* path_integral() const override { return solenoidal_ ? nullptr : this; }
   void settle(Particles& particles, const double* integral, double time) override;
-
   bool acts_between_steps() const override { return true; }
-  /// One step of Heun's method. Throws NumericalError if more than 1e-6 of the weight has reached the edge of the halo.
   void exchange(Particles& particles, double time, double length) override;
-
   Numbers numbers() const override;
 
  private:
   void add_rate(double t, const PointsView& x, double* rate) const override { velocity_.add_divergence(t, x, rate); }
   std::string quantity() const override { return "the divergence of the velocity"; }
 
+  void grow_halo(Particles& particles);
+  template <int d>
+  void exchange_in_dimension(Particles& particles, double time, double length);
+  template <int d>
+  double largest_rate(const Particles& particles) const;
+
+  Nodes nodes_;
+  double core_radius_;
   const VelocityField& velocity_;
+  Follow follow_;
   Options options_;
+  bool solenoidal_;
+  std::int64_t halo_;  // lattice steps that the halo is wide
   double stable_step_ = 0;
-  std::size_t added_ = 0;          // particles of the halo
-  std::vector<std::size_t> edge_;  // particles outside all others: weight that reaches them would be held back
-  double at_edge_ = 0;             // the largest share of the weight seen there
+  std::unordered_map<std::int64_t, std::size_t> at_;  // particle on a node
+  std::vector<char> surrounded_;                      // particles whose halo has been made
+  std::size_t started_ = 0, most_ = 0;                // particles at the first begin(), and at most
 };
 
 }  // namespace gaussdrift

@@ -91,7 +91,7 @@ class Reader {
     check_times_of_files();
     read_evaluate(scene.evaluate, scene.domain);
     read_output(scene.output, scene.time);
-    read_effects(scene.effects);
+    read_effects(scene);
     read_reference(scene);
     read_checks(scene);
     if (diagnostics_.errors() == 0) warn_unused_params();
@@ -1097,7 +1097,8 @@ class Reader {
     }
   }
 
-  void read_effects(EffectsSpec& effects) {
+  void read_effects(Case& scene) {
+    EffectsSpec& effects = scene.effects;
     if (table("effects.reaction")) {
       ReactionSpec reaction;
       if (const Entry* rate = require(find_key("effects.reaction", "rate")))
@@ -1109,10 +1110,16 @@ class Reader {
       if (const auto coefficient = number("effects.diffusion", "D")) diffusion.coefficient = coefficient->number;
       const bool exchanges = choice("effects.diffusion", "method") == "particle-exchange";
       if (exchanges) diffusion.method = DiffusionSpec::Method::particle_exchange;
-      if (const auto halo = number("effects.diffusion", "halo")) {
-        diffusion.halo = halo->number;
-        if (!exchanges) diagnostics_.error(halo->written->place, "\"halo\" goes with method = \"particle-exchange\"");
+      if (const auto tolerance = number("effects.diffusion", "tolerance")) {
+        diffusion.tolerance = tolerance->number;
+        if (tolerance->written && !exchanges)
+          diagnostics_.error(tolerance->written->place, "\"tolerance\" goes with method = \"particle-exchange\"");
       }
+      if (exchanges && scene.particles.overlap < 1)
+        diagnostics_.error(
+            find("effects.diffusion", "method")->value.place,
+            fmt::format("particle-exchange needs particles.overlap of at least 1, found {}", scene.particles.overlap),
+            "below, the sum over neighbours is no Laplacian; 2 is usual");
       const Entry* method = find("time", "method");
       if (exchanges && method && method->value.text == "dopri5")
         diagnostics_.error(method->value.place,
@@ -1121,6 +1128,21 @@ class Reader {
                            "method = \"rk4\" with a step of at most about eps^2 / (2 D)");
       effects.diffusion = diffusion;
     }
+    if (table("effects.remesh")) effects.remesh = remesh_spec();
+  }
+
+  RemeshSpec remesh_spec() {
+    RemeshSpec remesh;
+    if (const auto every = number("effects.remesh", "every")) remesh.every = to_int(*every);
+    if (const auto stretch = number("effects.remesh", "stretch")) remesh.stretch = stretch->number;
+    remesh.kernel = choice("effects.remesh", "kernel");
+    if (const auto tolerance = number("effects.remesh", "tolerance")) remesh.tolerance = tolerance->number;
+    const Entry *every = find("effects.remesh", "every"), *stretch = find("effects.remesh", "stretch");
+    if (every && stretch)
+      diagnostics_.error(comes_before(every->place, stretch->place) ? stretch->place : every->place,
+                         "[effects.remesh] has both \"every\" and \"stretch\"",
+                         "\"every\" remeshes at fixed steps, \"stretch\" where particles have moved apart");
+    return remesh;
   }
 
   const Value& root_;

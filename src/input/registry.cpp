@@ -64,7 +64,11 @@ const std::vector<Table>& tables() {
        .meaning = "weights change along the paths: alpha' = -rate alpha, so d_t rho + div(rho u) + rate rho = 0"},
       {.name = "effects.diffusion",
        .required = false,
-       .meaning = "d_t rho + div(rho u) = D Laplacian rho. `reference.kind` is then `none` unless it is `exact`"},
+       .meaning = "the density diffuses, d_t rho + div(rho u) = D Laplacian rho; `reference.kind` is then `none` "
+                  "unless it is `exact`"},
+      {.name = "effects.remesh",
+       .required = false,
+       .meaning = "weights go back to a fresh lattice where particles have moved apart, or every so many steps"},
   };
   return list;
 }
@@ -405,12 +409,42 @@ std::vector<Key> written_keys() {
            "a warning tells how far it does; `particle-exchange` moves weight between neighbours: of order "
            "eps^2 in any flow, with steps of at most about eps^2 / (2 D)"},
       {.table = "effects.diffusion",
-       .name = "halo",
+       .name = "tolerance",
        .type = Type::number,
-       .range = {0, infinity, true},
-       .unit = "length",
-       .meaning = "width of the particles of weight 0 around the density that `particle-exchange` starts with; without "
-                  "it 7 sqrt(2 D time.end + eps^2 / 2)"},
+       .fallback = "1e-06",
+       .range = {1e-10, 0.1},
+       .meaning =
+           "particles with more than this part of the largest density are surrounded by others, which receive what "
+           "diffuses; only with `method = \"particle-exchange\"`"},
+      {.table = "effects.remesh",
+       .name = "every",
+       .type = Type::whole,
+       .range = {1, 1e9},
+       .meaning = "steps between two remeshings; without it as `stretch` says"},
+      {.table = "effects.remesh",
+       .name = "stretch",
+       .type = Type::number,
+       .fallback = "1.5",
+       .range = {1, infinity, true},
+       .meaning =
+           "remesh whenever particles that were neighbours are farther apart than so many spacings h; the overlap has "
+           "then fallen to `particles.overlap` divided by this. Instead of `every`"},
+      {.table = "effects.remesh",
+       .name = "kernel",
+       .type = Type::choice,
+       .fallback = "gauss8",
+       .choices = {"gauss8", "lambda44", "lambda66", "m4prime"},
+       .meaning =
+           "how weights are shared among nodes: `gauss8` keeps moments up to order 7 and forgives a stretch of 1.5; "
+           "the "
+           "piecewise polynomials keep them up to order 4, 6 and 2, are cheaper, and want a stretch of at most 1.1"},
+      {.table = "effects.remesh",
+       .name = "tolerance",
+       .type = Type::number,
+       .fallback = "1e-09",
+       .range = {0, 0.01},
+       .meaning =
+           "nodes with less than this part of the largest weight are left out, and their weight goes to the others"},
   };
 }
 

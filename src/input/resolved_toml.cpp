@@ -184,7 +184,17 @@ std::string resolved_toml(const Case& scene) {
     out.table("effects.diffusion");
     out.entry("D", written(diffusion->coefficient));
     out.entry("method", written(choice("effects.diffusion", "method", diffusion->method)));
-    if (diffusion->halo > 0) out.entry("halo", written(diffusion->halo));
+    if (diffusion->method == DiffusionSpec::Method::particle_exchange)
+      out.entry("tolerance", written(diffusion->tolerance));
+  }
+  if (const auto& remesh = scene.effects.remesh) {
+    out.table("effects.remesh");
+    if (remesh->every > 0)
+      out.entry("every", fmt::format("{}", remesh->every));
+    else
+      out.entry("stretch", written(remesh->stretch));
+    out.entry("kernel", written(remesh->kernel));
+    out.entry("tolerance", written(remesh->tolerance));
   }
   out.table("reference");
   out.entry("kind", written(choice("reference", "kind", scene.reference.kind)));

@@ -31,7 +31,8 @@ std::string stage_of(const Effect& effect) { return "effect " + effect.name(); }
 }  // namespace
 
 Carrier::Carrier(const Case& description, const Scene& scene, int threads)
-    : effects_(make_effects(description, scene, threads)),
+    : effects_(make_effects(
+          description, scene, [this](Particles& particles) { follow(particles); }, threads)),
       integrating_(integrating(effects_)),
       between_steps_(std::any_of(effects_.begin(), effects_.end(),
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
@@ -100,13 +101,15 @@ std::size_t Carrier::carry(Particles& particles, double from, double to, std::si
 }
 
 void Carrier::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-                      std::size_t steps_before, base::StageTimes& stages) const {
+                      std::size_t steps_before, base::StageTimes& stages) {
   if (!between_steps_) return take_steps(particles, interval, first, count, steps_before, stages);
   // Strang's splitting: half a step of exchange on either side of each step; two halves that meet are one.
   for (std::size_t i = first; i < first + count; ++i) {
     const double half = interval.length(i) / 2;
     if (i == 0) exchange(particles, interval.start(i), half, stages);
     take_steps(particles, interval, i, 1, steps_before, stages);
+    if (i == 0 || taken_.empty()) taken_.push_back({interval, i, 0});
+    ++taken_.back().steps;
     const double now = interval.start(i + 1);
     settle(particles, now, stages);
     rearrange(particles, now, stages);
@@ -137,12 +140,26 @@ void Carrier::exchange(Particles& particles, double time, double length, base::S
     if (effect->acts_between_steps()) stages.run(stage_of(*effect), [&] { effect->exchange(particles, time, length); });
 }
 
-void Carrier::rearrange(Particles& particles, double time, base::StageTimes& stages) const {
+// Particles that stand on their nodes, with nothing integrated yet, take all steps since the others stood on theirs.
+void Carrier::follow(Particles& particles) const {
+  particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
+  double now = 0;
+  for (const Taken& taken : taken_) {
+    stepper_.advance(particles, taken.interval, taken.first, taken.steps, 0);
+    now = taken.interval.start(taken.first + taken.steps);
+  }
+  for (std::size_t q = 0; q < integrating_.size(); ++q)
+    integrating_[q]->settle(particles, particles.path[q].data(), now);
+}
+
+void Carrier::rearrange(Particles& particles, double time, base::StageTimes& stages) {
   bool replaced = false;
+  for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->land(particles, time); });
   for (const auto& effect : effects_)
     if (effect->acts_between_steps())
       stages.run(stage_of(*effect), [&] { replaced = effect->rearrange(particles, time) || replaced; });
   if (!replaced) return;
+  taken_.clear();
   for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->begin(particles, time); });
   for (auto& integral : particles.path) integral.assign(particles.size(), 0.0);
 }

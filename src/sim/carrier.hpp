@@ -19,6 +19,8 @@ class Carrier {
  public:
   /// Constructs the effects that the case names. Case and scene must outlive the carrier. threads: 0 for all.
   Carrier(const Case& description, const Scene& scene, int threads);
+  Carrier(const Carrier&) = delete;  // effects refer to it
+  Carrier& operator=(const Carrier&) = delete;
 
   /// Readies the particles for the effects. Throws InputError if time.step is not stable for the flow or for an effect,
   /// naming the longest that is.
@@ -32,7 +34,7 @@ class Carrier {
 
   /// Steps of a fixed length alone: steps first .. first + count - 1 of the interval.
   void advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-               std::size_t steps_before, base::StageTimes& stages) const;
+               std::size_t steps_before, base::StageTimes& stages);
 
   /// True if steps are chosen by their error (time.tolerance) instead of by time.step.
   bool is_adaptive() const { return adaptive_.has_value(); }
@@ -48,7 +50,8 @@ class Carrier {
   void take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                   std::size_t steps_before, base::StageTimes& stages) const;
   void exchange(Particles& particles, double time, double length, base::StageTimes& stages) const;
-  void rearrange(Particles& particles, double time, base::StageTimes& stages) const;
+  void rearrange(Particles& particles, double time, base::StageTimes& stages);
+  void follow(Particles& particles) const;
   void settle(Particles& particles, double time, base::StageTimes& stages) const;
 
   Effects effects_;
@@ -59,6 +62,13 @@ class Carrier {
   const Scene& scene_;
   Stepper stepper_;
   std::optional<AdaptiveStepper> adaptive_;
+  // Steps taken since all particles stood on nodes of the lattice: `steps` of each interval, from `first` on. Kept only
+  // if an effect acts between steps.
+  struct Taken {
+    time::Interval interval;
+    std::size_t first = 0, steps = 0;
+  };
+  std::vector<Taken> taken_;
   int threads_;
 };
 

@@ -84,7 +84,7 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
 }
 
 // Seconds a step, from a few steps of a copy that is thrown away.
-double time_steps(const Case& description, const Carrier& carrier, const Particles& particles) {
+double time_steps(const Case& description, Carrier& carrier, const Particles& particles) {
   if (description.time.end <= 0) return 0;
   const time::Interval interval(0, description.time.end, description.time.step);
   base::StageTimes ignored;

@@ -1,115 +1,247 @@
-// Particle strength exchange against closed forms: mass, covariance at rest, in a shear and in a divergent flow, and
-// what it does beyond the Laplacian.
+// Diffusion and remeshing against exact covariances: under a linear flow u = A x and
+// diffusion D a Gaussian stays one, its centre moves with the flow and Sigma' = A Sigma + Sigma A^T + 2 D I.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "base/error.hpp"
+#include "effect/particle_exchange.hpp"
 #include "scene.hpp"
+#include "sim/density.hpp"
 
 namespace gaussdrift {
 namespace {
 
-const std::vector<std::string> exchange{"effects.diffusion.D=0.01",
-                                        "effects.diffusion.method=particle-exchange",
-                                        "reference.kind=none",
-                                        "density.radius=0.2",
-                                        "effects.diffusion.halo=0.3",
-                                        "particles.per_axis=33",
-                                        "time.step=0.05"};
+constexpr double sigma0 = 0.02;  // variance of the Gaussian of radius 0.2
 
-std::vector<std::string> with_exchange(const std::vector<std::string>& more) {
-  std::vector<std::string> all = exchange;
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
+// The covariance of the density's diffusing part: that of the weights, and what blobs have spread.
+Moments covariance(const Particles& particles) {
+  Moments m = moments_of(particles);
+  m.xx += particles.spread / 2;
+  m.yy += particles.spread / 2;
+  return m;
 }
 
-// The second moment of the kernel is that of the Laplacian exactly, so covariances of weights grow as they should but
-// for quadrature and the tail of the density outside the domain, exp(-25), and the splitting where something flows.
-TEST(ParticleExchange, GrowsTheCovarianceAtRest) {
-  const Particles end = particles_at_end(scene_of(with_exchange({})));
-  const Moments m = moments_of(end);
-  const double start = 0.02, grown = 2 * 0.01 * 0.5;
-  EXPECT_NEAR(m.xx, start + grown, 1e-8);  // 1e-10 of the transforms in 10 steps, weighted by squares of up to 2
-  EXPECT_NEAR(m.yy, start + grown, 1e-8);
-  EXPECT_NEAR(m.xy, 0, 1e-8);
+// Largest |rho - exact| on the grid at the end, relative to the largest exact value.
+template <class Exact>
+double density_error(const Case& scene, const Particles& end, const Exact& exact) {
+  const Scene parts = make_scene(scene);
+  const DensityGrid density =
+      evaluate_density(end, spread_cutoff(parts.cutoff, end.dimension, end.spread), parts.evaluation, {});
+  double error = 0, largest = 0;
+  for (std::size_t i = 0; i < density.rho.size(); ++i) {
+    const double value = exact(parts.evaluation.coordinate(0, i % parts.evaluation.points[0]),
+                               parts.evaluation.coordinate(1, i / parts.evaluation.points[0]));
+    error = std::max(error, std::abs(density.rho[i] - value));
+    largest = std::max(largest, std::abs(value));
+  }
+  return error / largest;
 }
 
-TEST(ParticleExchange, KeepsMass) {
-  const double before = moments_of(particles_at_end(scene_of({}))).mass;
-  const double after = moments_of(particles_at_end(scene_of(with_exchange({})))).mass;
-  EXPECT_NEAR(after, before, 1e-9 * before);  // 1e-10 a transform, 10 steps of 4 D tau / eps^2 = 0.13
+const std::string core = "effects.diffusion.method=core-spreading",
+                  exchange = "effects.diffusion.method=particle-exchange";
+
+struct Sheared {
+  double xx, xy, yy;
+};
+Sheared sheared_exactly(double gamma, double D, double t) {
+  return {sigma0 + 2 * D * t + gamma * gamma * t * t * sigma0 + 2. / 3 * D * gamma * gamma * t * t * t,
+          gamma * t * sigma0 + D * gamma * t * t, sigma0 + 2 * D * t};
+}
+const std::vector<std::string> shear{"velocity.u=[\"y\", \"0\"]",
+                                     "effects.diffusion.D=0.01",
+                                     "density.center=[0, 0]",
+                                     "domain.min=[-2, -1.5]",
+                                     "domain.max=[2, 1.5]",
+                                     "particles.per_axis=81",
+                                     "time.end=1",
+                                     "output.times=[1]"};
+Moments after_shear(const std::vector<std::string>& more) {
+  std::vector<std::string> overrides = shear;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return covariance(particles_at_end(scene_of(overrides), 1));
+}
+
+TEST(CoreSpreading, IsCuredByRemeshing) {
+  // What spreads between two remeshings, over T = 1/n each, goes into weights that are sheared from then on. What
+  // misses is the shear within: D gamma T in total for xy, of first order in T.
+  const auto missing = [](int n) {
+    const Moments m = after_shear({core, "time.step=" + std::to_string(0.2 / n), "effects.remesh.every=5"});
+    return std::pair{sheared_exactly(1, 0.01, 1).xy - m.xy, sheared_exactly(1, 0.01, 1).xx - m.xx};
+  };
+  const auto [xy_1, xx_1] = missing(1);
+  EXPECT_NEAR(xy_1, 0.01, 1e-6) << "one interval alone: nothing is deformed";
+  const auto [xy_2, xx_2] = missing(2);
+  const auto [xy_4, xx_4] = missing(4);
+  EXPECT_NEAR(xy_2, 0.01 / 2, 1e-6);
+  EXPECT_NEAR(xy_4, 0.01 / 4, 1e-6);
+  // xx receives 2 D T gamma^2 (1 - i T)^2 from the i-th interval: 0.25 D and 0.4375 D of 2/3 D.
+  EXPECT_NEAR(xx_1, 0.01 * 2 / 3, 1e-6);
+  EXPECT_NEAR(xx_2, 0.01 * (2. / 3 - 0.25), 1e-6);
+  EXPECT_NEAR(xx_4, 0.01 * (2. / 3 - 0.4375), 1e-6);
+}
+
+// --- particle exchange -----------------------------------------------------------------------------------------------
+
+TEST(ParticleExchange, HasTheExactVarianceAtRest) {
+  const Particles end = particles_at_end(scene_of({"effects.diffusion.D=0.02", exchange, "time.step=0.05"}));
+  const Moments m = moments_of(end), start = moments_of(particles_at_end(scene_of({})));
+  EXPECT_NEAR(m.mass, start.mass, 1e-15 * 100 * start.mass);  // the mass stays to rounding
+  EXPECT_NEAR(m.xx, start.xx + 2 * 0.02 * 0.5, 1e-6);  // weights below the halo's tolerance of 1e-6 are held back
+  EXPECT_NEAR(m.xy, 0, 1e-7);
+  EXPECT_EQ(end.spread, 0);
+  for (const double alpha : end.alpha) EXPECT_GE(alpha, -1e-9 * start.mass);  // no undershoot beyond that of the sums
 }
 
 TEST(ParticleExchange, FollowsAShear) {
-  // The covariance that core spreading lacks: xx = s0 (1 + t^2) + 2 D t + 2/3 D t^3, xy = s0 t + D t^2 for u = (y, 0).
-  const double s0 = 0.02, D = 0.01, t = 1;
-  const Moments m = moments_of(particles_at_end(scene_of(
-      with_exchange({"velocity.u=[\"y\", \"0\"]", "time.end=1", "output.times=[1]", "effects.diffusion.halo=0.8"}))));
-  constexpr double splitting =
-      2e-5;  // trapezoidal sums of 2/3 D t^3 with steps of 0.05: D tau^2 t / 3 = 8e-6, and the lattice
-  EXPECT_NEAR(m.xx, s0 * (1 + t * t) + 2 * D * t + 2. / 3 * D * t * t * t, splitting);
-  EXPECT_NEAR(m.xy, s0 * t + D * t * t, splitting);
-  EXPECT_NEAR(m.yy, s0 + 2 * D * t, splitting);
+  // The covariance is integrated with the order of the splitting, 2.
+  const Sheared exact = sheared_exactly(1, 0.01, 1);
+  const Moments coarse = after_shear({exchange, "time.step=0.1"}), fine = after_shear({exchange, "time.step=0.05"});
+  EXPECT_NEAR(fine.yy, exact.yy, 2e-6);  // halo, as above
+  EXPECT_NEAR(fine.xy, exact.xy, 1e-5);
+  EXPECT_NEAR(fine.xx, exact.xx, 2e-5);
+  EXPECT_LT(std::abs(fine.xx - exact.xx), 0.35 * std::abs(coarse.xx - exact.xx) + 3e-6);
 }
 
-TEST(ParticleExchange, FollowsADivergentFlow) {
-  // u = a (x, y): covariance s' = 2 a s + 2 D an axis, s = (s0 + D/a) e^{2 a t} - D/a, and volumes grow by e^{2 a t}.
-  const double s0 = 0.02, D = 0.01, a = 0.4, t = 0.5;
-  const Particles end = particles_at_end(scene_of(with_exchange({"velocity.u=[\"0.4*x\", \"0.4*y\"]"})));
-  const Moments m = moments_of(end);
-  const double exact = (s0 + D / a) * std::exp(2 * a * t) - D / a;
-  EXPECT_NEAR(m.xx, exact, 2e-5);  // splitting, as above
-  EXPECT_NEAR(m.yy, exact, 2e-5);
-  for (std::size_t j = 0; j < end.size(); j += 97)
-    EXPECT_NEAR(end.volume[j], 0.00390625 * std::exp(2 * a * t), 1e-8 * 0.00390625);  // rk4
-}
-
-// What the exchange does beyond the Laplacian, at the first order that shows: its symbol along x,
-// 4 D / eps^2 (exp(-q^2 eps^2 / 4) - 1) = -D q^2 + D eps^2 q^4 / 8 - ..., makes the fourth cumulant grow at the rate
-// 3 D eps^2, where that of the heat equation stays.
-TEST(ParticleExchange, IsTheLaplacianToSecondOrderInTheCoreRadius) {
-  const auto fourth_cumulant = [](const std::vector<std::string>& more) {
-    const Particles particles = particles_at_end(scene_of(with_exchange(more)));
-    const Moments m = moments_of(particles);
-    double fourth = 0;
-    for (std::size_t j = 0; j < particles.size(); ++j)
-      fourth += particles.alpha[j] * std::pow(particles.position[0][j] - m.centroid[0], 4) / m.mass;
-    return fourth - 3 * m.xx * m.xx;
+TEST(ParticleExchange, ConvergesWithTheSquareOfTheCoreRadius) {
+  // The density alpha_j / h^2 at the particles, which stand still, against the exact puff: without the blobs'
+  // smoothing.
+  const auto error = [](int per_axis) {
+    const Particles end =
+        particles_at_end(scene_of({"effects.diffusion.D=0.01", exchange, "density.radius=0.25",
+                                   "particles.per_axis=" + std::to_string(per_axis), "time.step=0.02"}),
+                         1);
+    const double width = 0.0625 + 4 * 0.01 * 0.5, h = 2.0 / (per_axis - 1);
+    double largest = 0;
+    for (std::size_t j = 0; j < end.size(); ++j) {
+      const double x = end.position[0][j], y = end.position[1][j];
+      const double exact = 0.0625 / width * std::exp(-(x * x + y * y) / width);
+      largest = std::max(largest, std::abs(end.alpha[j] / (h * h) - exact));
+    }
+    return largest;
   };
-  const double D = 0.01, t = 0.5;
-  for (const double overlap : {1.5, 2.0, 3.0}) {
-    const double eps = overlap * 2 / 32;
-    const double found =
-        fourth_cumulant({"particles.overlap=" + std::to_string(overlap), "effects.diffusion.halo=0.6"});
-    // 1e-10 of the transforms, weighted by fourth powers of up to 1.6^4, in 10 steps of up to 4 D tau / eps^2 = 0.23
-    EXPECT_NEAR(found, 3 * D * eps * eps * t, 1e-7) << "eps = " << eps;
+  EXPECT_NEAR(std::log2(error(31) / error(61)), 2, 0.2);  // eps = 0.133 and 0.067 of a width 0.25: the next term
+}
+
+TEST(ParticleExchange, LetsItsHaloGrow) {
+  Simulation simulation(scene_of({"effects.diffusion.D=0.02", exchange, "time.step=0.05", "density.shape=disk"}));
+  simulation.prepare();
+  const std::size_t before = simulation.particles().size();
+  std::size_t on_lattice = 0;
+  for (const double alpha : simulation.particles().alpha) on_lattice += alpha != 0;
+  EXPECT_GT(before, on_lattice) << "a halo without weight surrounds the disk";
+  simulation.run();
+  EXPECT_GT(simulation.particles().size(), before);
+}
+
+TEST(ParticleExchange, HaloFollowsTheFlow) {
+  // Particles added late stand where the flow has carried their nodes: on a rotation, at the node turned.
+  const Case scene = scene_of(
+      {"velocity.u=[\"-y\", \"x\"]", "effects.diffusion.D=0.02", exchange, "time.step=0.05", "density.shape=disk"});
+  const Particles end = particles_at_end(scene);
+  const Nodes nodes(make_scene(scene).seeding);
+  for (std::size_t j = 0; j < end.size(); ++j) {
+    const Vector x = nodes.position(nodes.index(end.id[j]));
+    const double c = std::cos(0.5), s = std::sin(0.5);
+    EXPECT_NEAR(end.position[0][j], c * x[0] - s * x[1], 1e-7);  // ten steps of rk4, each 0.05^5/120
+    EXPECT_NEAR(end.position[1][j], s * x[0] + c * x[1], 1e-7);
   }
 }
 
-TEST(ParticleExchange, RefusesAStepThatIsNotStable) {
+TEST(ParticleExchange, UsesVolumesInADivergentFlow) {
+  // u = 0.8 (x, y): Sigma' = 1.6 Sigma + 2 D. Volumes grow by exp(1.6 t); with volumes of the start the rate would be
+  // wrong by that factor.
+  const double a = 0.8, D = 0.01, t = 0.5, growth = std::exp(2 * a * t);
+  const Particles end = particles_at_end(scene_of({"velocity.u=[\"0.8*x\", \"0.8*y\"]", "effects.diffusion.D=0.01",
+                                                   exchange, "time.step=0.0125", "particles.per_axis=61"}));
+  const Moments m = moments_of(end);
+  EXPECT_NEAR(m.xx, sigma0 * growth + D / a * (growth - 1), 2e-5);  // splitting of order 2; overlap falls to 1.34
+  const double cell = std::pow(2.0 / 60, 2);
+  for (const double volume : end.volume) EXPECT_NEAR(volume, cell * growth, 1e-9 * cell);  // rk4, div u by formula
+}
+
+TEST(ParticleExchange, WorksWithRemeshing) {
+  const Sheared exact = sheared_exactly(1, 0.01, 1);
+  const Moments m = after_shear({exchange, "time.step=0.05", "effects.remesh.every=5"});
+  EXPECT_NEAR(m.yy, exact.yy, 5e-6);  // halo
+  EXPECT_NEAR(m.xy, exact.xy, 2e-5);
+  EXPECT_NEAR(m.xx, exact.xx, 3e-5);
+}
+
+TEST(ParticleExchange, RefusesAnUnstableStepAndNamesTheLongest) {
+  // eps = 0.1: 2 eps^2 / (4 D) = 0.005 for D = 1, but for the lattice sum, which is 1 within 1e-16.
   try {
-    particles_at_end(scene_of(with_exchange({"time.step=0.5", "effects.diffusion.D=0.1"})));
-    FAIL() << "4 D tau / eps^2 = 20 was taken for stable";
+    particles_at_end(scene_of({"effects.diffusion.D=1", exchange, "time.step=0.1"}));
+    FAIL() << "an unstable step was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("not stable for [effects.diffusion]"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("longest stable step is 0.07"), std::string::npos) << error.what();
+    const std::string text = error.what();
+    EXPECT_NE(text.find("time.step = 0.1 is not stable for [effects.diffusion]; the longest stable step is 0.005"),
+              std::string::npos)
+        << text;
   }
-}
-
-TEST(ParticleExchange, SaysWhenWeightReachesTheEdge) {
-  try {
-    particles_at_end(scene_of(with_exchange({"effects.diffusion.halo=0.1", "density.radius=0.05", "density.shape=disk",
-                                             "particles.overlap=1", "effects.diffusion.D=0.02"})));
-    FAIL() << "a halo of two points was enough";
-  } catch (const NumericalError& error) {
-    EXPECT_NE(std::string(error.what()).find("raise effects.diffusion.halo"), std::string::npos) << error.what();
-  }
+  EXPECT_NO_THROW(particles_at_end(
+      scene_of({"effects.diffusion.D=1", exchange, "time.step=0.0049", "time.end=0.0147", "output.times=[0]"})));
 }
 
 TEST(ParticleExchange, GivesTheSameBitsForAnyThreads) {
-  const std::vector<std::string> short_run = with_exchange({"velocity.u=[\"y\", \"0\"]", "time.step=0.1"});
-  EXPECT_EQ(particles_at_end(scene_of(short_run), 1).alpha, particles_at_end(scene_of(short_run), 2).alpha);
+  const Case scene = scene_of({"velocity.u=[\"-y\", \"0.5*x\"]", "effects.diffusion.D=0.02", exchange,
+                               "effects.reaction.rate=x", "effects.remesh.every=4"});
+  const Particles one = particles_at_end(scene, 1), two = particles_at_end(scene, 2);
+  EXPECT_EQ(one.id, two.id);
+  EXPECT_EQ(one.position, two.position);
+  EXPECT_EQ(one.alpha, two.alpha);
+}
+
+TEST(ParticleExchange, WorksIn3D) {
+  const std::string cube = R"(gaussdrift = 1
+[domain]
+min = [-1, -1, -1]
+max = [ 1,  1,  1]
+[velocity]
+u = ["0.2", "0", "0"]
+[density]
+shape  = "gaussian"
+center = [0, 0, 0]
+radius = 0.3
+[particles]
+per_axis = 17
+[time]
+end  = 0.3
+step = 0.1
+[evaluate]
+per_axis = 5
+[output]
+times  = [0.3]
+vtk    = []
+images = []
+[effects.diffusion]
+D = 0.02
+method = "particle-exchange"
+tolerance = 1e-4
+)";
+  const Particles end = particles_at_end(scene_of({}, cube));
+  Case still = scene_of({}, cube);
+  still.effects = {};
+  const Moments before = moments_of(particles_at_end(still)), after = moments_of(end);
+  EXPECT_NEAR(after.mass, before.mass, 1e-13 * before.mass);
+  EXPECT_NEAR(after.xx - before.xx, 2 * 0.02 * 0.3, 1e-4);  // the halo's tolerance, 1e-4
+}
+
+// --- divergent flow
+// ----------------------------------------------------------------------------------------------------
+
+TEST(DivergentFlow, CarriesMassAndDensityFollows) {
+  // u = 0.6 (x, y): rho(x, t) = rho_0(x e^{-0.6 t}) e^{-1.2 t}; remeshing changes nothing of it.
+  for (const auto& remesh : {std::string("case.title=none"), std::string("effects.remesh.every=3")}) {
+    const Case scene = scene_of({"velocity.u=[\"0.6*x\", \"0.6*y\"]", "particles.cutoff=gauss6",
+                                 "particles.per_axis=81", "time.step=0.05", remesh});
+    const double error = density_error(scene, particles_at_end(scene), [](double x, double y) {
+      const double shrink = std::exp(-0.6 * 0.5);
+      return std::exp(-(x * x + y * y) * shrink * shrink / 0.04) * shrink * shrink;
+    });
+    EXPECT_LT(error, 5e-4) << remesh;  // smoothing of order 6 with eps/R = 0.25 relative to the wider Gaussian
+  }
 }
 
 }  // namespace

@@ -123,6 +123,11 @@ TEST(Effects, AreConstructedOnlyIfTheCaseNamesThem) {
   EXPECT_EQ(reacted.effects[1].name, "reaction");
   EXPECT_EQ(reacted.effects[1].changes, std::vector<std::string>{"weight"});
   EXPECT_GT(reacted.effects[1].seconds, 0);
+
+  Simulation all(scene_of({"effects.reaction.rate=1", "effects.diffusion.D=0.01", "effects.remesh.every=2"}));
+  std::vector<std::string> names;
+  for (const EffectSummary& effect : all.run().effects) names.push_back(effect.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"transport", "reaction", "diffusion", "remesh"}));
 }
 
 }  // namespace

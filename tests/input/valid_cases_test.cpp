@@ -56,6 +56,25 @@ void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.particles.cutoff, b.particles.cutoff);
   EXPECT_EQ(a.time.end, b.time.end);
   EXPECT_EQ(a.time.step, b.time.step);
+  ASSERT_EQ(a.effects.reaction.has_value(), b.effects.reaction.has_value());
+  if (a.effects.reaction) {
+    EXPECT_EQ(a.effects.reaction->rate, b.effects.reaction->rate);
+  }
+  ASSERT_EQ(a.effects.diffusion.has_value(), b.effects.diffusion.has_value());
+  if (a.effects.diffusion) {
+    EXPECT_EQ(a.effects.diffusion->coefficient, b.effects.diffusion->coefficient);
+    EXPECT_EQ(a.effects.diffusion->method, b.effects.diffusion->method);
+    EXPECT_EQ(a.effects.diffusion->tolerance, b.effects.diffusion->tolerance);
+  }
+  ASSERT_EQ(a.effects.remesh.has_value(), b.effects.remesh.has_value());
+  if (a.effects.remesh) {
+    EXPECT_EQ(a.effects.remesh->every, b.effects.remesh->every);
+    EXPECT_EQ(a.effects.remesh->stretch, b.effects.remesh->stretch);
+    EXPECT_EQ(a.effects.remesh->kernel, b.effects.remesh->kernel);
+    EXPECT_EQ(a.effects.remesh->tolerance, b.effects.remesh->tolerance);
+  }
+  EXPECT_EQ(a.particles.width_ratio, b.particles.width_ratio);
+  EXPECT_EQ(a.time.tolerance, b.time.tolerance);
   EXPECT_EQ(a.time.method, b.time.method);
   EXPECT_EQ(a.evaluate.per_axis, b.evaluate.per_axis);
   EXPECT_EQ(a.evaluate.tolerance, b.evaluate.tolerance);
@@ -254,6 +273,13 @@ TEST(ResolvedCase, IsTheSameCaseAgain) {
            "R = 0.25\ntiny = 4.9e-324\nhuge = 1.7976931348623157e308\nthird = \"1/3\"\nmillion = 1e20"),
       with(least, "exp(-x^2-y^2-z^2)", "x < 0.5 && y > 0 || z == 1 ? 1 : 0"),
       cone + "[reference]\nkind = \"exact\"\nrho = \"R*x*t\"\n[[check]]\nwhat = \"L1\"\nmax = 0.1\n",
+      cone + "[effects.reaction]\nrate = \"R*x*t\"\n[effects.diffusion]\nD = \"R/100\"\n[effects.remesh]\n",
+      cone +
+          "[effects.diffusion]\nD = 0.01\nmethod = \"particle-exchange\"\ntolerance = 1e-5\n[effects.remesh]\nevery = "
+          "7\n"
+          "kernel = \"m4prime\"\ntolerance = 0\n",
+      with(cone, "method = \"rk4\"", "method = \"dopri5\"\ntolerance = 1e-6"),
+      with(cone, "cutoff = \"gauss2\"", "cutoff = \"two-gauss\"\nwidth_ratio = 1.5"),
       cone +
           "[reference]\nkind = \"none\"\n[[check]]\nwhat = \"mass\"\nmin = \"R\"\nmax = 1\n"
           "[[check]]\nwhat = \"mass\"\nmin = 1\nat = \"turn\"\n"};

@@ -139,7 +139,7 @@ const char* const tables_note =
     "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, check, "
     "effects";
 
-const char* const effects_note = "known effects: reaction, diffusion";
+const char* const effects_note = "known effects: reaction, diffusion, remesh";
 
 const std::vector<Wrong> wrongs = {
     // version and structure
@@ -176,8 +176,14 @@ const std::vector<Wrong> wrongs = {
     {"[time]\nend", "[effects.diffusion]\nD = 1\n[reference]\nkind = \"characteristics\"\n[time]\nend", 32,
      "\"characteristics\"", "the density does not follow characteristics with [effects.diffusion]",
      "kind = \"exact\" and a formula as rho, or kind = \"none\""},
-    {"[time]\nend", "[effects.diffusion]\nD = 1\nhalo = 1\n[time]\nend", 31, "1",
-     "\"halo\" goes with method = \"particle-exchange\""},
+    {"[time]\nend", "[effects.diffusion]\nD = 1\ntolerance = 0.01\n[time]\nend", 31, "0.01",
+     "\"tolerance\" goes with method = \"particle-exchange\""},
+    {"[time]\nend", "[effects.remesh]\nevery = 5\nstretch = 2\n[time]\nend", 31, "stretch",
+     "[effects.remesh] has both \"every\" and \"stretch\"",
+     "\"every\" remeshes at fixed steps, \"stretch\" where particles have moved apart"},
+    {"[time]\nend", "[effects.remesh]\nkernel = \"lambda45\"\n[time]\nend", 30, "\"lambda45\"",
+     "unknown value \"lambda45\" for effects.remesh.kernel; did you mean \"lambda44\"?",
+     "known values: \"gauss8\", \"lambda44\", \"lambda66\", \"m4prime\""},
     {"[time]\nend", "[effects.reaction]\nrate = [1]\n[time]\nend", 30, "[1]",
      "effects.reaction.rate must be an expression in a string, found a list"},
     {"overlap = 2", "overlap = 2\nstep = 0.1", 27, "step", "unknown key \"step\" in [particles]; it belongs in [time]",
