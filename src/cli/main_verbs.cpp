@@ -92,9 +92,16 @@ ExitCode dispatch(int argc, char** argv) {
   CLI::App* reproduce_verb =
       app.add_subcommand("reproduce", "compute a published table again, beside the published numbers");
   reproduce_verb->add_option("what", reproduce_options.what, "what to reproduce (none: a list)")->type_name("WHAT");
-  reproduce_verb->add_option("table,--table", reproduce_options.table, "one table of fgtd or divergence, as in 4.6; all by default")
+  reproduce_verb
+      ->add_option("table,--table", reproduce_options.table,
+                   "one table of fgtd or divergence, or a figure, as in 4.6; all by default")
       ->type_name("TABLE");
-  reproduce_verb->add_flag("--full", reproduce_options.full, "fgtd, divergence: also the largest rows, and every target compared");
+  reproduce_verb
+      ->add_option("--out", reproduce_options.folder, "figures: folder for the pictures; output/figures by default")
+      ->type_name("DIR");
+  reproduce_verb->add_flag("--full", reproduce_options.full,
+                           "fgtd, divergence: also the largest rows, and every target compared; figures: 5.3 with the "
+                           "thesis's steps");
   reproduce_verb->add_option("--threads", reproduce_options.threads, "threads to use; all by default")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

@@ -13,6 +13,7 @@
 #include "study/describe.hpp"
 #include "study/reproduce_cone.hpp"
 #include "study/reproduce_fgtd.hpp"
+#include "study/reproduce_figures.hpp"
 #include "write/atomic_file.hpp"
 #include "write/observers.hpp"
 #include "write/run_folder.hpp"
@@ -180,7 +181,7 @@ namespace {
 ExitCode reproduce_cone(const ReproduceOptions& options) {
   if (!options.table.empty() || options.full)
     throw CommandLineError(
-        "the cone has no tables to choose from and no --full; that is for: reproduce fgtd, reproduce divergence");
+        "the cone has no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
   study::ConeReproduction result;
   {
     ProgressLine line;
@@ -206,22 +207,41 @@ ExitCode reproduce_tables(study::TableSet set, const ReproduceOptions& options) 
   return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
 }
 
+ExitCode reproduce_figures(const ReproduceOptions& options) {
+  const study::FiguresOptions figures{
+      .figure = options.table,
+      .folder = options.folder.empty() ? fs::path("output") / "figures" : options.folder,
+      .full = options.full,
+      .threads = options.threads};
+  std::vector<study::Figure> made;
+  {
+    ProgressLine line;
+    made = study::reproduce_figures(figures, [&](const std::string& figure) { line.show(figure); });
+  }
+  fmt::print("{}", options.json ? study::to_json(made) : study::to_text(made));
+  return ExitCode::ok;
+}
+
 }  // namespace
 
 ExitCode reproduce(const ReproduceOptions& options) {
+  if (!options.folder.empty() && options.what != "figures")
+    throw CommandLineError("--out goes with: reproduce figures");
+  if (options.what == "figures") return reproduce_figures(options);
   if (options.what == "cone") return reproduce_cone(options);
   if (options.what == "fgtd") return reproduce_tables(study::TableSet::fgtd, options);
   if (options.what == "divergence") return reproduce_tables(study::TableSet::divergence, options);
   if (!options.what.empty())
-    throw CommandLineError(
-        fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence", options.what));
+    throw CommandLineError(fmt::format(
+        "nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures", options.what));
   fmt::print(
       "tables that can be reproduced:\n"
       "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
       "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
-      "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n",
+      "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"
+      "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n",
       fmt::join(study::table_numbers(study::TableSet::fgtd), ", "),
-      fmt::join(study::table_numbers(study::TableSet::divergence), " and "));
+      fmt::join(study::table_numbers(study::TableSet::divergence), " and "), fmt::join(study::figure_numbers(), ", "));
   return ExitCode::ok;
 }
 

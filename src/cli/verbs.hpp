@@ -55,10 +55,11 @@ ExitCode explain(const ExplainOptions& options);
 ExitCode run(const RunOptions& options);
 ExitCode check(const CaseOptions& options);
 struct ReproduceOptions {
-  std::string what;   // "cone", "fgtd", "divergence"; empty: a list
-  std::string table;  // of fgtd or divergence, as in 4.6; empty: all
-  bool full = false;  // fgtd, divergence: every row, and no samples of targets
-  int threads = 0;    // 0: all
+  std::string what;              // "cone", "fgtd", "divergence", "figures"; empty: a list
+  std::string table;             // of fgtd or divergence, or a figure, as in 4.6; empty: all
+  std::filesystem::path folder;  // --out, of figures; empty: output/figures
+  bool full = false;             // fgtd, divergence: every row, and no samples of targets; figures: the thesis's steps
+  int threads = 0;               // 0: all
   bool json = false;
 };
 ExitCode reproduce(const ReproduceOptions& options);

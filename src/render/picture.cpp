@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "render/on_canvas.hpp"
 #include "render/osmesa_window.hpp"
 #include "render/styles.hpp"
 #include "write/atomic_file.hpp"
@@ -62,23 +63,26 @@ void draw_on(Canvas& canvas, Style style, const DensityGrid& density, const Heig
 
 std::string unavailable_reason() { return window_unavailable_reason(); }
 
-void draw(Style style, const DensityGrid& density, const PictureOptions& options, const std::filesystem::path& png) {
+void on_canvas(int width, int height, const std::filesystem::path& png, const std::function<void(Canvas&)>& paint) {
   if (const std::string reason = unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
-  if (options.width < 64 || options.height < 48 || options.width > 16384 || options.height > 16384)
-    throw Error(ExitCode::internal,
-                fmt::format("a picture of {} x {} pixels is not possible", options.width, options.height));
+  if (width < 64 || height < 48 || width > 16384 || height > 16384)
+    throw Error(ExitCode::internal, fmt::format("a picture of {} x {} pixels is not possible", width, height));
   static std::mutex one_at_a_time;  // VTK and GLEW share their state between all windows
   const std::lock_guard lock(one_at_a_time);
-
-  const ColourRange range = colour_range(style, density, options);
-  const HeightField field = field_for(style, density, range);  // VTK looks into it until the picture is finished
   std::string bytes;
   {
-    Canvas canvas(options.width, options.height);
-    draw_on(canvas, style, density, field, range, options);
+    Canvas canvas(width, height);
+    paint(canvas);
     bytes = canvas.png();
   }
   write::write_text(png, bytes);
+}
+
+void draw(Style style, const DensityGrid& density, const PictureOptions& options, const std::filesystem::path& png) {
+  const ColourRange range = colour_range(style, density, options);
+  const HeightField field = field_for(style, density, range);  // VTK looks into it until the picture is finished
+  on_canvas(options.width, options.height, png,
+            [&](Canvas& canvas) { draw_on(canvas, style, density, field, range, options); });
 }
 
 }  // namespace gaussdrift::render

@@ -2,7 +2,9 @@
 // The interface knows no VTK; where OSMesa was absent at build time available() says so and draw() throws.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,7 +22,9 @@ bool shows(Style style, int dimension);
 struct PictureOptions {
   std::string title{};  // of the case
   std::string quantity = "density";
-  double time = 0;
+  std::array<std::string, 2> axes{"x", "y"};  // names of those of a plane
+  std::optional<double> time = 0;             // empty: the picture has none
+  bool from_below = false;                    // contour: the plane's lines as seen from below instead of from above
   double range_min = 0;  // of the colours, height axis and contour levels; the same for all pictures of a run
   double range_max = 1;
   int width = 1280;

@@ -1,5 +1,6 @@
 // In place of the pictures where OSMesa was absent at build time.
 #include "base/error.hpp"
+#include "render/chart.hpp"
 #include "render/picture.hpp"
 
 namespace gaussdrift::render {
@@ -9,5 +10,7 @@ std::string unavailable_reason() { return "this program draws no pictures: " GAU
 void draw(Style, const DensityGrid&, const PictureOptions&, const std::filesystem::path&) {
   throw Error(ExitCode::internal, unavailable_reason());
 }
+
+void draw_chart(const Chart&, const std::filesystem::path&) { throw Error(ExitCode::internal, unavailable_reason()); }
 
 }  // namespace gaussdrift::render

@@ -20,13 +20,15 @@ int intervals_upwards(double pixels, const Scale& scale) {
 }
 
 /// The axes of the part `window` of the scene.
-Axis x_axis(const HeightField& field, const Rectangle& window, double pixels, const Scale& scale) {
+Axis x_axis(const HeightField& field, const Rectangle& window, double pixels, const Scale& scale,
+            const PictureOptions& options) {
   const double from = field.x_min + window.x * field.length;
-  return {"x", from, from + window.width * field.length, intervals_across(pixels, scale)};
+  return {options.axes[0], from, from + window.width * field.length, intervals_across(pixels, scale)};
 }
-Axis y_axis(const HeightField& field, const Rectangle& window, double pixels, const Scale& scale) {
+Axis y_axis(const HeightField& field, const Rectangle& window, double pixels, const Scale& scale,
+            const PictureOptions& options) {
   const double from = field.y_min + window.y * field.length;
-  return {"y", from, from + window.height * field.length, intervals_upwards(pixels, scale)};
+  return {options.axes[1], from, from + window.height * field.length, intervals_upwards(pixels, scale)};
 }
 
 /// The largest rectangle of the field's shape in the middle of `room`, on whole pixels. Extremely slender fields are
@@ -95,7 +97,9 @@ std::vector<Polyline> outline(const HeightField& field, const Rectangle& window,
 }
 
 /// A small map of the whole field with the window marked; `corner` is its lower right one.
-void draw_locator(Canvas& canvas, const Point& corner, double side, const HeightField& field, const Rectangle& window) {
+void draw_locator(Canvas& canvas, const Point& corner, double side, const HeightField& field, Rectangle window,
+                  bool from_below) {
+  if (from_below) window.y = field.depth - window.y - window.height;
   const double width = std::max(side * field.width, 4.), height = std::max(side * field.depth, 4.);
   const Rectangle map{corner.x - width, corner.y, width, height};
   canvas.area({map.x + width * window.x / field.width, map.y + height * window.y / field.depth,
@@ -127,7 +131,8 @@ void draw_heatmap(Canvas& canvas, const HeightField& field, const ColourRange& r
   canvas.image(static_cast<int>(panel.x), static_cast<int>(panel.y), columns, rows, colours);
 
   const Rectangle whole{0, 0, field.width, field.depth};
-  draw_axes(canvas, panel, x_axis(field, whole, panel.width, scale), y_axis(field, whole, panel.height, scale));
+  draw_axes(canvas, panel, x_axis(field, whole, panel.width, scale, options),
+            y_axis(field, whole, panel.height, scale, options));
   const double bar_height = std::clamp(panel.height, room.height / 2, room.height) - scale(50);
   const Rectangle bar{panel.right() + scale(44), panel.y + (panel.height - bar_height - scale(50)) / 2, scale(26),
                       bar_height};
@@ -153,13 +158,18 @@ void draw_contour(Canvas& canvas, const HeightField& field, const ColourRange& r
   const double margin = 0.05 * (range.max - range.min);
   const Axis upwards{options.quantity, range.min - margin, range.max + margin, 6};
   std::vector<Polyline> from_above, from_side;
+  // From below x still runs to the right, so y runs downwards.
+  Axis across = x_axis(field, window, above.width, scale, options),
+       aside = y_axis(field, window, above.height, scale, options);
+  if (options.from_below) std::swap(aside.min, aside.max);
+  const auto seen = [&](double y) { return options.from_below ? 1 - y : y; };
   for (const auto& [level, points] : contours) {
     const Colour colour = viridis(level);
     Polyline line{{}, colour};
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Point& p : points) {
       line.points.push_back({above.x + above.width * (p.x - window.x) / window.width,
-                             above.y + above.height * (p.y - window.y) / window.height});
+                             above.y + above.height * seen((p.y - window.y) / window.height)});
       low = std::min(low, p.x);
       high = std::max(high, p.x);
     }
@@ -172,16 +182,17 @@ void draw_contour(Canvas& canvas, const HeightField& field, const ColourRange& r
   canvas.lines(outline(field, window, side, upwards, range), scale(1.5));
   canvas.lines(from_side, scale(3));
 
-  draw_axes(canvas, above, x_axis(field, window, above.width, scale), y_axis(field, window, above.height, scale));
-  draw_axes(canvas, side, x_axis(field, window, side.width, scale), upwards);
+  draw_axes(canvas, above, across, aside);
+  draw_axes(canvas, side, x_axis(field, window, side.width, scale, options), upwards);
   const TextStyle caption{.size = scale.font(18), .across = Across::left, .along = Along::bottom};
   canvas.text({side.x, side.top() + scale(10)}, "from the side", caption);
   const int enlarged = static_cast<int>(std::lround(field.width / window.width));
+  const std::string whence = options.from_below ? "from below" : "from above";
   canvas.text({above.x, above.top() + scale(10)},
-              enlarged == 1 ? "from above" : fmt::format("from above, enlarged {} times", enlarged), caption);
+              enlarged == 1 ? whence : fmt::format("{}, enlarged {} times", whence, enlarged), caption);
   if (enlarged > 1)  // its right edge on that of the panel, but beside the caption
     draw_locator(canvas, {std::max(above.right(), above.x + scale(340)), above.top() + scale(8)}, scale(60), field,
-                 window);
+                 window, options.from_below);
   if (contours.empty())
     canvas.text({above.x + above.width / 2, above.y + above.height / 2}, "no contour lines",
                 {.size = scale.font(18), .colour = grey});

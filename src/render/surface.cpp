@@ -127,8 +127,8 @@ void draw_surface(Canvas& canvas, const HeightField& field, const ColourRange& r
   const Scale scale(canvas);
   const double height = 0.45 * std::max(0.5, std::sqrt(field.width * field.depth));
   const double w = field.width, d = field.depth;
-  const Axis x{"x", field.x_min, field.x_min + w * field.length, w > 0.4 ? 5 : 2};
-  const Axis y{"y", field.y_min, field.y_min + d * field.length, d > 0.4 ? 5 : 2};
+  const Axis x{options.axes[0], field.x_min, field.x_min + w * field.length, w > 0.4 ? 5 : 2};
+  const Axis y{options.axes[1], field.y_min, field.y_min + d * field.length, d > 0.4 ? 5 : 2};
   const Axis z{options.quantity, range.min, range.max, 5};
 
   // Room at the right for the title of y and the colour bar.

@@ -129,9 +129,22 @@ TEST(Reproduce, GivesOneTableAsJsonOrText) {
   EXPECT_NE(text.out.find("112320 112320"), std::string::npos) << text.out;
 }
 
+TEST(Reproduce, DrawsTheFigureThatIsNamed) {
+  const ScratchFolder folder;
+  const Outcome json = gaussdrift_in(folder, "reproduce figures 5.1 --out pictures --json");
+  if (json.err.find("draws no pictures") != std::string::npos) GTEST_SKIP() << json.err;
+  ASSERT_EQ(json.exit_code, 0) << json.err;
+  const auto list = nlohmann::json::parse(json.out);
+  ASSERT_EQ(list.size(), 2u);
+  EXPECT_EQ(list[0]["figure"], "5.1a");
+  for (const auto& figure : list) EXPECT_GT(fs::file_size(folder / figure["file"].get<std::string>()), 10'000u);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "pictures"), fs::directory_iterator()), 2);
+}
+
 TEST(Reproduce, RefusesATableThatThereIsNot) {
   const ScratchFolder folder;
-  for (const char* wrong : {"reproduce fgtd 4.9", "reproduce cone 4.6", "reproduce cone --full"})
+  for (const char* wrong : {"reproduce fgtd 4.9", "reproduce cone 4.6", "reproduce cone --full",
+                            "reproduce figures 9.9", "reproduce cone --out x"})
     EXPECT_EQ(gaussdrift_in(folder, wrong).exit_code, 2) << wrong;
 }
 
