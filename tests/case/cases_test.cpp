@@ -1,5 +1,4 @@
-// Every file in cases/ runs at reduced size and approaches its exact solution: both rotate, so rho(x, t) = rho_0 at x
-// turned back.
+// Every file in cases/ runs at reduced size and approaches its exact density.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,6 +68,7 @@ struct Reduced {
   std::string name;
   std::vector<std::string> overrides;
   double largest_l1;
+  enum class Mass { carried, handed_on, falls } mass = Mass::carried;  // weights stay, change hands, are used up
 };
 
 const std::vector<Reduced> reduced_cases = {
@@ -88,6 +88,16 @@ const std::vector<Reduced> reduced_cases = {
     {"divergent_flow", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.015},  // (eps/R)^4 of gauss4 at t = 0
     // Smoothing of the spiral: with the formula of the samples in place of the fit the error is the same to two digits.
     {"scattered_samples", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.03},
+    {"shear_diffusion",
+     {"particles.per_axis=101", "evaluate.per_axis=61"},
+     0.036,
+     Reduced::Mass::handed_on},  // ~ eps^2
+    {"decay", {"particles.per_axis=150", "evaluate.per_axis=61"}, 0.004, Reduced::Mass::falls},
+    {"stiff_reaction", {"particles.per_axis=200", "evaluate.per_axis=61"}, 0.28, Reduced::Mass::falls},
+    {"swirl_remesh",
+     {"particles.per_axis=151", "evaluate.per_axis=61", "time.step=0.1", "output.times=[\"T/2\"]"},
+     0.26,
+     Reduced::Mass::handed_on},
 };
 
 std::vector<FrameNumbers> run_reduced(const Reduced& reduced) {
@@ -113,12 +123,59 @@ TEST(Cases, StayNearTheirExactDensityAndKeepTheirMass) {
     for (const FrameNumbers& frame : frames) {
       ASSERT_TRUE(frame.error.has_value()) << reduced.name;
       EXPECT_EQ(frame.untraced, 0u) << reduced.name;
-      EXPECT_EQ(frame.mass, frames.front().mass) << reduced.name;  // weights are carried, not computed
+      switch (reduced.mass) {
+        case Reduced::Mass::carried:
+          EXPECT_EQ(frame.mass, frames.front().mass) << reduced.name;
+          break;
+        case Reduced::Mass::handed_on:  // rounding of a sum at each of up to 80 steps
+          EXPECT_NEAR(frame.mass, frames.front().mass, 1e-13 * frames.front().mass) << reduced.name;
+          break;
+        case Reduced::Mass::falls:
+          EXPECT_LE(frame.mass, frames.front().mass) << reduced.name;
+          break;
+      }
       worst = std::max(worst, frame.error->l1);
     }
     EXPECT_LE(worst, reduced.largest_l1) << reduced.name;
     EXPECT_GE(worst, reduced.largest_l1 / 2) << reduced.name << ": the bound is too wide to notice anything";
   }
+}
+
+TEST(Decay, IsExactWhateverTheStep) {
+  const Case scene = input::read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).scene;
+  const auto frames = Simulation(scene).run().frames;
+  for (const auto& [time, frame] : frames)
+    EXPECT_NEAR(frame.mass / frames.front().second.mass, std::exp(-0.3 * time), 1e-14);  // rounding of the exponent
+}
+
+TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
+  const Case scene = input::read_case(cases_folder + "stiff_reaction.toml", {"particles.per_axis=200"}).scene;
+  Simulation simulation(scene);
+  const RunSummary summary = simulation.run();
+  const Particles& particles = simulation.particles();
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    EXPECT_GE(particles.alpha[j], 0);
+    const double off = std::abs(std::hypot(particles.position[0][j], particles.position[1][j]) - 0.5);
+    // A chord shorter than the way between two stages, 0.5 * 0.02 / 2, can be missed: 0.04 - hypot(...) = 8e-5.
+    if (off < 0.0399) {
+      EXPECT_EQ(particles.alpha[j], 0) << "at " << off;
+    }
+  }
+  for (const auto& [time, frame] : summary.frames) EXPECT_GE(frame.minimum, 0);
+}
+
+TEST(SwirlRemesh, KeepsTheFilamentWhole) {
+  // The exact density is at most 1; without remeshing rows of spots stand out of the filament.
+  const auto height = [](bool remesh) {
+    Case scene = input::read_case(cases_folder + "swirl_remesh.toml",
+                                  {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
+                     .scene;
+    scene.reference = {}, scene.checks.clear();
+    if (!remesh) scene.effects.remesh.reset();
+    return Simulation(scene).run().frames.back().second.maximum;
+  };
+  EXPECT_LE(height(true), 1.0);
+  EXPECT_GE(height(false), 1.3);  // measured 1.45
 }
 
 TEST(ScatteredSamples, AreAsGoodAsTheFormulaTheyAreTakenFrom) {
