@@ -116,7 +116,8 @@ struct OutputSpec {
 struct ReferenceSpec {
   enum class Kind { characteristics, exact, none };
   Kind kind = Kind::none;
-  std::string rho;  // exact: an expression in x, y, z, t and the params
+  std::string rho;              // exact: an expression in x, y, z, t and the params
+  std::optional<int> points{};  // most points of the grid that are compared; empty: chosen (sim/simulation.hpp)
 };
 
 /// A bound on a number of the outputs. The norms of the error are relative to those of the exact density at the same

@@ -55,7 +55,11 @@ ExitCode new_case(const NewOptions& options) {
   std::vector<std::string> names;
   for (const input::ExampleFile& file : input::example_files()) {
     if (is_case(file)) names.push_back(name_of(file));
-    if (name_of(file) == wanted) files.push_back(&file);
+    // The case, and what it names: data of the same name, and of that name and a number.
+    const std::string name = name_of(file);
+    const bool numbered = name.size() > wanted.size() + 1 && name.compare(0, wanted.size() + 1, wanted + "_") == 0 &&
+                          name.find_first_not_of("0123456789", wanted.size() + 1) == std::string::npos;
+    if (name == wanted || numbered) files.push_back(&file);
   }
   if (std::find(names.begin(), names.end(), wanted) == names.end()) {
     const auto near = base::suggest(wanted, names);

@@ -111,8 +111,11 @@ void print_ending(const Case& scene, const RunSummary& summary, const fs::path& 
   }
   if (!summary.frames.empty() && summary.frames.back().second.error) {
     const auto& [time, numbers] = summary.frames.back();
-    fmt::print("error  at t = {:.4g}, relative to the exact density: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", time,
-               numbers.error->l1, numbers.error->l2, numbers.error->linf);
+    const std::string where = numbers.compared < summary.grid_points
+                                  ? fmt::format(", on {} of {} grid points", numbers.compared, summary.grid_points)
+                                  : "";
+    fmt::print("error  at t = {:.4g}, relative to the exact density{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", time,
+               where, numbers.error->l1, numbers.error->l2, numbers.error->linf);
   }
   for (const CheckResult& result : summary.checks)
     fmt::print("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);

@@ -29,6 +29,22 @@ struct GridInterpolator::TimeWeights {
   double second_weight = 0;  // of first + 1
 };
 
+namespace {
+
+std::vector<std::array<double, 3>> parabolas(const std::vector<double>& axis) {
+  std::vector<std::array<double, 3>> derivatives(axis.size());
+  for (std::size_t point = 0; point < axis.size(); ++point) {
+    const std::size_t middle = std::clamp<std::size_t>(point, 1, axis.size() - 2);
+    const double x0 = axis[middle - 1], x1 = axis[middle], x2 = axis[middle + 1], at = axis[point];
+    derivatives[point] = {((at - x1) + (at - x2)) / ((x0 - x1) * (x0 - x2)),
+                          ((at - x0) + (at - x2)) / ((x1 - x0) * (x1 - x2)),
+                          ((at - x0) + (at - x1)) / ((x2 - x0) * (x2 - x1))};
+  }
+  return derivatives;
+}
+
+}  // namespace
+
 GridInterpolator::GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside)
     : data_(std::move(data)), interpolation_(interpolation), outside_(outside) {
   if (data_->times.empty() || data_->values.size() != data_->times.size())
@@ -44,6 +60,7 @@ GridInterpolator::GridInterpolator(std::shared_ptr<const GridData> data, Interpo
     for (std::size_t i = 0; i < axis.size(); ++i)
       even = even && std::abs(axis[i] - (axis.front() + spacing * static_cast<double>(i))) < 1e-9 * spacing;
     if (even) inverse_spacing_[k] = 1 / spacing;
+    if (interpolation_ == Interpolation::cubic && axis.size() > 2) parabola_[k] = parabolas(axis);
   }
 }
 
@@ -83,10 +100,7 @@ GridInterpolator::Stencil GridInterpolator::stencil(int k, double x) const {
     const auto place = [&](std::size_t point) { return point - result.first; };
     const auto add_slope = [&](std::size_t point, double value, double derivative) {
       const std::size_t middle = std::clamp<std::size_t>(point, 1, cells - 1);  // of the parabola
-      const double x0 = axis[middle - 1], x1 = axis[middle], x2 = axis[middle + 1], at = axis[point];
-      const std::array<double, 3> parabola{((at - x1) + (at - x2)) / ((x0 - x1) * (x0 - x2)),
-                                           ((at - x0) + (at - x2)) / ((x1 - x0) * (x1 - x2)),
-                                           ((at - x0) + (at - x1)) / ((x2 - x0) * (x2 - x1))};
+      const std::array<double, 3>& parabola = parabola_[k][point];
       for (std::size_t i = 0; i < 3; ++i) {
         result.weight[place(middle - 1 + i)] += value * parabola[i];
         result.slope[place(middle - 1 + i)] += derivative * parabola[i];
@@ -188,6 +202,16 @@ void GridInterpolator::add_divergence(double t, const PointsView& x, double* sum
       sums[i] += value;
     }
   }
+}
+
+std::string GridInterpolator::why_lost(const Vector& x) const {
+  for (int k = 0; k < data_->dimension; ++k)
+    if (stencil(k, x[k]).lost)
+      return fmt::format(
+          "{} = {:.6g} is outside of {}, which reaches from {:.6g} to {:.6g}: say what stands there with outside = "
+          "\"clamp\" or \"zero\", take data of a larger region, shorten time.end, or move the density",
+          "xyz"[k], x[k], data_ -> name, data_ -> axis[k].front(), data_->axis[k].back());
+  return "";
 }
 
 std::string GridInterpolator::describe() const {

@@ -50,6 +50,9 @@ class GridInterpolator {
   /// sums[i] += sum_k d component k / d x_k, of the interpolating function itself.
   void add_divergence(double t, const PointsView& x, double* sums) const;
 
+  /// "x = 1.3 is outside of u of wind.pvd, which reaches from -1 to 1: ..."; empty where there is a value.
+  std::string why_lost(const Vector& x) const;
+
   bool is_steady() const { return data_->times.size() == 1; }
   /// "u of wind.pvd on 100 x 50 points, 12 times, cubic, 0 outside".
   std::string describe() const;
@@ -65,6 +68,9 @@ class GridInterpolator {
   Interpolation interpolation_;
   Outside outside_;
   std::array<double, max_dimension> inverse_spacing_{};  // of evenly spaced axes; 0: not evenly spaced
+  // The derivative at a point of an axis, of the parabola through it and its neighbours (at the ends: the next two): a
+  // weight for each of the three. Only for cubics.
+  std::array<std::vector<std::array<double, 3>>, max_dimension> parabola_;
 };
 
 }  // namespace gaussdrift

@@ -21,6 +21,8 @@ class GriddedVelocity : public VelocityField {
     grid_.add_divergence(t, x, values);
   }
   bool is_steady() const override { return grid_.is_steady(); }
+  bool is_smooth() const override { return false; }
+  std::string why_not_finite(double /*t*/, const Vector& x) const override { return grid_.why_lost(x); }
   std::string describe() const override { return "u = " + grid_.describe(); }
 
  private:

@@ -65,6 +65,11 @@ bool ExpressionField::is_steady() const {
   return std::none_of(components_.begin(), components_.end(), [](const Expression& part) { return part.uses("t"); });
 }
 
+bool ExpressionField::is_smooth() const {
+  return std::all_of(components_.begin(), components_.end(),
+                     [](const Expression& part) { return part.rough_spots().empty(); });
+}
+
 bool ExpressionField::is_solenoidal() const {
   constexpr std::array coordinates{"x", "y", "z"};
   for (std::size_t k = 0; k < components_.size(); ++k)
@@ -98,6 +103,8 @@ void StreamfunctionField::add_divergence(double /*t*/, const PointsView& /*x*/, 
 
 bool StreamfunctionField::is_steady() const { return !psi_.uses("t"); }
 
+bool StreamfunctionField::is_smooth() const { return psi_.rough_spots().empty(); }
+
 std::string StreamfunctionField::describe() const {
   return fmt::format("u = (d psi/dy, -d psi/dx), psi = {}, div u = 0", psi_.text());
 }
@@ -112,6 +119,16 @@ void SumField::add_divergence(double t, const PointsView& x, double* values) con
 
 bool SumField::is_steady() const {
   return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_steady(); });
+}
+
+bool SumField::is_smooth() const {
+  return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_smooth(); });
+}
+
+std::string SumField::why_not_finite(double t, const Vector& x) const {
+  for (const auto& field : fields_)
+    if (std::string reason = field->why_not_finite(t, x); !reason.empty()) return reason;
+  return "";
 }
 
 std::optional<Vector> SumField::flow(double from, double to, const Vector& x) const {

@@ -22,6 +22,8 @@ class VelocityField {
   virtual void add_divergence(double t, const PointsView& x, double* values) const = 0;
   /// True if u does not depend on t.
   virtual bool is_steady() const { return false; }
+  /// False if u or a derivative of it jumps somewhere: integrators of high order then step finely there.
+  virtual bool is_smooth() const { return true; }
   /// True if div u = 0 everywhere, by construction.
   virtual bool is_solenoidal() const { return false; }
   /// Position at time `to` of what is at x at time `from`, from the closed form of the flow; nothing where none is
@@ -29,6 +31,8 @@ class VelocityField {
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
   /// True if calls for a few hundred points cost no more a point than one call for all of them.
   virtual bool evaluates_in_blocks() const { return true; }
+  /// Why u is not finite at x, and what can be done, for a message; empty where the field does not know more than that.
+  virtual std::string why_not_finite(double /*t*/, const Vector& /*x*/) const { return ""; }
   /// One line for people: formula and what is known of it.
   virtual std::string describe() const = 0;
 };
@@ -44,6 +48,7 @@ class ExpressionField : public VelocityField {
   bool is_solenoidal() const override;
   void add_divergence(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override;
+  bool is_smooth() const override;
   std::string describe() const override;
 
  private:
@@ -59,6 +64,7 @@ class StreamfunctionField : public VelocityField {
   void add(double t, const PointsView& x, const VectorsView& u) const override;
   void add_divergence(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override;
+  bool is_smooth() const override;
   bool is_solenoidal() const override { return true; }
   std::string describe() const override;
 
@@ -73,9 +79,11 @@ class SumField : public VelocityField {
   void add(double t, const PointsView& x, const VectorsView& u) const override;
   void add_divergence(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override;
+  bool is_smooth() const override;
   bool is_solenoidal() const override;
   std::optional<Vector> flow(double from, double to, const Vector& x) const override;
   bool evaluates_in_blocks() const override;
+  std::string why_not_finite(double t, const Vector& x) const override;
   std::string describe() const override;
 
  private:

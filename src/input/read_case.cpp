@@ -1009,13 +1009,18 @@ class Reader {
     if (rho && reference.kind != ReferenceSpec::Kind::exact)
       diagnostics_.error(rho->place, fmt::format("\"rho\" goes with kind = \"exact\", not with \"{}\"", chosen));
     if (rho) reference.rho = field_expression(rho->value, "reference.rho", true);
-    if (reference.kind != ReferenceSpec::Kind::none) return;
-    const Entry* images = find("output", "images");
-    if (!images) return;
+    const Entry *points = find("reference", "points"), *images = find("output", "images");
+    if (const auto most = number("reference", "points")) reference.points = to_int(*most);
+    const bool none = reference.kind == ReferenceSpec::Kind::none;
+    if (points && none) diagnostics_.error(points->place, "\"points\" has no meaning where reference.kind is \"none\"");
+    if (!images || (!none && !points)) return;
     for (const Value& item : images->value.items)
       if (item.kind == Kind::text && item.text == "error")
-        diagnostics_.error(item.place, "the picture \"error\" needs an exact density, but reference.kind is \"none\"",
-                           "leave out reference.kind, or the picture");
+        diagnostics_.error(
+            item.place,
+            none ? "the picture \"error\" needs an exact density, but reference.kind is \"none\""
+                 : "the picture \"error\" needs the whole grid, but reference.points takes a sample",
+            none ? "leave out reference.kind, or the picture" : "leave out reference.points, or the picture");
   }
 
   void read_checks(Case& scene) {

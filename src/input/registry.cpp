@@ -368,6 +368,15 @@ std::vector<Key> written_keys() {
        .type = Type::expression,
        .symbol = "rho",
        .meaning = "the exact density in x, y, z, t and params; with `kind = \"exact\"`"},
+      {.table = "reference",
+       .name = "points",
+       .type = Type::whole,
+       .range = {16, 1e9},
+       .meaning =
+           "most grid points that are compared. Fewer than the grid has are a sample, half of it where there is "
+           "density, and the largest values; then files have no `rho_exact` and `error`. Without it the whole grid, "
+           "but 4096 points if neither files nor pictures show the error, and 256 where the velocity is not smooth "
+           "(data on a grid, `abs`, ...) and no picture shows it"},
 
       {.table = "check",
        .name = "what",

@@ -199,6 +199,7 @@ std::string resolved_toml(const Case& scene) {
   out.table("reference");
   out.entry("kind", written(choice("reference", "kind", scene.reference.kind)));
   if (scene.reference.kind == ReferenceSpec::Kind::exact) out.entry("rho", written(scene.reference.rho));
+  if (scene.reference.points) out.entry("points", fmt::format("{}", *scene.reference.points));
   for (const CheckSpec& check : scene.checks) {
     out.part("check", scene.checks.size());
     out.entry("what", written(choice("check", "what", check.what)));

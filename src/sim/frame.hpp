@@ -34,6 +34,7 @@ struct FrameNumbers {
   double transform_tolerance = 0;   // per-term tolerance that was asked of fgtd
   double evaluate_seconds = 0;      // preparing and evaluating the transform
   std::optional<ErrorNorms> error;  // only with a reference
+  std::size_t compared = 0;         // grid points that the norms are taken over; a sample if fewer than the grid has
   std::size_t untraced = 0;         // grid points where the reference is not known; the norms leave them out
 };
 
@@ -45,7 +46,7 @@ struct Frame {
       nullptr;  // u(X_j, t) [j][dimension]; only if particle files are written, else null
   const DensityGrid* density = nullptr;
   const std::vector<double>* exact = nullptr;  // rho at the points of the density, NaN where not known; null without
-                                               // a reference
+                                               // a reference and where a sample is compared
   FrameNumbers numbers;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/parallel.hpp"
 #include "time/adaptive.hpp"
@@ -14,13 +15,26 @@ namespace gaussdrift {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t block_length =
+constexpr std::size_t most_together =
     256;  // points that take the same steps; 13 rates of them fit the second-level cache
+
+// Where a derivative of u jumps each point needs some twenty short steps, and all that go with it take them too.
+constexpr std::size_t together_over_kinks = 1;
 
 /// Coordinates of the lattice points first .. first + count - 1, axis[k * count + i].
 void fill_coordinates(const Lattice& lattice, std::size_t first, std::size_t count, double* axis) {
   for (std::size_t i = 0; i < count; ++i) {
     std::size_t rest = first + i;
+    for (int k = 0; k < lattice.dimension; ++k) {
+      axis[static_cast<std::size_t>(k) * count + i] = lattice.coordinate(k, rest % lattice.points[k]);
+      rest /= lattice.points[k];
+    }
+  }
+}
+
+void fill_coordinates(const Lattice& lattice, const std::size_t* points, std::size_t count, double* axis) {
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t rest = points[i];
     for (int k = 0; k < lattice.dimension; ++k) {
       axis[static_cast<std::size_t>(k) * count + i] = lattice.coordinate(k, rest % lattice.points[k]);
       rest /= lattice.points[k];
@@ -48,7 +62,8 @@ class Characteristics : public Reference {
         growth_(std::move(growth)),
         lattice_(lattice),
         options_(options),
-        components_(static_cast<std::size_t>(lattice.dimension) + (growth_ ? 1 : 0)) {
+        components_(static_cast<std::size_t>(lattice.dimension) + (growth_ ? 1 : 0)),
+        block_length_(velocity.is_smooth() ? most_together : together_over_kinks) {
     const double longest = longest_side(lattice);
     // Coordinates far from the origin are rounded by more than the tolerance. A quarter of the domain at a time, so
     // that no step can fly over what is there.
@@ -61,12 +76,12 @@ class Characteristics : public Reference {
   }
 
   ReferenceReport evaluate(double time, std::vector<double>& rho) override {
-    const std::size_t points = lattice_.size(), blocks = (points + block_length - 1) / block_length;
+    const std::size_t points = lattice_.size(), blocks = (points + block_length_ - 1) / block_length_;
     rho.assign(points, 0.0);
     if (options_.steady && kept_.empty()) kept_.resize(blocks);
     std::vector<ReferenceReport> reports(blocks);
     base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
-      const std::size_t first = b * block_length, count = std::min(block_length, points - first);
+      const std::size_t first = b * block_length_, count = std::min(block_length_, points - first);
       Block block = start(b, first, count);
       // In a steady flow X(0) of x at t is that of X(t_before - t) at t_before.
       const double from = options_.steady ? time - kept_until_ : time;
@@ -80,6 +95,36 @@ class Characteristics : public Reference {
       if (options_.steady) kept_[b] = std::move(block);
     });
     if (options_.steady) kept_until_ = time;
+    return sum_of(reports);
+  }
+
+  ReferenceReport evaluate_at(double time, const std::vector<std::size_t>& points,
+                              std::vector<double>& rho) const override {
+    const std::size_t blocks = (points.size() + block_length_ - 1) / block_length_;
+    rho.assign(points.size(), 0.0);
+    std::vector<ReferenceReport> reports(blocks);
+    base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
+      const std::size_t first = b * block_length_, count = std::min(block_length_, points.size() - first);
+      Block block;
+      block.state.assign(components_ * count, 0.0);
+      fill_coordinates(lattice_, points.data() + first, count, block.state.data());
+      trace(block.state, count, time, reports[b]);
+      values(block, count, rho.data() + first);
+      for (std::size_t i = first; i < first + count && reports[b].untraced > 0; ++i)
+        if (std::isnan(rho[i])) {
+          reports[b].first_untraced = place(points[i]);
+          break;
+        }
+    });
+    return sum_of(reports);
+  }
+
+ private:
+  struct Block {
+    std::vector<double> state;  // [component][point]: the foot so far, and the exponent
+  };
+
+  static ReferenceReport sum_of(const std::vector<ReferenceReport>& reports) {
     ReferenceReport all;
     for (const ReferenceReport& report : reports) {
       if (all.untraced == 0 && report.untraced > 0)
@@ -89,11 +134,6 @@ class Characteristics : public Reference {
     }
     return all;
   }
-
- private:
-  struct Block {
-    std::vector<double> state;  // [component][point]: the foot so far, and the exponent
-  };
 
   Block start(std::size_t b, std::size_t first, std::size_t count) {
     if (options_.steady && !kept_[b].state.empty()) return std::move(kept_[b]);
@@ -162,6 +202,7 @@ class Characteristics : public Reference {
   const Lattice lattice_;
   const CharacteristicsOptions options_;
   const std::size_t components_;
+  const std::size_t block_length_;
   time::AdaptiveOptions bounds_;
   std::vector<Block> kept_;  // of the output before; only in a steady flow
   double kept_until_ = 0;
@@ -178,12 +219,26 @@ class Formula : public Reference {
 
   ReferenceReport evaluate(double time, std::vector<double>& rho) override {
     rho.assign(lattice_.size(), 0.0);
+    return fill(time, rho, [&](std::size_t i) { return i; });
+  }
+
+  ReferenceReport evaluate_at(double time, const std::vector<std::size_t>& points,
+                              std::vector<double>& rho) const override {
+    rho.assign(points.size(), 0.0);
+    return fill(time, rho, [&](std::size_t i) { return points[i]; });
+  }
+
+ private:
+  template <class PointOf>
+  ReferenceReport fill(double time, std::vector<double>& rho, const PointOf& point_of) const {
     ReferenceReport report;
-    const std::vector<double> times(block_length, time);
-    std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * block_length);
-    for (std::size_t first = 0; first < rho.size(); first += block_length) {
-      const std::size_t count = std::min(block_length, rho.size() - first);
-      fill_coordinates(lattice_, first, count, coordinates.data());
+    const std::vector<double> times(most_together, time);
+    std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * most_together);
+    std::vector<std::size_t> points(most_together);
+    for (std::size_t first = 0; first < rho.size(); first += most_together) {
+      const std::size_t count = std::min(most_together, rho.size() - first);
+      for (std::size_t i = 0; i < count; ++i) points[i] = point_of(first + i);
+      fill_coordinates(lattice_, points.data(), count, coordinates.data());
       std::array<const double*, max_dimension + 1> arguments{};
       for (int k = 0; k < lattice_.dimension; ++k)
         arguments[static_cast<std::size_t>(k)] = coordinates.data() + static_cast<std::size_t>(k) * count;
@@ -193,14 +248,13 @@ class Formula : public Reference {
         if (std::isfinite(rho[first + i])) continue;
         rho[first + i] = nan;
         if (report.untraced++ > 0) continue;
-        fill_coordinates(lattice_, first + i, 1, report.first_untraced.data());
+        fill_coordinates(lattice_, points[i], 1, report.first_untraced.data());
         report.trouble = "the expression is not finite";
       }
     }
     return report;
   }
 
- private:
   Expression expression_;
   Lattice lattice_;
 };
@@ -230,22 +284,82 @@ std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std
   return std::make_unique<Formula>(rho, params, lattice);
 }
 
-ErrorNorms compare(const std::vector<double>& rho, const std::vector<double>& exact) {
+GridSample sample_of_grid(const Lattice& lattice, const std::vector<double>& rho, std::size_t count) {
+  GridSample sample;
+  if (rho.size() <= count) {
+    sample.points.resize(rho.size());
+    std::iota(sample.points.begin(), sample.points.end(), std::size_t{0});
+    sample.weight.assign(rho.size(), 1.0);
+    return sample;
+  }
+  std::size_t top = 0;
+  for (std::size_t i = 0; i < rho.size(); ++i)
+    if (std::abs(rho[i]) > std::abs(rho[top])) top = i;
+  std::array<std::vector<std::size_t>, 2> halves;  // where there is density, and where there is none
+  for (std::size_t i = 0; i < rho.size(); ++i) halves[!(std::abs(rho[i]) >= 1e-6 * std::abs(rho[top]))].push_back(i);
+  for (std::size_t h = 0; h < 2; ++h) {
+    const auto& points = halves[h];
+    const std::size_t other = halves[1 - h].size();
+    // What one half has no use for goes to the other.
+    const std::size_t wanted = std::min(points.size(), std::max(count / 2, count - std::min(count, other)));
+    for (std::size_t i = 0; i < wanted; ++i) {
+      const auto at = static_cast<std::size_t>((static_cast<double>(i) + 0.5) / static_cast<double>(wanted) *
+                                               static_cast<double>(points.size()));
+      sample.points.push_back(points[std::min(at, points.size() - 1)]);
+      sample.weight.push_back(static_cast<double>(points.size()) / static_cast<double>(wanted));
+    }
+  }
+  std::array<std::size_t, max_dimension> centre{};
+  for (std::size_t k = 0, rest = top; k < max_dimension; ++k)
+    centre[k] = rest % lattice.points[k], rest /= lattice.points[k];
+  const auto near = [&](std::size_t k) {
+    const std::size_t low = centre[k] > 0 ? centre[k] - 1 : 0;
+    return std::pair{low, std::min(centre[k] + 1, lattice.points[k] - 1)};
+  };
+  const auto [x0, x1] = near(0);
+  const auto [y0, y1] = near(1);
+  const auto [z0, z1] = near(2);
+  for (std::size_t z = z0; z <= z1; ++z)
+    for (std::size_t y = y0; y <= y1; ++y)
+      for (std::size_t x = x0; x <= x1; ++x) {
+        sample.points.push_back((z * lattice.points[1] + y) * lattice.points[0] + x);
+        sample.weight.push_back(0);
+      }
+  return sample;
+}
+
+namespace {
+
+/// rho and weight are functions of the number of a value of `exact`.
+template <class Rho, class Weight>
+ErrorNorms norms(const std::vector<double>& exact, const Rho& rho, const Weight& weight) {
   double largest_error = 0, largest = 0;
-  for (std::size_t i = 0; i < rho.size(); ++i) {
+  for (std::size_t i = 0; i < exact.size(); ++i) {
     if (std::isnan(exact[i])) continue;
-    largest_error = std::max(largest_error, std::abs(rho[i] - exact[i]));
+    largest_error = std::max(largest_error, std::abs(rho(i) - exact[i]));
     largest = std::max(largest, std::abs(exact[i]));
   }
   if (!(largest > 0)) return {nan, nan, nan};
   double error_1 = 0, error_2 = 0, norm_1 = 0, norm_2 = 0;  // of values divided by the largest: squares do not overflow
-  for (std::size_t i = 0; i < rho.size(); ++i) {
+  for (std::size_t i = 0; i < exact.size(); ++i) {
     if (std::isnan(exact[i])) continue;
-    const double error = std::abs(rho[i] - exact[i]) / largest, size = std::abs(exact[i]) / largest;
-    error_1 += error, error_2 += error * error;
-    norm_1 += size, norm_2 += size * size;
+    const double error = std::abs(rho(i) - exact[i]) / largest, size = std::abs(exact[i]) / largest, w = weight(i);
+    error_1 += w * error, error_2 += w * (error * error);
+    norm_1 += w * size, norm_2 += w * (size * size);
   }
   return {error_1 / norm_1, std::sqrt(error_2 / norm_2), largest_error / largest};
+}
+
+}  // namespace
+
+ErrorNorms compare(const std::vector<double>& rho, const std::vector<double>& exact) {
+  return norms(
+      exact, [&](std::size_t i) { return rho[i]; }, [](std::size_t) { return 1.0; });
+}
+
+ErrorNorms compare(const std::vector<double>& rho, const GridSample& sample, const std::vector<double>& exact) {
+  return norms(
+      exact, [&](std::size_t i) { return rho[sample.points[i]]; }, [&](std::size_t i) { return sample.weight[i]; });
 }
 
 }  // namespace gaussdrift

@@ -34,6 +34,9 @@ class Reference {
   /// rho[i] = rho(x_i, time) on the lattice; NaN where it is not known, which the report counts. Times ascend from call
   /// to call.
   virtual ReferenceReport evaluate(double time, std::vector<double>& rho) = 0;
+  /// The same at some of the lattice points alone, rho[i] at points[i]; at any time.
+  virtual ReferenceReport evaluate_at(double time, const std::vector<std::size_t>& points,
+                                      std::vector<double>& rho) const = 0;
 };
 
 /// values[i] += g(x_i, t).
@@ -57,6 +60,20 @@ std::unique_ptr<Reference> characteristics(const VelocityField& velocity, const 
 /// rho as an expression in x, y, (z,) t and the params. Throws ExpressionError.
 std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params,
                                    const Lattice& lattice);
+
+/// Some points of a lattice that stand for all of them.
+struct GridSample {
+  std::vector<std::size_t> points;
+  std::vector<double> weight;  // how many points of the lattice each stands for; 0: for the largest error alone
+};
+
+/// About `count` points: half of them among those where |rho| is at least a millionth of its largest value, half among
+/// the others, each half evenly spread over its points in their order; and the neighbourhood of the largest value,
+/// which counts for the largest error alone. All points if there are no more.
+GridSample sample_of_grid(const Lattice& lattice, const std::vector<double>& rho, std::size_t count);
+
+/// Norms of rho - exact over a sample; exact[i] at sample.points[i]. See compare() below.
+ErrorNorms compare(const std::vector<double>& rho, const GridSample& sample, const std::vector<double>& exact);
 
 /// Norms of rho - exact over the lattice points where exact is a number, each divided by that of exact; NaN where exact
 /// is 0 everywhere. Sums in the order of the points.

@@ -44,6 +44,12 @@ Scene make_scene(const Case& description, int threads = 0);
 /// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.
 std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads);
 
+/// Grid points of an output that are compared with the reference, at most; those of the grid where it is compared as a
+/// whole: where the case gives no reference.points and a picture shows the error, or the reference is a formula, or
+/// density files are written and the velocity is smooth. Else 4096, and 256 where the velocity is not smooth, for then
+/// a point costs milliseconds.
+std::size_t most_compared(const Case& description, const Scene& scene);
+
 /// Particles of the scene at t = 0. Throws NumericalError where rho_0 is not finite, InputError if it is 0 everywhere.
 Particles seed_scene(const Scene& scene, int threads);
 

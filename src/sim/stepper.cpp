@@ -35,7 +35,8 @@ std::string tuple(const std::array<T, max_dimension>& axis, int dimension, std::
   return text + ")";
 }
 
-void check_block(const PointsView& x, const VectorsView& u, const std::int64_t* id, double time, std::size_t step) {
+void check_block(const VelocityField& field, const PointsView& x, const VectorsView& u, const std::int64_t* id,
+                 double time, std::size_t step) {
   for (std::size_t j = 0; j < x.count; ++j) {
     bool placed = true, moving = true;
     for (int k = 0; k < x.dimension; ++k) {
@@ -48,10 +49,15 @@ void check_block(const PointsView& x, const VectorsView& u, const std::int64_t* 
       throw NumericalError(fmt::format(
           "particle {} left for infinity {}; time.step is too long for this field, or the flow itself blows up", id[j],
           when));
+    Vector place{};
+    for (int k = 0; k < x.dimension; ++k) place[k] = x.axis[k][j];
+    const std::string reason = field.why_not_finite(time, place);
     throw NumericalError(fmt::format(
-        "the velocity is {} {}, for particle {} at {}; the field must be finite wherever particles go: guard the "
-        "expression, choose what is outside of data from a file, shorten time.end, or move the density",
-        tuple(u.axis, x.dimension, j), when, id[j], tuple(x.axis, x.dimension, j)));
+        "the velocity is {} {}, for particle {} at {}; {}", tuple(u.axis, x.dimension, j), when, id[j],
+        tuple(x.axis, x.dimension, j),
+        !reason.empty() ? reason
+                        : "the field must be finite wherever particles go: guard the expression, shorten time.end, or "
+                          "move the density"));
   }
 }
 
@@ -86,8 +92,9 @@ struct Block {
 
 }  // namespace
 
-void check_velocity(const Particles& particles, const VectorsView& u, double time, std::size_t step) {
-  check_block(particles.view(), u, particles.id.data(), time, step);
+void check_velocity(const VelocityField& field, const Particles& particles, const VectorsView& u, double time,
+                    std::size_t step) {
+  check_block(field, particles.view(), u, particles.id.data(), time, step);
 }
 
 double Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
@@ -128,15 +135,15 @@ double Stepper::advance(Particles& particles, const time::Interval& interval, st
       std::size_t i = first;
       const auto traced_rate = [&](double t, const double* x, double* u) {
         rate(t, x, u);
-        check_block(block.points(x), block.vectors(u), particles.id.data() + begin, t, steps_before + i + 1);
+        check_block(velocity_, block.points(x), block.vectors(u), particles.id.data() + begin, t, steps_before + i + 1);
         for (std::size_t q = 0; q < integrals_.size(); ++q)
           check_rates(*integrals_[q], block.points(x), u + (dimension + q) * length, particles.id.data() + begin, t,
                       steps_before + i + 1);
       };
       for (; i < first + count; ++i) {
         time::step(tableau_, interval.start(i), interval.length(i), traced_rate, block.state.data(), work);
-        check_block(block.points(block.state.data()), block.vectors(block.state.data()), particles.id.data() + begin,
-                    interval.start(i + 1), steps_before + i + 1);
+        check_block(velocity_, block.points(block.state.data()), block.vectors(block.state.data()),
+                    particles.id.data() + begin, interval.start(i + 1), steps_before + i + 1);
         for (std::size_t q = 0; q < integrals_.size(); ++q)
           check_rates(*integrals_[q], block.points(block.state.data()), block.state.data() + (dimension + q) * length,
                       particles.id.data() + begin, interval.start(i + 1), steps_before + i + 1);

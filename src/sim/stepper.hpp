@@ -14,10 +14,12 @@
 namespace gaussdrift {
 
 /// Throws NumericalError naming step, time, particle and place where a velocity or a position is not finite.
-void check_velocity(const Particles& particles, const VectorsView& u, double time, std::size_t step);
+void check_velocity(const VelocityField& field, const Particles& particles, const VectorsView& u, double time,
+                    std::size_t step);
 
 /// Particles do not see each other, so each block of them takes many steps at a time while its arrays stay in the
-/// cache; a field that is evaluated best for all at once gets all of them in one block. The result of a particle does not depend on the blocks or the number of threads.
+/// cache; a field that is evaluated best for all at once gets all of them in one block. The result of a particle does
+/// not depend on the blocks or the number of threads.
 class Stepper {
  public:
   /// The field and the integrals must outlive the stepper. threads: 0 for all.

@@ -51,7 +51,6 @@ Columns velocity_at(const VelocityField& field, double t, const Particles& parti
 
 void sample_field(const Scene& scene, const Particles& particles, double end, Description& result) {
   Particles sample = sample_of(particles);
-  const double delta = 1e-3 * scene.core_radius;  // a thousandth of the smallest length that the density resolves
   for (const double t : {0.0, 0.5 * end, end}) {
     const Columns u = velocity_at(*scene.velocity, t, sample);
     for (std::size_t j = 0; j < sample.size(); ++j) {
@@ -68,19 +67,12 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
       result.largest_speed = std::max(result.largest_speed, std::sqrt(square));
     }
     std::vector<double> divergence(sample.size(), 0.0);
-    for (int k = 0; k < sample.dimension; ++k) {
-      const std::vector<double> kept = sample.position[k];
-      for (const double side : {1.0, -1.0}) {
-        for (std::size_t j = 0; j < sample.size(); ++j) sample.position[k][j] = kept[j] + side * delta;
-        const Columns shifted = velocity_at(*scene.velocity, t, sample);
-        for (std::size_t j = 0; j < sample.size(); ++j) divergence[j] += side * shifted[k][j] / (2 * delta);
-      }
-      sample.position[k] = kept;
-    }
+    scene.velocity->add_divergence(t, sample.view(), divergence.data());
     for (const double value : divergence)
       result.largest_divergence = std::max(result.largest_divergence, std::abs(value));
   }
-  result.divergence_noise = 10 * std::numeric_limits<double>::epsilon() * result.largest_speed / delta;
+  result.solenoidal = scene.velocity->is_solenoidal();
+  result.divergence_noise = 1e3 * std::numeric_limits<double>::epsilon() * result.largest_speed / scene.core_radius;
 }
 
 // Seconds a step, from a few steps of a copy that is thrown away.
@@ -103,24 +95,26 @@ double time_steps(const Case& description, Carrier& carrier, const Particles& pa
   return fastest;
 }
 
-// Seconds of the reference of all outputs, from tracing a thousand points of a coarser grid to the last one.
-double time_reference(const Case& description, int threads) {
+// Seconds of the reference of all outputs, from tracing some points spread over the grid to the last one.
+double time_reference(const Case& description, const Scene& scene, int threads) {
   if (description.reference.kind == ReferenceSpec::Kind::none) return 0;
-  Case coarse = description;
-  coarse.evaluate.per_axis = std::min(description.evaluate.per_axis, description.domain.dimension == 2 ? 32 : 10);
-  const Scene scene = make_scene(coarse);
-  const auto reference = make_reference(coarse, scene, threads);
+  const auto reference = make_reference(description, scene, threads);
   const auto& times = description.output.times;
+  const std::size_t all = most_compared(description, scene), most = scene.velocity->is_smooth() ? 2048 : 24;
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < std::min(all, most); ++i)
+    points.push_back(
+        static_cast<std::size_t>((static_cast<double>(i) + 0.5) / static_cast<double>(std::min(all, most)) *
+                                 static_cast<double>(scene.evaluation.size())));
   std::vector<double> rho;
   const base::Stopwatch watch;
-  reference->evaluate(times.back(), rho);
+  reference->evaluate_at(times.back(), points, rho);
   double outputs = 1;  // in units of the last one: a flow that depends on t is traced to the start for each
   if (description.reference.kind == ReferenceSpec::Kind::exact)
     outputs = static_cast<double>(times.size());
-  else if (!scene.velocity->is_steady() && times.back() > 0)
+  else if ((!scene.velocity->is_steady() || all < scene.evaluation.size()) && times.back() > 0)
     outputs = std::accumulate(times.begin(), times.end(), 0.0) / times.back();
-  const Lattice full = make_scene(description).evaluation;
-  return watch.seconds() * outputs * static_cast<double>(full.size()) / static_cast<double>(scene.evaluation.size());
+  return watch.seconds() * outputs * static_cast<double>(all) / static_cast<double>(points.size());
 }
 
 // Steps that a method will choose, and seconds a step, from a trial with a sample of the particles that stops after a
@@ -207,7 +201,7 @@ Description describe(const Case& description, int threads) {
     predict_chosen_steps(description, scene, particles, threads, result);
   else
     result.step_seconds = time_steps(description, carrier, particles);
-  result.reference_seconds = time_reference(description, threads);
+  result.reference_seconds = time_reference(description, scene, threads);
   result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
 
   const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
@@ -233,7 +227,8 @@ std::string to_text(const Case& scene, const Description& r) {
     const auto axis = static_cast<std::size_t>(k);
     box += fmt::format("{}[{:g},{:g}]", k ? "x" : "", domain.min[axis], domain.max[axis]);
   }
-  const std::string divergence = r.largest_divergence <= r.divergence_noise
+  const std::string divergence = r.solenoidal ? "div u = 0"
+                                 : r.largest_divergence <= r.divergence_noise
                                      ? "div u = 0 (sampled)"
                                      : fmt::format("max|div u| = {:.3g} (sampled)", r.largest_divergence);
   std::string text = fmt::format("{}  {}D  {}   {}   max|u| = {:.3g}\n", scene.name, domain.dimension, box, divergence,

@@ -16,8 +16,9 @@ struct Description {
   std::vector<std::string> effects;          // beside transport, their equations
   std::vector<std::string> effect_warnings;  // what is not exact about them here
   double largest_speed = 0;                  // of |u| at the particles, over sampled times
-  double largest_divergence = 0;             // of |div u| there, by central differences
-  double divergence_noise = 0;               // what those differences cannot tell from 0
+  bool solenoidal = false;                   // div u = 0 by construction
+  double largest_divergence = 0;             // of |div u| there
+  double divergence_noise = 0;               // its rounding: terms of |u| over the shortest length resolved
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0, frames = 0;
   double spacing = 0, core_radius = 0;
   DensityReport density;       // of a trial evaluation at t = 0

@@ -28,6 +28,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
       frames.back()["L1"] = number(n.error->l1);
       frames.back()["L2"] = number(n.error->l2);
       frames.back()["Linf"] = number(n.error->linf);
+      frames.back()["compared"] = n.compared;
       frames.back()["untraced"] = n.untraced;
     }
   }

@@ -12,6 +12,7 @@
 
 #include "cases.hpp"
 #include "field/gridded.hpp"
+#include "sim/simulation.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -84,6 +85,56 @@ TEST_F(GridFile, IsReadAndSurvivesTheWayToAFileAndBack) {
   EXPECT_EQ(spec.data->values[0][1], -1);
   const Case again = parse_case(resolved_toml(scene), "/elsewhere/run.toml").scene;  // the path is absolute
   EXPECT_EQ(std::get<FileVelocity>(again.velocity.at(0)).data->values, spec.data->values);
+}
+
+TEST_F(GridFile, MayBeRectilinear) {
+  // u = (x y, x - y) at uneven points: bilinear interpolation gives it back everywhere.
+  const std::vector<double> xs{-1, -0.7, 0.1, 1}, ys{-1, 0.25, 1};
+  std::ostringstream u, x_text, y_text;
+  u.precision(17);
+  for (const double y : ys)
+    for (const double x : xs) u << x * y << " " << x - y << " 0 ";
+  for (const double x : xs) x_text << x << " ";
+  for (const double y : ys) y_text << y << " ";
+  const auto axis = [](const char* name, const std::string& values) {
+    return std::string("<DataArray type=\"Float64\" Name=\"") + name + "\" format=\"ascii\">" + values + "</DataArray>";
+  };
+  std::ofstream(folder_ / "wind.vtr")
+      << "<VTKFile type=\"RectilinearGrid\" version=\"1.0\" byte_order=\"LittleEndian\"><RectilinearGrid "
+         "WholeExtent=\"0 3 0 2 0 0\"><Piece Extent=\"0 3 0 2 0 0\"><PointData><DataArray type=\"Float64\" "
+         "Name=\"u\" NumberOfComponents=\"3\" format=\"ascii\">"
+      << u.str() << "</DataArray></PointData><Coordinates>" << axis("x", x_text.str()) << axis("y", y_text.str())
+      << axis("z", "0") << "</Coordinates></Piece></RectilinearGrid></VTKFile>\n";
+  const Case scene = parse_case(case_with("file = \"wind.vtr\""), folder_ / "cone.toml").scene;
+  const auto& data = std::get<FileVelocity>(scene.velocity.at(0)).data;
+  EXPECT_EQ(data->axis[0], xs);
+  EXPECT_EQ(data->axis[1], ys);
+  const GriddedVelocity field(GridInterpolator(data, Interpolation::linear, Outside::error));
+  for (const auto& [x, y] : {std::pair{-0.9, 0.9}, {0.0, 0.0}, {0.3, -0.2}, {1.0, 1.0}}) {
+    double sums[] = {0, 0}, divergence = 0;
+    const PointsView at{2, 1, {&x, &y, nullptr}};
+    field.add(0, at, {2, 1, {&sums[0], &sums[1], nullptr}});
+    EXPECT_NEAR(sums[0], x * y, 1e-15);  // roundings of numbers up to 2
+    EXPECT_NEAR(sums[1], x - y, 1e-15);
+    field.add_divergence(0, at, &divergence);
+    EXPECT_NEAR(divergence, y - 1, 1e-14);
+  }
+}
+
+TEST_F(GridFile, IsNamedWhereAParticleLeavesIt) {
+  write_vti("wind.vti", 3, 3, 1, "u", 2, sampled(3, [](double, double) { return std::pair(1., 0.); }));
+  const Case scene = parse_case(case_with("file = \"wind.vti\""), folder_ / "cone.toml",
+                                {"time.end=1", "output.times=[0, 1]", "reference.kind=none"})
+                         .scene;
+  try {
+    Simulation(scene).run();
+    FAIL() << "the cone has left the grid";
+  } catch (const NumericalError& error) {
+    const std::string text = error.what();
+    for (const char* part : {"for particle", "at t = 0.", "is outside of u of wind.vti, which reaches from -1 to 1",
+                             "outside = \"clamp\" or \"zero\""})
+      EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
+  }
 }
 
 TEST_F(GridFile, IsReadFromASeriesAndInSpace) {

@@ -410,12 +410,18 @@ TEST(CaseFile, RefusesAReferenceThatContradictsItself) {
            {"[reference]\nkind = \"exact\"\nrho = \"x +\"\n", "--> cone.toml:45:"},
            {"[reference]\nkind = \"exact\"\nrho = \"z\"\n", "z exists only in 3D; the domain has 2 dimensions"},
            {"[reference]\nkind = \"characteristic\"\n", "did you mean \"characteristics\"?"},
+           {"[reference]\npoints = 8\n", "reference.points must be at least 16"},
+           {"[reference]\nkind = \"none\"\npoints = 100\n",
+            "\"points\" has no meaning where reference.kind is \"none\""},
            {"[reference]\nmethod = 1\n", "unknown key \"method\" in [reference]; it belongs in [time] or [evaluate]"}})
     EXPECT_NE(errors(cone + wrong.tables).find(wrong.message), std::string::npos) << errors(cone + wrong.tables);
   const std::string pictures = with(cone, "images = [\"surface\"]", "images = [\"error\"]");
   EXPECT_EQ(errors(pictures), "");
   EXPECT_NE(errors(pictures + "[reference]\nkind = \"none\"\n")
                 .find("the picture \"error\" needs an exact density, but reference.kind is \"none\""),
+            std::string::npos);
+  EXPECT_NE(errors(pictures + "[reference]\npoints = 100\n")
+                .find("the picture \"error\" needs the whole grid, but reference.points takes a sample"),
             std::string::npos);
 }
 

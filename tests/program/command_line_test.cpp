@@ -75,7 +75,7 @@ TEST(Check, DescribesACaseWithoutRunningIt) {
   write_file(folder / "small.toml", small_case);
   const Outcome check = gaussdrift_in(folder, "check small.toml");
   ASSERT_EQ(check.exit_code, 0) << check.err;
-  for (const char* part : {"small  2D  [-1,1]x[-1,1]   div u = 0 (sampled)", "3 600 on the lattice", "transport only",
+  for (const char* part : {"small  2D  [-1,1]x[-1,1]   div u = 0   max|u|", "3 600 on the lattice", "transport only",
                            "126 steps", "3 frames of 1 600 points"})
     EXPECT_NE(check.out.find(part), std::string::npos) << part << " in:\n" << check.out;
   EXPECT_FALSE(fs::exists(folder / "output"));

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace gaussdrift {
 namespace {
@@ -212,6 +214,63 @@ TEST(Compare, DividesEachNormByThatOfTheExactDensity) {
   EXPECT_DOUBLE_EQ(error.linf, 3. / 4);
   EXPECT_TRUE(std::isnan(compare({1, 2}, {0, 0}).l1)) << "nothing to compare with";
   EXPECT_DOUBLE_EQ(compare({3e200, 0}, {2e200, 0}).l2, 0.5) << "squares beyond the largest number";
+}
+
+TEST(Characteristics, AreTheSameAtSomePointsAsOnTheWholeGrid) {
+  const ExpressionField turning({"-y*(1 + t)", "x*exp(-y)"}, {});
+  const auto density = written(hill);
+  const auto reference = characteristics(turning, density, {}, lattice(20), {.end = 1});
+  std::vector<double> whole, some;
+  reference->evaluate(1, whole);
+  const std::vector<std::size_t> points{399, 0, 251, 330, 331, 17};
+  reference->evaluate_at(1, points, some);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_NEAR(some[i], whole[points[i]], 1e-10) << i;  // other neighbours, other steps
+}
+
+TEST(SampleOfGrid, HasAllPointsWhereThereAreNoMore) {
+  const Lattice grid = lattice(5);
+  const std::vector<double> rho(25, 1.0);
+  const GridSample sample = sample_of_grid(grid, rho, 25);
+  ASSERT_EQ(sample.points.size(), 25u);
+  for (std::size_t i = 0; i < 25; ++i) EXPECT_EQ(sample.points[i], i);
+}
+
+TEST(SampleOfGrid, StandsForAllPointsAndHoldsTheLargest) {
+  const Lattice grid = lattice(101);
+  std::vector<double> rho(grid.size());
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    const double x = grid.coordinate(0, i % 101), y = grid.coordinate(1, i / 101);
+    rho[i] = std::max(0.0, 0.1 - std::hypot(x - 0.3, y - 0.4));
+  }
+  const GridSample sample = sample_of_grid(grid, rho, 300);
+  EXPECT_NEAR(std::accumulate(sample.weight.begin(), sample.weight.end(), 0.0), double(rho.size()), 1e-9);
+  const auto top = static_cast<std::size_t>(std::max_element(rho.begin(), rho.end()) - rho.begin());
+  EXPECT_EQ(std::count(sample.points.begin() + 300, sample.points.end(), top), 1);
+  std::vector<double> exact;  // of a density that is a twentieth lower
+  for (const std::size_t point : sample.points) exact.push_back(rho[point] / 1.05);
+  const ErrorNorms norms = compare(rho, sample, exact);
+  EXPECT_NEAR(norms.l1, 0.05, 1e-12);
+  EXPECT_NEAR(norms.l2, 0.05, 1e-12);
+  EXPECT_NEAR(norms.linf, 0.05, 1e-12);
+}
+
+TEST(SampleOfGrid, EstimatesTheNormsOfTheWholeGrid) {
+  const Lattice grid = lattice(201);
+  std::vector<double> rho(grid.size()), exact(grid.size());
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    const double x = grid.coordinate(0, i % 201), y = grid.coordinate(1, i / 201);
+    exact[i] = std::exp(-100 * ((x - 0.5) * (x - 0.5) + (y - 0.5) * (y - 0.5)));
+    rho[i] = exact[i] + 0.01 * std::exp(-200 * ((x - 0.6) * (x - 0.6) + (y - 0.5) * (y - 0.5)));
+  }
+  const GridSample sample = sample_of_grid(grid, rho, 1000);
+  std::vector<double> sampled;
+  for (const std::size_t point : sample.points) sampled.push_back(exact[point]);
+  const ErrorNorms whole = compare(rho, exact), estimated = compare(rho, sample, sampled);
+  EXPECT_NEAR(estimated.l1, whole.l1, 0.05 * whole.l1);  // 500 points over a spot of 13 000
+  EXPECT_NEAR(estimated.l2, whole.l2, 0.05 * whole.l2);
+  EXPECT_LE(estimated.linf, whole.linf);
+  EXPECT_GE(estimated.linf, 0.9 * whole.linf);
 }
 
 }  // namespace
