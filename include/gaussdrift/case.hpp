@@ -159,6 +159,14 @@ struct EffectsSpec {
   std::optional<RemeshSpec> remesh;
 };
 
+/// How accurate it has to be, and whether a run tells its errors apart by cause.
+struct AccuracySpec {
+  enum class Budget { automatic, measured, none };  // automatic: measured where that costs a small part of the run
+  Budget budget = Budget::automatic;
+  std::optional<double>
+      target{};  // largest error at the last output, relative to max |rho|; settings are chosen for it
+};
+
 struct Case {
   std::string name;            // stem of the file: names the output folder
   std::filesystem::path file;  // where it came from; empty for a case built in memory
@@ -175,6 +183,7 @@ struct Case {
   OutputSpec output;
   EffectsSpec effects;
   ReferenceSpec reference;
+  AccuracySpec accuracy;
   std::vector<CheckSpec> checks;
 };
 

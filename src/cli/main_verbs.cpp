@@ -24,6 +24,9 @@ void add_case_options(CLI::App& verb, CaseOptions& options) {
   verb.add_option("--set", options.overrides, "set a key of the case, as in --set time.step=0.01; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  verb.add_option("--accuracy", options.accuracy,
+                  "largest error at the end, relative to the largest density: settings are chosen for it")
+      ->type_name("X");
   verb.add_option("--threads", options.threads, "threads to use; all by default")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

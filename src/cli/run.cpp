@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "cli/progress.hpp"
@@ -10,6 +11,8 @@
 #include "input/read_case.hpp"
 #include "render/picture_series.hpp"
 #include "sim/simulation.hpp"
+#include "study/accuracy.hpp"
+#include "study/budget.hpp"
 #include "study/describe.hpp"
 #include "study/reproduce_cone.hpp"
 #include "study/reproduce_fgtd.hpp"
@@ -26,9 +29,33 @@ namespace fs = std::filesystem;
 namespace {
 
 Case read(const CaseOptions& options) {
-  input::ReadResult result = input::read_case(options.file, options.overrides, options.threads);
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.accuracy.empty()) overrides.push_back("accuracy.target=" + options.accuracy);
+  input::ReadResult result = input::read_case(options.file, overrides, options.threads);
   for (const std::string& warning : result.warnings) fmt::print(stderr, "{}\n", warning);
   return std::move(result.scene);
+}
+
+/// The case as it is, or with the settings that its accuracy.target asks for, which are told.
+Case settled(Case scene, const CaseOptions& options) {
+  if (!scene.accuracy.target) return scene;
+  study::AccuracyChoice choice = study::choose_for_accuracy(scene, *scene.accuracy.target, options.threads);
+  fmt::print(options.json ? stderr : stdout, "{}", study::to_text(choice));
+  return std::move(choice.scene);
+}
+
+/// "smoothing 0.024 dominates, quadrature 4e-07, ..."
+std::string one_line(const study::Budget& budget) {
+  std::vector<std::pair<double, std::string>> causes{{budget.time_stepping, "time stepping"},
+                                                     {budget.smoothing, "smoothing"},
+                                                     {budget.quadrature, "quadrature"},
+                                                     {budget.transform, "Gauss transform"}};
+  std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (const auto& [value, name] : causes)
+    text += fmt::format("{}{} {:.1e}{}", text.empty() ? "" : ", ", name, value,
+                        name == budget.dominates ? " dominates" : "");
+  return text;
 }
 
 std::vector<render::Style> styles_of(const Case& scene) {
@@ -88,7 +115,8 @@ std::string place_text(const Vector& place, int dimension) {
   return text + ")";
 }
 
-void print_ending(const Case& scene, const RunSummary& summary, const fs::path& folder) {
+void print_ending(const Case& scene, const RunSummary& summary, const study::Budget* budget,
+                  std::optional<double> target, const fs::path& folder) {
   double worst = 0;
   for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
   fmt::print(
@@ -117,6 +145,16 @@ void print_ending(const Case& scene, const RunSummary& summary, const fs::path& 
     fmt::print("error  at t = {:.4g}, relative to the exact density{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", time,
                where, numbers.error->l1, numbers.error->l2, numbers.error->linf);
   }
+  if (target && !summary.frames.empty() && summary.frames.back().second.error) {
+    const double achieved = summary.frames.back().second.error->linf;
+    fmt::print("target {:g}: achieved {:.2e}{}\n", *target, achieved, achieved <= *target ? "" : ", MISSED");
+  }
+  if (budget && budget->known()) {
+    fmt::print("budget {}\n", one_line(*budget));
+    for (const std::string& advice : budget->advice) fmt::print("hint   {}\n", advice);
+  } else if (budget) {
+    fmt::print("budget none: {}\n", budget->not_covered);
+  }
   for (const CheckResult& result : summary.checks)
     fmt::print("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
   const bool pictures = fs::exists(folder / "images");
@@ -129,13 +167,18 @@ void print_ending(const Case& scene, const RunSummary& summary, const fs::path& 
 }  // namespace
 
 ExitCode run(const RunOptions& options) {
-  const Case scene = read(options.scene);
+  const Case asked = read(options.scene), scene = settled(asked, options.scene);
   const fs::path folder = options.folder.empty() ? fs::path("output") / scene.name : options.folder;
   Simulation simulation(scene, options.scene.threads);
   simulation.prepare();  // what cannot begin must not cost an earlier run
   write::prepare_run_folder(folder, options.force);
   write::write_run_inputs(folder, scene, input::resolved_toml(scene));
   add_observers(simulation, scene, folder);
+  const bool budgeted =
+      scene.accuracy.budget != AccuracySpec::Budget::none && scene.reference.kind != ReferenceSpec::Kind::none;
+  study::LastFrame::Kept last;
+  if (budgeted && study::budget_not_covered(scene).empty())
+    simulation.observe(std::make_unique<study::LastFrame>(last, scene.output.times.back()));
 
   RunSummary summary;
   {
@@ -157,12 +200,29 @@ ExitCode run(const RunOptions& options) {
         "error leave them out\n",
         summary.reference.untraced, place_text(summary.reference.first_untraced, scene.domain.dimension),
         summary.reference.trouble);
-  const std::string json = write::summary_json(scene, summary);
+  std::optional<study::Budget> measured;
+  nlohmann::ordered_json more;
+  if (budgeted) {
+    const base::Stopwatch watch;
+    const Scene parts = make_scene(scene, options.scene.threads);
+    const auto effort =
+        scene.accuracy.budget == AccuracySpec::Budget::measured ? study::Effort::whatever : study::Effort::share_of_run;
+    measured = study::measure_budget(scene, parts, last, effort, options.scene.threads);
+    summary.stages.add("error budget", watch.seconds());
+    const base::Stopwatch before;
+    const study::Budget predicted = study::predict_budget(scene, parts, effort, options.scene.threads);
+    summary.stages.add("predicted error budget", before.seconds());
+    more["budget"] = {{"norm", "largest error at the last output, relative to the largest exact density there"},
+                      {"predicted", study::to_json(predicted)},
+                      {"measured", study::to_json(*measured)},
+                      {"advice", measured->advice}};
+  }
+  const std::string json = write::summary_json(scene, summary, more);
   write::write_text(folder / "summary.json", json);
   if (options.scene.json)
     fmt::print("{}", json);
   else
-    print_ending(scene, summary, folder);
+    print_ending(scene, summary, measured ? &*measured : nullptr, asked.accuracy.target, folder);
   bool failed = false;
   for (const CheckResult& result : summary.checks) {
     if (result.passed) continue;
@@ -173,7 +233,7 @@ ExitCode run(const RunOptions& options) {
 }
 
 ExitCode check(const CaseOptions& options) {
-  const Case scene = read(options);
+  const Case scene = settled(read(options), options);
   const study::Description description = study::describe(scene, options.threads);
   fmt::print("{}", options.json ? study::to_json(scene, description) : study::to_text(scene, description));
   return ExitCode::ok;

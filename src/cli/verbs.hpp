@@ -13,6 +13,7 @@ namespace gaussdrift::cli {
 struct CaseOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;  // --set key=value
+  std::string accuracy{};              // --accuracy, as accuracy.target; empty: as the case says
   int threads = 0;                     // 0: all
   bool json = false;                   // results as JSON on stdout
 };

@@ -72,6 +72,7 @@ class GaussianSum {
   double unit_error(GaussianMatrix matrix) const;
 
   bool pairwise() const { return pairwise_; }
+  std::size_t sources() const { return static_cast<std::size_t>(coefficients_.rows()); }
   /// What was chosen, one line.
   std::string choice() const;
 

@@ -22,6 +22,7 @@ class GriddedVelocity : public VelocityField {
   }
   bool is_steady() const override { return grid_.is_steady(); }
   bool is_smooth() const override { return false; }
+  double cost() const override { return 10; }
   std::string why_not_finite(double /*t*/, const Vector& x) const override { return grid_.why_lost(x); }
   std::string describe() const override { return "u = " + grid_.describe(); }
 

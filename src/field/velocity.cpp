@@ -125,6 +125,12 @@ bool SumField::is_smooth() const {
   return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_smooth(); });
 }
 
+double SumField::cost() const {
+  double sum = 0;
+  for (const auto& field : fields_) sum += field->cost();
+  return sum;
+}
+
 std::string SumField::why_not_finite(double t, const Vector& x) const {
   for (const auto& field : fields_)
     if (std::string reason = field->why_not_finite(t, x); !reason.empty()) return reason;

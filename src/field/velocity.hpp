@@ -31,6 +31,8 @@ class VelocityField {
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
   /// True if calls for a few hundred points cost no more a point than one call for all of them.
   virtual bool evaluates_in_blocks() const { return true; }
+  /// What a value costs, roughly, in values of a short formula.
+  virtual double cost() const { return 1; }
   /// Why u is not finite at x, and what can be done, for a message; empty where the field does not know more than that.
   virtual std::string why_not_finite(double /*t*/, const Vector& /*x*/) const { return ""; }
   /// One line for people: formula and what is known of it.
@@ -83,6 +85,7 @@ class SumField : public VelocityField {
   bool is_solenoidal() const override;
   std::optional<Vector> flow(double from, double to, const Vector& x) const override;
   bool evaluates_in_blocks() const override;
+  double cost() const override;
   std::string why_not_finite(double t, const Vector& x) const override;
   std::string describe() const override;
 

@@ -93,6 +93,7 @@ class Reader {
     read_output(scene.output, scene.time);
     read_effects(scene);
     read_reference(scene);
+    read_accuracy(scene);
     read_checks(scene);
     if (diagnostics_.errors() == 0) warn_unused_params();
     return scene;
@@ -1021,6 +1022,20 @@ class Reader {
             none ? "the picture \"error\" needs an exact density, but reference.kind is \"none\""
                  : "the picture \"error\" needs the whole grid, but reference.points takes a sample",
             none ? "leave out reference.kind, or the picture" : "leave out reference.points, or the picture");
+  }
+
+  void read_accuracy(Case& scene) {
+    const auto& budgets = find_key("accuracy", "budget").choices;
+    scene.accuracy.budget = static_cast<AccuracySpec::Budget>(
+        std::find(budgets.begin(), budgets.end(), choice("accuracy", "budget")) - budgets.begin());
+    const auto target = number("accuracy", "target");
+    if (!target) return;
+    scene.accuracy.target = target->number;
+    if (const Entry* written = find("accuracy", "target"); written && (scene.effects.diffusion || scene.effects.remesh))
+      diagnostics_.error(written->value.place,
+                         fmt::format("no settings can be chosen for a target with [effects.{}]",
+                                     scene.effects.diffusion ? "diffusion" : "remesh"),
+                         "the error is predicted for transport and reaction; leave out accuracy.target");
   }
 
   void read_checks(Case& scene) {

@@ -54,6 +54,9 @@ const std::vector<Table>& tables() {
        .required = false,
        .meaning =
            "the exact density that every output is compared with: norms, and the arrays `rho_exact` and `error`"},
+      {.name = "accuracy",
+       .required = false,
+       .meaning = "how accurate a run has to be, and whether its errors are told apart by cause"},
       {.name = "check",
        .required = false,
        .meaning =
@@ -377,6 +380,22 @@ std::vector<Key> written_keys() {
            "density, and the largest values; then files have no `rho_exact` and `error`. Without it the whole grid, "
            "but 4096 points if neither files nor pictures show the error, and 256 where the velocity is not smooth "
            "(data on a grid, `abs`, ...) and no picture shows it"},
+
+      {.table = "accuracy",
+       .name = "target",
+       .type = Type::number,
+       .range = {1e-9, 0.5},
+       .meaning =
+           "largest error at the last output, relative to max |rho|: `run` and `check` then choose particles.per_axis, "
+           "overlap and cutoff, time.step and evaluate.tolerance of least predicted cost; `--accuracy` is the same"},
+      {.table = "accuracy",
+       .name = "budget",
+       .type = Type::choice,
+       .fallback = "auto",
+       .choices = {"auto", "measured", "none"},
+       .meaning =
+           "whether a run with a reference measures what time stepping, smoothing, quadrature and Gauss transform each "
+           "add to its error; `auto`: where that costs less than a fifth of the run"},
 
       {.table = "check",
        .name = "what",

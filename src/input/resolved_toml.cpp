@@ -200,6 +200,9 @@ std::string resolved_toml(const Case& scene) {
   out.entry("kind", written(choice("reference", "kind", scene.reference.kind)));
   if (scene.reference.kind == ReferenceSpec::Kind::exact) out.entry("rho", written(scene.reference.rho));
   if (scene.reference.points) out.entry("points", fmt::format("{}", *scene.reference.points));
+  out.table("accuracy");
+  if (scene.accuracy.target) out.entry("target", written(*scene.accuracy.target));
+  out.entry("budget", written(choice("accuracy", "budget", scene.accuracy.budget)));
   for (const CheckSpec& check : scene.checks) {
     out.part("check", scene.checks.size());
     out.entry("what", written(choice("check", "what", check.what)));

@@ -33,4 +33,7 @@ struct DensityReport {
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report = nullptr);
 
+/// The density at some points, one array an axis: every blob summed, no approximation.
+std::vector<double> sum_blobs(const Particles& particles, const Cutoff& cutoff, const PointsView& points, int threads);
+
 }  // namespace gaussdrift

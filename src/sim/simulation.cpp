@@ -17,14 +17,13 @@
 
 namespace gaussdrift {
 
-namespace {
-
-// Times at which steps must land: the outputs, and the end.
 std::vector<double> landings(const Case& description) {
   std::vector<double> times = description.output.times;
   if (times.empty() || times.back() < description.time.end) times.push_back(description.time.end);
   return times;
 }
+
+namespace {
 
 FrameNumbers measure_frame(const Particles& particles, const DensityGrid& density) {
   FrameNumbers numbers;

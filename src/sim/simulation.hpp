@@ -53,6 +53,9 @@ std::size_t most_compared(const Case& description, const Scene& scene);
 /// Particles of the scene at t = 0. Throws NumericalError where rho_0 is not finite, InputError if it is 0 everywhere.
 Particles seed_scene(const Scene& scene, int threads);
 
+/// The times on which steps land exactly: outputs, and time.end.
+std::vector<double> landings(const Case& description);
+
 /// Steps from t = 0 to time.end with landings on all output times; 0 if they are chosen by their error.
 std::size_t total_steps(const Case& description);
 

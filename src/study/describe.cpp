@@ -206,7 +206,7 @@ Description describe(const Case& description, int threads) {
 
   const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
   result.picture_seconds =
-      pictures > 0 ? 0.6 + 0.2 * pictures : 0;  // start of the renderer, and a picture, on two cores
+      pictures > 0 ? 0.4 + 0.13 * pictures : 0;  // start of the renderer, and a picture, on two cores
   const auto frames = static_cast<double>(result.frames), n = static_cast<double>(result.particles),
              m = static_cast<double>(result.grid_points), d = static_cast<double>(description.domain.dimension);
   result.seconds = static_cast<double>(result.steps) * result.step_seconds + frames * result.evaluate_seconds +
@@ -217,6 +217,7 @@ Description describe(const Case& description, int threads) {
   if (wants(description, OutputSpec::Vtk::density)) result.disk_bytes += frames * (8 * m + 1500);
   if (wants(description, OutputSpec::Vtk::particles)) result.disk_bytes += frames * (8 * n * 9 + 2500);
   result.disk_bytes += pictures * 1.5e5;
+  result.budget = predict_budget(description, scene, Effort::whatever, threads);
   return result;
 }
 
@@ -256,6 +257,11 @@ std::string to_text(const Case& scene, const Description& r) {
       grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads,
       static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
       r.reference_seconds, r.picture_seconds, bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
+  if (!r.budget.known())
+    text += fmt::format("errors     not predicted: {}\n", r.budget.not_covered);
+  else
+    text += fmt::format("expected error at the end, largest, relative to max rho: {:.2g}\n{}", r.budget.total,
+                        to_text(r.budget));
   return text;
 }
 
@@ -283,6 +289,7 @@ std::string to_json(const Case& scene, const Description& r) {
                                          {{"chosen", r.density.choice},
                                           {"measured_error", r.density.measured_error},
                                           {"achievable", r.density.achievable}}},
+                                        {"budget", to_json(r.budget)},
                                         {"predicted",
                                          {{"seconds", r.seconds},
                                           {"reference_seconds", r.reference_seconds},

@@ -7,6 +7,7 @@
 
 #include "gaussdrift/case.hpp"
 #include "sim/density.hpp"
+#include "study/budget.hpp"
 
 namespace gaussdrift::study {
 
@@ -27,6 +28,7 @@ struct Description {
   double step_seconds = 0, evaluate_seconds = 0, reference_seconds = 0, picture_seconds = 0, seconds = 0;
   double memory_bytes = 0, disk_bytes = 0;
   int threads = 1;
+  Budget budget;  // predicted
 };
 
 /// Throws what a run would throw before its first step: NumericalError for a density or velocity that is not finite at

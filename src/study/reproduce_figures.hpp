@@ -25,8 +25,9 @@ struct Figure {
 /// "3.6", "3.7", "4.2", "5.1", ...
 std::vector<std::string> figure_numbers();
 
-/// Writes the pictures; `progress` is told the number that is being made. Throws CommandLineError for a number that there is
-/// not, FileError where a picture cannot be written, Error(ExitCode::internal) where pictures are not available.
+/// Writes the pictures; `progress` is told the number that is being made. Throws CommandLineError for a number that
+/// there is not, FileError where a picture cannot be written, Error(ExitCode::internal) where pictures are not
+/// available.
 std::vector<Figure> reproduce_figures(const FiguresOptions& options,
                                       const std::function<void(const std::string&)>& progress = {});
 

@@ -6,7 +6,7 @@
 
 namespace gaussdrift::write {
 
-std::string summary_json(const Case& scene, const RunSummary& summary) {
+std::string summary_json(const Case& scene, const RunSummary& summary, const nlohmann::ordered_json& more) {
   using json = nlohmann::ordered_json;
   json seconds;
   for (const auto& [stage, value] : summary.stages.stages()) seconds[stage] = value;
@@ -84,6 +84,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary) {
       {"seconds", seconds},
       {"frames", frames},
   };
+  for (const auto& [key, value] : more.items()) document[key] = value;
   return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

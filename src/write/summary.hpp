@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "gaussdrift/case.hpp"
@@ -9,7 +10,7 @@
 
 namespace gaussdrift::write {
 
-/// The summary as JSON text. Numbers that are not finite become null.
-std::string summary_json(const Case& scene, const RunSummary& summary);
+/// The summary as JSON text, with the members of `more` at its end. Numbers that are not finite become null.
+std::string summary_json(const Case& scene, const RunSummary& summary, const nlohmann::ordered_json& more);
 
 }  // namespace gaussdrift::write

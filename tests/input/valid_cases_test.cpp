@@ -332,6 +332,9 @@ images = ["slices"]
 
 [reference]
 kind = "characteristics"
+
+[accuracy]
+budget = "auto"
 )text");
 }
 

@@ -136,7 +136,8 @@ const char* const step_note =
     "unless method chooses its own, then the longest it may choose";
 const char* const names_note = "reserved names: x, y, z, t, pi, e and the functions";
 const char* const tables_note =
-    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, check, "
+    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, accuracy, "
+    "check, "
     "effects";
 
 const char* const effects_note = "known effects: reaction, diffusion, remesh";
@@ -413,6 +414,10 @@ TEST(CaseFile, RefusesAReferenceThatContradictsItself) {
            {"[reference]\npoints = 8\n", "reference.points must be at least 16"},
            {"[reference]\nkind = \"none\"\npoints = 100\n",
             "\"points\" has no meaning where reference.kind is \"none\""},
+           {"[accuracy]\ntarget = 1\n", "accuracy.target must be at least 1e-09 and at most 0.5"},
+           {"[accuracy]\nbudget = \"all\"\n", "unknown value \"all\" for accuracy.budget"},
+           {"[effects.diffusion]\nD = 1\n[accuracy]\ntarget = 0.1\n",
+            "no settings can be chosen for a target with [effects.diffusion]"},
            {"[reference]\nmethod = 1\n", "unknown key \"method\" in [reference]; it belongs in [time] or [evaluate]"}})
     EXPECT_NE(errors(cone + wrong.tables).find(wrong.message), std::string::npos) << errors(cone + wrong.tables);
   const std::string pictures = with(cone, "images = [\"surface\"]", "images = [\"error\"]");

@@ -1,0 +1,182 @@
+#include "study/accuracy.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/error.hpp"
+#include "sim/stable_step.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift::study {
+
+namespace {
+
+constexpr double most_particles = 4e6;  // on the lattice; each costs a path for every prediction
+constexpr double aim = 0.45;            // of the target: what is predicted is right to a factor of two or so
+constexpr int fewest_per_axis = 12;
+
+int most_per_axis(const Case& description) {
+  // Lattice points along the longest axis, for the shape of this domain.
+  double longest = 0, volume = 1;
+  for (int k = 0; k < description.domain.dimension; ++k) {
+    const double side = description.domain.max[k] - description.domain.min[k];
+    longest = std::max(longest, side);
+    volume *= side;
+  }
+  const double d = description.domain.dimension;
+  return static_cast<int>(std::pow(most_particles * std::pow(longest, d) / volume, 1 / d));
+}
+
+/// Smoothing and quadrature alone: steps and transform are chosen afterwards.
+struct Trial {
+  int per_axis = 0;
+  double overlap = 2;
+  double error = 0;  // of both
+  double quadrature = 0;
+  std::size_t particles = 0;
+};
+
+Trial try_lattice(Case scene, int per_axis, double overlap, int threads) {
+  scene.particles.per_axis = per_axis;
+  scene.particles.overlap = overlap;
+  const Scene parts = make_scene(scene, threads);
+  const Budget budget = predict_budget(scene, parts, Effort::whatever, threads, Causes::lattice);
+  if (!budget.known()) throw InputError("no settings can be chosen for this accuracy: " + budget.not_covered);
+  return {per_axis, overlap, std::max(budget.total, budget.smoothing), budget.quadrature,
+          seed_scene(parts, threads).size()};
+}
+
+/// The coarsest lattice of this cutoff and overlap that meets `wanted`, with no more particles than `most_carried`;
+/// nothing if none does. `best`: the smallest error seen. `gaps`: more overlap would help, a finer lattice would not.
+std::optional<Trial> find_lattice(const Case& scene, double wanted, double overlap, double most_carried, int threads,
+                                  double& best, bool& gaps) {
+  const int order = cutoff_order(scene.particles.cutoff), most = most_per_axis(scene);
+  gaps = false;
+  int per_axis = std::clamp(scene.particles.per_axis, fewest_per_axis, most);
+  std::optional<Trial> good;
+  int too_coarse = 0;
+  for (int round = 0; round < 7; ++round) {
+    const Trial trial = try_lattice(scene, per_axis, overlap, threads);
+    best = std::min(best, trial.error);
+    // Particles drawn apart: their sum has ripples, however fine the lattice.
+    gaps = trial.quadrature > 0.3 * trial.error;
+    if (trial.error > wanted && (gaps || static_cast<double>(trial.particles) > most_carried)) return std::nullopt;
+    if (trial.error <= wanted) {
+      if (!good || trial.per_axis < good->per_axis) good = trial;
+    } else {
+      too_coarse = std::max(too_coarse, per_axis);
+    }
+    // The error falls with the order of the cutoff, until something rougher shows; half of the order is safe upwards.
+    const double ratio = trial.error / (0.75 * wanted);
+    const double exponent = ratio > 1 ? 1.0 / std::max(1.0, 0.75 * order) : 1.0 / order;
+    int next = static_cast<int>(std::lround(per_axis * std::clamp(std::pow(ratio, exponent), 0.25, 4.0)));
+    next = std::clamp(next, fewest_per_axis, most);
+    if (good && next >= good->per_axis) break;
+    if (next <= too_coarse) next = good ? (too_coarse + good->per_axis) / 2 : std::min(most, 2 * per_axis);
+    if (next == per_axis || next <= too_coarse) break;
+    if (good && next > 0.93 * good->per_axis) break;
+    per_axis = next;
+  }
+  return good;
+}
+
+double step_for(const Case& scene, const Scene& parts, double wanted, int threads) {
+  const time::Tableau& tableau = time::find_tableau(scene.time.method);
+  Case trial = scene;
+  const Particles particles = seed_scene(parts, threads);
+  const auto stable = [&](double step) {
+    return estimate_stable_step(*parts.velocity, particles, tableau, scene.time.end, step, difference_length(parts))
+        .step;
+  };
+  trial.time.step = stable(std::min(scene.time.end / 16, 10 * scene.time.step));
+  for (int round = 0; round < 4; ++round) {
+    const Budget budget = predict_budget(trial, parts, Effort::whatever, threads);
+    const double ratio = budget.time_stepping / wanted;
+    if (ratio <= 1 && (ratio > 0.05 || round > 0)) break;
+    const double next = trial.time.step * std::clamp(std::pow(ratio * 1.3, -1.0 / tableau.time_order), 0.05, 4.0);
+    if (ratio <= 1 && next <= 1.2 * trial.time.step) break;
+    const double bounded = stable(std::min(next, scene.time.end / 8));
+    if (std::abs(bounded / trial.time.step - 1) < 0.05) break;
+    trial.time.step = bounded;
+  }
+  return trial.time.step;
+}
+
+/// Two digits, downwards.
+double two_digits(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)) - 1);
+  return std::floor(x / power * (1 + 1e-12)) * power;
+}
+
+}  // namespace
+
+AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads) {
+  if (const std::string reason = budget_not_covered(description); !reason.empty())
+    throw InputError("no settings can be chosen for this accuracy: " + reason);
+  AccuracyChoice choice;
+  choice.target = target;
+  double best = std::numeric_limits<double>::infinity(), cheapest = best;
+  std::optional<Case> chosen;
+  for (const char* cutoff : {"gauss4", "gauss6", "gauss8", "gauss2"}) {
+    Case scene = description;
+    scene.particles.cutoff = cutoff;
+    scene.evaluate.tolerance = 1e-8;
+    // More overlap where the flow draws particles apart.
+    for (const double overlap : {2.0, 3.0, 4.5, 7.0}) {
+      const double dearer = 1 + 0.1 * cutoff_order(cutoff);  // more terms in the transform, all in one pass
+      bool gaps = false;
+      const std::optional<Trial> trial =
+          find_lattice(scene, aim * target, overlap, cheapest / dearer, threads, best, gaps);
+      if (!trial && gaps) continue;
+      if (!trial) break;
+      const double cost = static_cast<double>(trial->particles) * dearer;
+      if (cost < cheapest) {
+        cheapest = cost;
+        chosen = scene;
+        chosen->particles.per_axis = trial->per_axis;
+        chosen->particles.overlap = overlap;
+      }
+      if (!gaps) break;  // more overlap would only widen the blobs
+    }
+  }
+  if (!chosen)
+    throw InputError(fmt::format(
+        "an error of {:g} cannot be met with at most {:.0e} lattice points: the smallest predicted is {:.1e}; ask for "
+        "that, or make the density smoother",
+        target, most_particles, best));
+  Case& scene = *chosen;
+  scene.evaluate.tolerance = std::clamp(two_digits(0.02 * target), 1e-13, 1e-3);
+  {
+    const Scene parts = make_scene(scene, threads);
+    if (time::is_adaptive(time::find_tableau(scene.time.method)))
+      scene.time.tolerance = std::min(scene.time.tolerance, 1e-2 * target);
+    else
+      scene.time.step = two_digits(step_for(scene, parts, 0.2 * target, threads));
+    choice.predicted = predict_budget(scene, parts, Effort::whatever, threads);
+  }
+  if (choice.predicted.total > target)
+    throw InputError(fmt::format("an error of {:g} cannot be met: {} alone is predicted to make {:.1e}", target,
+                                 choice.predicted.dominates, choice.predicted.total));
+  scene.accuracy.target.reset();
+  choice.settings = {fmt::format("particles.per_axis = {}", scene.particles.per_axis),
+                     fmt::format("overlap = {:g}", scene.particles.overlap),
+                     fmt::format("cutoff = \"{}\"", scene.particles.cutoff),
+                     time::is_adaptive(time::find_tableau(scene.time.method))
+                         ? fmt::format("time.tolerance = {:g}", scene.time.tolerance)
+                         : fmt::format("time.step = {:g}", scene.time.step),
+                     fmt::format("evaluate.tolerance = {:g}", scene.evaluate.tolerance)};
+  choice.scene = std::move(scene);
+  return choice;
+}
+
+std::string to_text(const AccuracyChoice& choice) {
+  return fmt::format("chosen {}; predicted error {:.2g} for a target of {:g}\n", fmt::join(choice.settings, ", "),
+                     choice.predicted.total, choice.target);
+}
+
+}  // namespace gaussdrift::study

@@ -1,0 +1,79 @@
+// Where the error of a run comes from: time stepping, smoothing, quadrature, Gauss transform, each told by changing its
+// cause alone. Predicted from a case before it runs, measured after it. method.md, section 10.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "gaussdrift/case.hpp"
+#include "sim/simulation.hpp"
+
+namespace gaussdrift::study {
+
+/// All errors are of the last output, in the largest norm and relative to max |rho| of the exact density there.
+struct Budget {
+  double time_stepping = 0;  // what the paths' steps do to the density
+  double smoothing = 0;      // blobs of this width in place of points
+  double quadrature = 0;     // a sum over lattice points in place of an integral
+  double transform = 0;      // predicted: what is allowed; measured: on a sample against the direct sum
+  double total = 0;
+  std::string dominates;            // "smoothing", ...
+  std::vector<std::string> advice;  // what could be saved, what would help
+  std::size_t probes = 0;           // points at which the causes were told apart
+  std::string not_covered;          // why there are no numbers; empty: there are
+
+  bool known() const { return not_covered.empty(); }
+};
+
+/// Why a case has no budget: effects that move weight between particles, ...; empty if it has one.
+std::string budget_not_covered(const Case& description);
+
+/// What may be spent on it.
+enum class Effort {
+  whatever,      // it takes
+  share_of_run,  // a fraction of what the run's own steps cost, counted in evaluations of the velocity; else not
+                 // covered
+};
+
+/// Which causes: those of the lattice and the blobs alone, or the steps as well.
+enum class Causes { lattice, all };
+
+/// Before the run. Paths are followed at 1e-8, exact densities at some thousand grid points, steps taken with a
+/// sample of the particles or longer and scaled with the method's order: a small part of the run, or seconds.
+Budget predict_budget(const Case& description, const Scene& scene, Effort effort, int threads,
+                      Causes causes = Causes::all);
+
+/// Keeps what measure_budget() needs: the last output of a run.
+class LastFrame : public Observer {
+ public:
+  struct Kept {
+    bool any = false;
+    double time = 0;
+    Particles particles;
+    DensityGrid density;
+    std::optional<std::vector<double>> exact;  // on the grid, if the run had it there
+    FrameNumbers numbers;
+  };
+  explicit LastFrame(Kept& kept, double last_time) : kept_(kept), last_(last_time) {}
+  std::string name() const override { return "error budget"; }
+  void frame(const Frame& frame) override;
+
+ private:
+  Kept& kept_;
+  double last_;
+};
+
+/// After the run, at the points with the largest errors; how many follows from what the run cost.
+Budget measure_budget(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort,
+                      int threads);
+
+/// A line a cause, the dominating one marked, and the advice.
+std::string to_text(const Budget& budget);
+/// {"time_stepping", "smoothing", "quadrature", "transform", "total", "dominates"}, or {"not_covered"}.
+nlohmann::ordered_json to_json(const Budget& budget);
+
+}  // namespace gaussdrift::study
