@@ -191,6 +191,15 @@ ExitCode run(const RunOptions& options) {
                "warning: evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
                "{:.1e} of max rho\n",
                scene.evaluate.tolerance, summary.transform_achievable);
+  for (const auto& [time, numbers] : summary.frames)
+    if (numbers.stretch > scene.particles.overlap) {
+      fmt::print(stderr,
+                 "warning: at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart, and blobs "
+                 "{:g} spacings wide no longer overlap there: the density has gaps and peaks that are not there; "
+                 "[effects.remesh], or more overlap on a finer lattice\n",
+                 time, numbers.stretch, scene.particles.overlap);
+      break;
+    }
   for (const EffectSummary& effect : summary.effects)
     if (!effect.warning.empty()) fmt::print(stderr, "warning: {}: {}\n", effect.name, effect.warning);
   if (summary.reference.untraced > 0)

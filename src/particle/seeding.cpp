@@ -69,4 +69,29 @@ Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads
   return all;
 }
 
+double largest_stretch(const Particles& particles, const Lattice& lattice) {
+  double heaviest = 0, longest = 0;
+  for (const double alpha : particles.alpha) heaviest = std::max(heaviest, std::abs(alpha));
+  const double light = 1e-6 * heaviest;
+  std::size_t stride = 1;
+  for (int k = 0; k < particles.dimension; ++k) {
+    std::size_t next = 0;  // ids ascend, so that of the neighbour is found by going along
+    for (std::size_t j = 0; j < particles.size(); ++j) {
+      const auto id = static_cast<std::size_t>(particles.id[j]);
+      if (id / stride % lattice.points[k] + 1 == lattice.points[k]) continue;
+      while (next < particles.size() && static_cast<std::size_t>(particles.id[next]) < id + stride) ++next;
+      if (next == particles.size() || static_cast<std::size_t>(particles.id[next]) != id + stride) continue;
+      if (std::abs(particles.alpha[j]) < light && std::abs(particles.alpha[next]) < light) continue;
+      double square = 0;
+      for (int a = 0; a < particles.dimension; ++a) {
+        const double distance = particles.position[a][j] - particles.position[a][next];
+        square += distance * distance;
+      }
+      longest = std::max(longest, square);
+    }
+    stride *= lattice.points[k];
+  }
+  return std::sqrt(longest) / lattice.spacing;
+}
+
 }  // namespace gaussdrift

@@ -169,4 +169,8 @@ void Carrier::land(Particles& particles, double time, base::StageTimes& stages) 
   for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->land(particles, time); });
 }
 
+bool Carrier::replaces_particles() const {
+  return std::any_of(effects_.begin(), effects_.end(), [](const auto& effect) { return effect->changes().particles; });
+}
+
 }  // namespace gaussdrift

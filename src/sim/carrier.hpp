@@ -39,6 +39,9 @@ class Carrier {
   /// True if steps are chosen by their error (time.tolerance) instead of by time.step.
   bool is_adaptive() const { return adaptive_.has_value(); }
 
+  /// True if an effect may put other particles in place of those that were seeded.
+  bool replaces_particles() const;
+
   std::size_t steps_rejected() const { return adaptive_ ? adaptive_->rejected() : 0; }
 
   const Effects& effects() const { return effects_; }

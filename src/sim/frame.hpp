@@ -31,8 +31,10 @@ struct FrameNumbers {
   Vector centroid{};  // sum_j alpha_j X_j / mass
   double transform_error =
       0;  // of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|
-  double transform_tolerance = 0;   // per-term tolerance that was asked of fgtd
-  double evaluate_seconds = 0;      // preparing and evaluating the transform
+  double transform_tolerance = 0;  // per-term tolerance that was asked of fgtd
+  double evaluate_seconds = 0;     // preparing and evaluating the transform
+  double stretch =
+      0;  // largest distance of particles that start as lattice neighbours, in spacings; 0: they are replaced
   std::optional<ErrorNorms> error;  // only with a reference
   std::size_t compared = 0;         // grid points that the norms are taken over; a sample if fewer than the grid has
   std::size_t untraced = 0;         // grid points where the reference is not known; the norms leave them out

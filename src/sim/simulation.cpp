@@ -218,6 +218,7 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   frame.numbers.transform_error = report.measured_error;
   frame.numbers.transform_tolerance = report.requested_tolerance;
   frame.numbers.evaluate_seconds = report.evaluate_seconds;
+  if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding);
   std::vector<double> exact;
   if (reference_) {
     summary.stages.run("reference", [&] {

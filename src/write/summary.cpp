@@ -24,6 +24,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
                       {"centroid", centroid},
                       {"transform_error", n.transform_error},
                       {"evaluate_seconds", n.evaluate_seconds}});
+    if (n.stretch > 0) frames.back()["stretch"] = n.stretch;
     if (n.error) {
       frames.back()["L1"] = number(n.error->l1);
       frames.back()["L2"] = number(n.error->l2);
