@@ -87,6 +87,26 @@ ExitCode dispatch(int argc, char** argv) {
       app.add_subcommand("check", "validate a case, describe it and predict what it costs, without running it");
   add_case_options(*check_verb, check_options);
 
+  StudyVerbOptions study_options;
+  CLI::App* study_verb = app.add_subcommand("study", "what accuracy costs in time: tables, charts, conclusions");
+  add_case_options(*study_verb, study_options.scene);
+  study_verb
+      ->add_option(
+          "--vary", study_options.vary,
+          "run with these values of a key, as in --vary time.step=0.1,0.05; repeatable; without it the standard "
+          "studies")
+      ->type_name("KEY=A,B,...")
+      ->allow_extra_args(false);
+  study_verb
+      ->add_option("--repeats", study_options.repeats, "timings of a cheap run, whose median counts; 3 by default")
+      ->check(CLI::Range(1, 100))
+      ->type_name("N");
+  study_verb->add_option("--seconds", study_options.seconds, "about what the standard studies may take; 90 by default")
+      ->check(CLI::Range(1, 100000))
+      ->type_name("S");
+  study_verb->add_option("--out", study_options.folder, "folder for tables and charts; output/study_<case> by default")
+      ->type_name("DIR");
+
   SumOptions sum_options;
   CLI::App* sum_verb = app.add_subcommand("sum", "sums of Gaussians and their derivatives over a table of points");
   add_sum_options(*sum_verb, sum_options);
@@ -148,6 +168,7 @@ ExitCode dispatch(int argc, char** argv) {
   if (explain_verb->parsed()) return explain(explain_options);
   if (run_verb->parsed()) return run(run_options);
   if (check_verb->parsed()) return check(check_options);
+  if (study_verb->parsed()) return study(study_options);
   if (sum_verb->parsed()) return sum(sum_options);
   return reproduce(reproduce_options);
 }

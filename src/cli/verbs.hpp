@@ -24,6 +24,14 @@ struct RunOptions {
   bool force = false;
 };
 
+struct StudyVerbOptions {
+  CaseOptions scene;
+  std::vector<std::string> vary;  // --vary key=a,b,c; none: the standard studies
+  int repeats = 3;
+  double seconds = 90;
+  std::filesystem::path folder;  // --out; empty: output/study_<case name>
+};
+
 struct SumOptions {
   std::string kernel = "gauss";
   std::filesystem::path sources, targets;  // targets empty: --grid, or the sources
@@ -55,6 +63,7 @@ ExitCode new_case(const NewOptions& options);
 ExitCode explain(const ExplainOptions& options);
 ExitCode run(const RunOptions& options);
 ExitCode check(const CaseOptions& options);
+ExitCode study(const StudyVerbOptions& options);
 struct ReproduceOptions {
   std::string what;              // "cone", "fgtd", "divergence", "figures"; empty: a list
   std::string table;             // of fgtd or divergence, or a figure, as in 4.6; empty: all

@@ -53,11 +53,17 @@ void set_font(vtkTextProperty* property, const TextStyle& style) {
   property->SetFontSize(style.size);
   property->SetColor(style.colour[0] / 255., style.colour[1] / 255., style.colour[2] / 255.);
   property->SetOrientation(style.upwards ? 90 : 0);
-  // VTK justifies the box of the turned text: across and along change places.
-  const int across = static_cast<int>(style.across);
-  property->SetJustification(across == 0 ? VTK_TEXT_LEFT : across == 1 ? VTK_TEXT_CENTERED : VTK_TEXT_RIGHT);
-  const int along = static_cast<int>(style.along);
-  property->SetVerticalJustification(along == 0 ? VTK_TEXT_BOTTOM : along == 1 ? VTK_TEXT_CENTERED : VTK_TEXT_TOP);
+  // VTK justifies along and across the text's own direction. Of text written upwards the right is the bottom, its end
+  // is the top.
+  const auto along_text = [](int place) {
+    return place == 0 ? VTK_TEXT_LEFT : place == 1 ? VTK_TEXT_CENTERED : VTK_TEXT_RIGHT;
+  };
+  const auto across_text = [](int place) {
+    return place == 0 ? VTK_TEXT_BOTTOM : place == 1 ? VTK_TEXT_CENTERED : VTK_TEXT_TOP;
+  };
+  const int across = static_cast<int>(style.across), along = static_cast<int>(style.along);
+  property->SetJustification(along_text(style.upwards ? along : across));
+  property->SetVerticalJustification(across_text(style.upwards ? 2 - across : along));
 }
 
 /// One line of well-formed UTF-8, with plain minus signs where the font has no others.

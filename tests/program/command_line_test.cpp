@@ -107,6 +107,17 @@ TEST(Check, RefusesAFieldThatIsNotFinite) {
   EXPECT_EQ(gaussdrift_in(folder, "check small.toml --set 'velocity.u=[\"log(-1 - x*x)\", \"0\"]'").exit_code, 4);
 }
 
+TEST(Study, LeavesATableAndChartsAndAPage) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const Outcome out = gaussdrift_in(folder, "study small.toml --vary time.step=0.2,0.1 --repeats 1 --out st");
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_NE(out.out.find("=> "), std::string::npos) << out.out;
+  for (const char* file : {"st/study.csv", "st/study.json", "st/study.md"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+  EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step").exit_code, 2);
+  EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.stop=1,2").exit_code, 3);
+}
+
 TEST(Reproduce, ListsWhatItCan) {
   const ScratchFolder folder;
   const Outcome list = gaussdrift_in(folder, "reproduce");

@@ -1,0 +1,51 @@
+// gaussdrift study: what accuracy costs in time.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/progress.hpp"
+#include "cli/verbs.hpp"
+#include "render/picture.hpp"
+#include "study/study.hpp"
+#include "write/atomic_file.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+ExitCode study(const StudyVerbOptions& options) {
+  study::StudyOptions wanted;
+  wanted.file = options.scene.file;
+  wanted.overrides = options.scene.overrides;
+  wanted.repeats = options.repeats;
+  wanted.seconds = options.seconds;
+  wanted.threads = options.scene.threads;
+  for (const std::string& text : options.vary) wanted.vary.push_back(study::parse_variation(text));
+  const fs::path folder =
+      options.folder.empty() ? fs::path("output") / ("study_" + options.scene.file.stem().string()) : options.folder;
+  study::Study result;
+  {
+    ProgressLine line;
+    wanted.progress = [&](const std::string& what) { line.show(what); };
+    // Written anew after every sample, so that an interrupted study leaves what it has.
+    wanted.sample_done = [&](const study::Experiment& experiment, const study::Sample&) {
+      write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment));
+    };
+    result = study::run_study(wanted);
+  }
+  for (const study::Experiment& experiment : result.experiments)
+    write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment));
+  const std::string json = study::to_json(result);
+  write::write_text(folder / "study.json", json);
+  write::write_text(folder / "study.md", study::to_markdown(result));
+  study::draw_charts(result, folder);
+  if (const std::string reason = render::unavailable_reason(); !reason.empty())
+    fmt::print(stderr, "warning: no charts are drawn: {}\n", reason);
+  if (options.scene.json)
+    fmt::print("{}", json);
+  else
+    fmt::print("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.md").string());
+  return ExitCode::ok;
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,332 @@
+// The four studies that `gaussdrift study CASE` makes by itself: transform, steps, lattice, whole runs.
+#include <fmt/format.h>
+#include <fgtd/fgtd.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/stopwatch.hpp"
+#include "sim/exact_paths.hpp"
+#include "sim/simulation.hpp"
+#include "sim/stable_step.hpp"
+#include "study/accuracy.hpp"
+#include "study/study.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift::study {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double longest_side(const Case& scene) {
+  double longest = 0;
+  for (int k = 0; k < scene.domain.dimension; ++k)
+    longest = std::max(longest,
+                       scene.domain.max[static_cast<std::size_t>(k)] - scene.domain.min[static_cast<std::size_t>(k)]);
+  return longest;
+}
+
+const Sample* cheapest_below(const Experiment& experiment, double error) {
+  const Sample* best = nullptr;
+  for (const Sample& sample : experiment.samples)
+    if (sample.failure.empty() && sample.error <= error && (!best || sample.seconds < best->seconds)) best = &sample;
+  return best;
+}
+
+}  // namespace
+
+Experiment study_transform(const Case& scene, int threads, double seconds) {
+  Experiment experiment{
+      .name = "transform",
+      .title = "Tolerance and method of the Gauss transform",
+      .question = "What does a digit of the density cost?",
+      .keys = {"evaluate.method", "evaluate.tolerance"},
+      .error_is = "largest error of the sum, relative to max |rho|, on a sample against the direct sum",
+      .seconds_are = "of one evaluation of the last output",
+      .samples = {},
+      .conclusion = {},
+      .notes = {}};
+  Case bare = scene;
+  bare.output.vtk.clear();
+  bare.output.images.clear();
+  bare.checks.clear();
+  bare.reference = {};
+  if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
+  Simulation simulation(bare, threads);
+  simulation.run();
+  const Scene parts = make_scene(bare, threads);
+  const Particles& particles = simulation.particles();
+  const Cutoff blob =
+      particles.spread > 0 ? spread_cutoff(parts.cutoff, particles.dimension, particles.spread) : parts.cutoff;
+  const base::Stopwatch watch;
+  double cheapest_auto = nan, dearest_auto = nan, direct = nan;
+  for (const fgtd::Method method : fgtd::methods()) {
+    bool too_dear = false;
+    for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+      Sample sample{.values = {fgtd::to_string(method), fmt::format("{:.0e}", tolerance)}};
+      if (too_dear || (watch.seconds() > seconds && method != fgtd::Method::automatic)) {
+        sample.failure = "left out: too dear";
+      } else {
+        try {
+          std::vector<double> times;
+          DensityReport report;
+          for (int repeat = 0; repeat < 4; ++repeat) {
+            evaluate_density(
+                particles, blob, parts.evaluation,
+                {.tolerance = tolerance, .method = fgtd::to_string(method), .threads = threads, .measure = repeat == 0},
+                &report);
+            if (repeat == 0) sample.error = std::max(report.measured_error, 1e-16);
+            if (repeat > 0 || report.evaluate_seconds > 0.3) times.push_back(report.evaluate_seconds);
+            if (report.evaluate_seconds > 0.3) break;
+          }
+          std::sort(times.begin(), times.end());
+          sample.seconds = times[times.size() / 2];
+          too_dear = sample.seconds > 1;
+          if (method == fgtd::Method::automatic && std::isnan(cheapest_auto)) cheapest_auto = sample.seconds;
+          if (method == fgtd::Method::automatic) dearest_auto = sample.seconds;
+          if (method == fgtd::Method::direct) direct = sample.seconds, too_dear = true;  // the same at all tolerances
+        } catch (const Error& error) {
+          sample.failure = error.what();
+        } catch (const fgtd::Error& error) {
+          sample.failure = error.what();
+        }
+      }
+      if (sample.failure != "left out: too dear" || !too_dear) experiment.samples.push_back(std::move(sample));
+    }
+  }
+  finish(experiment, scene);
+  experiment.conclusion =
+      fmt::format("Ten digits more of the sum cost {:.2g} times the time: {:.2g} ms at 1e-2, {:.2g} ms at 1e-12",
+                  dearest_auto / cheapest_auto, 1e3 * cheapest_auto, 1e3 * dearest_auto);
+  experiment.conclusion += std::isfinite(direct) ? fmt::format("; pair by pair it is {:.2g} ms.", 1e3 * direct) : ".";
+  return experiment;
+}
+
+Experiment study_steps(const Case& scene, int threads, double seconds) {
+  Experiment experiment{.name = "steps",
+                        .title = "Step and integrator",
+                        .question = "How long may steps be?",
+                        .keys = {"time.method", "time.step"},
+                        .error_is = "largest error of a position at the last output, in core radii",
+                        .seconds_are = "of transport, for all particles",
+                        .samples = {},
+                        .conclusion = {},
+                        .notes = {}};
+  Case bare = scene;
+  bare.effects = {};
+  const Scene parts = make_scene(bare, threads);
+  const double time = bare.output.times.back();
+  const Particles all = seed_scene(parts, threads);
+  Particles some;
+  some.dimension = all.dimension;
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / 2000);
+  for (std::size_t j = 0; j < all.size(); j += stride) {
+    for (int k = 0; k < all.dimension; ++k) some.position[k].push_back(all.position[k][j]);
+    some.alpha.push_back(all.alpha[j]);
+    some.id.push_back(all.id[j]);
+  }
+  const double scale = static_cast<double>(all.size()) / static_cast<double>(some.size());
+  Particles exact = some;
+  const bool smooth = parts.velocity->is_smooth();
+  carry_exactly(*parts.velocity, nullptr, exact, 0, time,
+                {.tolerance = smooth ? 1e-14 : 1e-10, .length = longest_side(scene), .threads = threads});
+  const base::Stopwatch watch;
+  std::map<std::string, double> orders;
+  for (const time::Tableau& tableau : time::tableaux()) {
+    const bool adaptive = time::is_adaptive(tableau);
+    for (int k = 0; k < 12; ++k) {
+      Case varied = bare;
+      varied.time.method = tableau.name;
+      varied.output.times = {time};
+      std::string value;
+      if (adaptive) {
+        varied.time.tolerance = std::pow(10, -2 - k);
+        varied.time.step = 0;
+        value = fmt::format("tolerance {:.0e}", varied.time.tolerance);
+        if (varied.time.tolerance < 1e-13) break;
+      } else {
+        varied.time.step = time / (8 << k);
+        value = fmt::format("{:.4g}", varied.time.step);
+      }
+      Sample sample{.values = {tableau.name, value}};
+      if (watch.seconds() > seconds) break;
+      try {
+        if (!adaptive && estimate_stable_step(*parts.velocity, some, tableau, bare.time.end, varied.time.step,
+                                              difference_length(parts))
+                                 .step < varied.time.step)
+          continue;  // not stable: it would be refused
+        Particles moved = some;
+        Carrier carrier(varied, parts, threads);
+        base::StageTimes ignored;
+        const base::Stopwatch work;
+        sample.steps = carrier.carry(moved, 0, time, 0, ignored, [](double, std::size_t) {});
+        sample.seconds = work.seconds() * scale;
+        sample.particles = all.size();
+        double largest = 0;
+        for (std::size_t j = 0; j < moved.size(); ++j) {
+          double square = 0;
+          for (int a = 0; a < moved.dimension; ++a) square += std::pow(moved.position[a][j] - exact.position[a][j], 2);
+          if (!std::isnan(square)) largest = std::max(largest, square);
+        }
+        sample.error = std::max(std::sqrt(largest) / parts.core_radius, 1e-16);
+      } catch (const Error& error) {
+        sample.failure = error.what();
+      }
+      experiment.samples.push_back(sample);
+      if (sample.failure.empty() && (sample.error < 1e-11 || sample.seconds / scale > 0.4)) break;
+    }
+  }
+  for (std::size_t i = 1; i < experiment.samples.size(); ++i) {
+    Sample &before = experiment.samples[i - 1], &now = experiment.samples[i];
+    if (before.values[0] != now.values[0] || !before.failure.empty() || !now.failure.empty() ||
+        time::is_adaptive(time::find_tableau(now.values[0])) || now.error < 1e-9)  // below, rounding shows
+      continue;
+    now.order = std::log2(before.error / now.error);
+    orders[now.values[0]] = now.order;
+  }
+  for (const auto& [name, order] : orders)
+    experiment.notes.push_back(
+        fmt::format("{}: observed order {:.2f}, expected {}", name, order, time::find_tableau(name).time_order));
+  finish(experiment, scene);
+  if (const Sample* enough = cheapest_below(experiment, 1e-3))
+    experiment.conclusion = fmt::format(
+        "{} with {} is the cheapest that carries every particle to within a thousandth of its blob: {} steps, {:.2g} "
+        "s.",
+        enough->values[0], enough->values[1], enough->steps, enough->seconds);
+  else
+    experiment.conclusion = "No method of these carries every particle to within a thousandth of its blob.";
+  return experiment;
+}
+
+Experiment study_lattice(const Case& scene, const StudyOptions& options, double seconds) {
+  Experiment experiment{.name = "lattice",
+                        .title = "Lattice, overlap and cutoff",
+                        .question = "Finer, wider, or of higher order?",
+                        .keys = {"particles.cutoff", "particles.overlap", "particles.per_axis"},
+                        .error_is = "Linf at the last output, of the whole run",
+                        .seconds_are = "of seeding, transport, effects and density, without the reference",
+                        .samples = {},
+                        .conclusion = {},
+                        .notes = {}};
+  const base::Stopwatch watch;
+  const double c = scene.particles.overlap;
+  double dearest = 0;
+  std::size_t left_out = 0;
+  for (const char* cutoff : {"gauss2", "gauss4", "gauss6", "gauss8"})
+    for (const double overlap : {c, 1.5 * c}) {
+      for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0}) {
+        Case varied = scene;
+        varied.particles.cutoff = cutoff;
+        varied.particles.overlap = overlap;
+        varied.particles.per_axis = std::max(8, static_cast<int>(std::lround(factor * scene.particles.per_axis)));
+        if (watch.seconds() + 3 * dearest > seconds) {
+          ++left_out;
+          continue;
+        }
+        const base::Stopwatch one;
+        Sample sample = measure_run(varied, options);
+        dearest = std::max(dearest, one.seconds());
+        sample.values = {cutoff, fmt::format("{:g}", overlap), std::to_string(varied.particles.per_axis)};
+        if (!experiment.samples.empty()) {
+          const Sample& before = experiment.samples.back();
+          if (before.values[0] == sample.values[0] && before.values[1] == sample.values[1] && before.failure.empty() &&
+              sample.failure.empty())
+            sample.order = -std::log(sample.error / before.error) /
+                           std::log(std::stod(sample.values[2]) / std::stod(before.values[2]));
+        }
+        experiment.samples.push_back(std::move(sample));
+      }
+    }
+  std::vector<Sample> kept = experiment.samples;
+  finish(experiment, scene);
+  for (std::size_t i = 0; i < kept.size(); ++i) experiment.samples[i].order = kept[i].order;
+  if (left_out > 0)
+    experiment.notes.push_back(fmt::format("{} combinations were left out to keep to the time", left_out));
+  experiment.notes.push_back(
+      "for a smooth density the error falls with the cutoff's order in per_axis: 2, 4, 6, 8; orders are printed with "
+      "that sign");
+  const Sample *best = nullptr, *now = nullptr;
+  for (const Sample& sample : experiment.samples) {
+    if (!sample.failure.empty()) continue;
+    if (!best || sample.error < best->error) best = &sample;
+    if (sample.values[0] == scene.particles.cutoff && sample.values[1] == fmt::format("{:g}", c) &&
+        sample.values[2] == std::to_string(scene.particles.per_axis))
+      now = &sample;
+  }
+  if (best) {
+    const Sample* same = now ? cheapest_below(experiment, 1.05 * now->error) : nullptr;
+    experiment.conclusion = fmt::format("The smallest error here, {:.2g}, is that of {} with per_axis = {}, c = {}",
+                                        best->error, best->values[0], best->values[2], best->values[1]);
+    if (now && same && same != now)
+      experiment.conclusion +=
+          fmt::format("; the case's own {:.2g} can be had with {}, per_axis = {}, c = {} in {:.2g} instead of {:.2g} s",
+                      now->error, same->values[0], same->values[2], same->values[1], same->seconds, now->seconds);
+    experiment.conclusion += ".";
+  }
+  return experiment;
+}
+
+Experiment study_whole(const Case& scene, const StudyOptions& options, double seconds) {
+  Experiment experiment{
+      .name = "whole",
+      .title = "Whole runs, settings chosen for a target",
+      .question = "What does one more digit cost?",
+      .keys = {"accuracy.target"},
+      .error_is = "Linf at the last output",
+      .seconds_are = "of seeding, transport and density, without the reference and the choice of settings",
+      .samples = {},
+      .conclusion = {},
+      .notes = {}};
+  const base::Stopwatch watch;
+  Sample as_it_is = measure_run(scene, options);
+  as_it_is.values = {"as it is"};
+  experiment.samples.push_back(as_it_is);
+  if (const std::string reason = budget_not_covered(scene); !reason.empty()) {
+    experiment.notes.push_back("no settings are chosen: " + reason);
+  } else {
+    for (const double target : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
+      Sample sample{.values = {fmt::format("{:g}", target)}};
+      if (watch.seconds() > seconds) {
+        experiment.notes.push_back(fmt::format("targets from {:g} on were left out to keep to the time", target));
+        break;
+      }
+      try {
+        const AccuracyChoice choice = choose_for_accuracy(scene, target, options.threads);
+        sample = measure_run(choice.scene, options);
+        sample.values = {fmt::format("{:g}", target)};
+        experiment.notes.push_back(fmt::format("{:g}: {}", target, to_text(choice).substr(7)));
+        experiment.notes.back().pop_back();
+      } catch (const Error& error) {
+        sample.failure = error.what();
+      }
+      experiment.samples.push_back(sample);
+      if (!sample.failure.empty()) break;
+    }
+  }
+  finish(experiment, scene);
+  const Sample *first = nullptr, *last = nullptr;
+  for (const Sample& sample : experiment.samples)
+    if (sample.failure.empty() && &sample != &experiment.samples.front()) {
+      if (!first) first = &sample;
+      last = &sample;
+    }
+  if (first && last && first != last && last->error < first->error)
+    experiment.conclusion =
+        fmt::format("From {:.1g} to {:.1g} a digit costs {:.2g} times the time each", first->error, last->error,
+                    std::pow(last->seconds / first->seconds, 1 / std::log10(first->error / last->error)));
+  if (as_it_is.failure.empty()) {
+    const Sample* same = cheapest_below(experiment, as_it_is.error);
+    experiment.conclusion +=
+        fmt::format("{} case as it is has {:.2g} in {:.2g} s", experiment.conclusion.empty() ? "The" : "; the",
+                    as_it_is.error, as_it_is.seconds);
+    if (same && same != &experiment.samples.front())
+      experiment.conclusion += fmt::format(", and {:.2g} can be had in {:.2g} s", same->error, same->seconds);
+  }
+  experiment.conclusion += ".";
+  return experiment;
+}
+
+}  // namespace gaussdrift::study

@@ -1,0 +1,230 @@
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
+#include "input/read_case.hpp"
+#include "particle/cutoff.hpp"
+#include "sim/simulation.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift::study {
+
+namespace {
+
+constexpr std::size_t most_combinations = 2000;
+
+std::optional<double> number_of(const std::string& text) {
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(text, &used);
+    if (used == text.size()) return value;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
+}
+
+double seconds_of_run(const RunSummary& summary) {
+  double total = 0;
+  for (const auto& [stage, seconds] : summary.stages.stages())
+    if (stage == "seed" || stage == "density" || stage == "transport" || stage.rfind("effect ", 0) == 0)
+      total += seconds;
+  return total;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+std::string value_or_quoted(const std::string& value) {
+  // Words are strings of the case; numbers, lists and quoted texts stay.
+  const bool word = !value.empty() && std::isalpha(static_cast<unsigned char>(value[0])) != 0 && value != "true" &&
+                    value != "false" && value.find_first_of("*/+(") == std::string::npos;
+  return word ? '"' + value + '"' : value;
+}
+
+std::string conclusion_of(const Experiment& experiment) {
+  const Sample* best = nullptr;
+  for (const Sample& sample : experiment.samples)
+    if (sample.failure.empty() && (!best || sample.error < best->error)) best = &sample;
+  if (!best) return "No combination could be run.";
+  const Sample* cheap = best;
+  for (const Sample& sample : experiment.samples)
+    if (sample.failure.empty() && sample.error <= 1.1 * best->error && sample.seconds < cheap->seconds) cheap = &sample;
+  const auto named = [&](const Sample& sample) {
+    std::string text;
+    for (std::size_t k = 0; k < experiment.keys.size(); ++k)
+      text += fmt::format("{}{} = {}", k ? ", " : "", experiment.keys[k], sample.values[k]);
+    return text;
+  };
+  if (cheap->seconds < 0.8 * best->seconds)
+    return fmt::format("{} is as accurate as {} and {:.2g} times as fast: an error of {:.2g} in {:.2g} s.",
+                       named(*cheap), named(*best), best->seconds / cheap->seconds, cheap->error, cheap->seconds);
+  return fmt::format(
+      "The smallest error, {:.2g}, is that of {}, in {:.2g} s; every cheaper one is paid for in accuracy.", best->error,
+      named(*best), best->seconds);
+}
+
+}  // namespace
+
+Variation parse_variation(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw CommandLineError(fmt::format("--vary {}: it is written key=a,b,c, as in --vary time.step=0.1,0.05", text));
+  Variation variation{text.substr(0, equals), {}};
+  std::string value;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = equals + 1; i <= text.size(); ++i) {
+    const char c = i < text.size() ? text[i] : ',';
+    if (c == '"') quoted = !quoted;
+    if (!quoted && (c == '[' || c == '(')) ++depth;
+    if (!quoted && (c == ']' || c == ')')) --depth;
+    if (c != ',' || (i < text.size() && (quoted || depth > 0))) {
+      value += c;
+      continue;
+    }
+    if (value.empty()) throw CommandLineError(fmt::format("--vary {}: a value is missing", text));
+    variation.values.push_back(value);
+    value.clear();
+  }
+  return variation;
+}
+
+Sample measure_run(const Case& scene, const StudyOptions& options) {
+  Sample sample;
+  Case bare = scene;
+  bare.output.vtk.clear();
+  bare.output.images.clear();
+  if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
+  bare.checks.clear();
+  try {
+    std::vector<double> seconds;
+    for (int repeat = 0; repeat <= options.repeats; ++repeat) {
+      const base::Stopwatch watch;
+      Simulation simulation(bare, options.threads);
+      const RunSummary summary = simulation.run();
+      if (repeat == 0) {
+        sample.particles = summary.particles;
+        sample.steps = summary.steps;
+        const FrameNumbers& last = summary.frames.back().second;
+        if (last.error) sample.error = last.error->linf;
+        if (last.untraced > 0) sample.failure = "the exact density is not known at some grid points";
+        bare.reference = {};  // repeats are for the time alone
+      }
+      seconds.push_back(seconds_of_run(summary));
+      if (watch.seconds() > 1) break;  // dear runs are their own warm-up
+      if (repeat == 0 && options.repeats > 0) seconds.clear();
+    }
+    sample.seconds = median(seconds);
+    if (sample.failure.empty() && !std::isfinite(sample.error)) sample.failure = "the case has no exact density";
+  } catch (const Error& error) {
+    sample.failure = error.what();
+  }
+  return sample;
+}
+
+std::optional<double> expected_order(const std::string& key, const Case& scene) {
+  if (key == "time.step") return time::find_tableau(scene.time.method).time_order;
+  if (key == "particles.overlap") return cutoff_order(scene.particles.cutoff);
+  if (key == "particles.per_axis") return -cutoff_order(scene.particles.cutoff);
+  return std::nullopt;
+}
+
+void finish(Experiment& experiment, const Case& scene) {
+  auto& samples = experiment.samples;
+  for (Sample& sample : samples) {
+    sample.on_front = sample.failure.empty();
+    for (const Sample& other : samples)
+      if (other.failure.empty() && other.seconds <= sample.seconds && other.error <= sample.error &&
+          (other.seconds < sample.seconds || other.error < sample.error))
+        sample.on_front = false;
+  }
+  if (experiment.keys.empty() || !expected_order(experiment.keys.back(), scene)) return;
+  const std::size_t last = experiment.keys.size() - 1;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Sample &before = samples[i - 1], &now = samples[i];
+    if (!before.failure.empty() || !now.failure.empty() ||
+        !std::equal(now.values.begin(), now.values.begin() + static_cast<std::ptrdiff_t>(last), before.values.begin()))
+      continue;
+    const auto a = number_of(before.values[last]), b = number_of(now.values[last]);
+    if (a && b && *a > 0 && *b > 0 && *a != *b && before.error > 0 && now.error > 0)
+      samples[i].order = std::log(now.error / before.error) / std::log(*b / *a);
+  }
+}
+
+Study run_study(const StudyOptions& options) {
+  const base::Stopwatch watch;
+  const Case scene = input::read_case(options.file, options.overrides, options.threads).scene;
+  Study study{scene.name, scene.title, {}, base::resolve_threads(options.threads), 0};
+  if (options.vary.empty()) {
+    const auto tell = [&](const std::string& what) {
+      if (options.progress) options.progress(what);
+    };
+    tell("the Gauss transform");
+    study.experiments.push_back(study_transform(scene, options.threads, 0.1 * options.seconds));
+    tell("steps");
+    study.experiments.push_back(study_steps(scene, options.threads, 0.15 * options.seconds));
+    tell("lattice and cutoff");
+    study.experiments.push_back(study_lattice(scene, options, 0.4 * options.seconds));
+    tell("whole runs");
+    study.experiments.push_back(study_whole(scene, options, 0.35 * options.seconds));
+    study.seconds = watch.seconds();
+    return study;
+  }
+
+  Experiment experiment{.name = "study",
+                        .title = scene.title.empty() ? scene.name : scene.title,
+                        .question = "What does accuracy cost here?",
+                        .keys = {},
+                        .error_is = "Linf at the last output",
+                        .seconds_are = "of seeding, transport, effects and density, without the reference",
+                        .samples = {},
+                        .conclusion = {},
+                        .notes = {}};
+  std::size_t combinations = 1;
+  for (const Variation& variation : options.vary) {
+    for (const char* fixed : {"case", "output", "reference", "check", "accuracy", "gaussdrift"})
+      if (variation.key.substr(0, variation.key.find('.')) == fixed)
+        throw CommandLineError(fmt::format("--vary {}: what is in [{}] does not change a run's error or its seconds",
+                                           variation.key, fixed));
+    experiment.keys.push_back(variation.key);
+    combinations *= variation.values.size();
+    if (combinations > most_combinations)
+      throw CommandLineError(fmt::format("the study has more than {} combinations; vary less", most_combinations));
+  }
+  for (std::size_t i = 0; i < combinations; ++i) {
+    std::vector<std::string> overrides = options.overrides, values;
+    for (std::size_t rest = i, k = options.vary.size(); k-- > 0; rest /= options.vary[k].values.size())
+      values.insert(values.begin(), options.vary[k].values[rest % options.vary[k].values.size()]);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      overrides.push_back(experiment.keys[k] + "=" + value_or_quoted(values[k]));
+    if (options.progress) options.progress(fmt::format("{} of {}: {}", i + 1, combinations, fmt::join(values, ", ")));
+    // A key or value that the case does not have is an error of the command, not a sample.
+    const Case varied = input::read_case(options.file, overrides, options.threads).scene;
+    Sample sample = measure_run(varied, options);
+    sample.values = values;
+    experiment.samples.push_back(sample);
+    if (options.sample_done) options.sample_done(experiment, sample);
+    if (i + 1 == combinations) {
+      finish(experiment, varied);
+      if (const auto order = expected_order(experiment.keys.back(), varied))
+        experiment.notes.push_back(
+            fmt::format("where {} decides, the error is its power {:g}", experiment.keys.back(), *order));
+    }
+  }
+  experiment.conclusion = conclusion_of(experiment);
+  study.experiments.push_back(std::move(experiment));
+  study.seconds = watch.seconds();
+  return study;
+}
+
+}  // namespace gaussdrift::study

@@ -1,0 +1,96 @@
+// What accuracy costs in time: a case run with keys varied, its error beside its seconds, and what follows from them.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gaussdrift/case.hpp"
+
+namespace gaussdrift::study {
+
+/// --vary key=a,b,c
+struct Variation {
+  std::string key;
+  std::vector<std::string> values;  // as in --set
+};
+
+/// Splits at commas outside of brackets and quotes. Throws CommandLineError where there is no key or no value.
+Variation parse_variation(const std::string& text);
+
+/// One combination.
+struct Sample {
+  std::vector<std::string> values;  // one a key of the experiment
+  double seconds = std::numeric_limits<double>::quiet_NaN();
+  double error = std::numeric_limits<double>::quiet_NaN();
+  std::size_t particles = 0, steps = 0;
+  double order = std::numeric_limits<double>::quiet_NaN();  // observed, against the sample before of the same series
+  bool on_front = false;                                    // no other sample is both faster and more accurate
+  std::string failure{};                                    // why there is no number; empty: there is
+};
+
+/// One question, one chart.
+struct Experiment {
+  std::string name;      // of its files: "steps"
+  std::string title;     // "Step and integrator"
+  std::string question;  // "How long may steps be?"
+  std::vector<std::string> keys;
+  std::string error_is;     // "Linf at the last output"
+  std::string seconds_are;  // "of transport and density, without the reference"
+  std::vector<Sample> samples;
+  std::string conclusion;
+  std::vector<std::string> notes;  // what was left out, expected orders
+};
+
+struct StudyOptions {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;
+  std::vector<Variation> vary;  // empty: the standard studies
+  int repeats = 3;              // of cheap runs, after one to warm up; the median counts
+  double seconds = 90;          // about what the standard studies may take
+  int threads = 0;
+  std::function<void(const std::string&)> progress{};
+  std::function<void(const Experiment&, const Sample&)> sample_done{};  // for tables that survive an interruption
+};
+
+struct Study {
+  std::string case_name, title;
+  std::vector<Experiment> experiments;
+  int threads = 1;
+  double seconds = 0;
+};
+
+/// Throws what reading the case throws; CommandLineError for more than 2000 combinations or a key that cannot be
+/// varied. A combination that cannot run is a sample that says why.
+Study run_study(const StudyOptions& options);
+
+/// Marks the front and fills in observed orders along the last key, where it is a number that errors are powers of.
+void finish(Experiment& experiment, const Case& scene);
+
+/// The error's expected power of a key: cutoff order for particles.overlap, minus that for particles.per_axis, the
+/// method's order for time.step; nothing for others.
+std::optional<double> expected_order(const std::string& key, const Case& scene);
+
+std::string to_text(const Study& study);
+std::string to_csv(const Experiment& experiment);
+std::string to_json(const Study& study);
+/// A page for people: charts, tables, conclusions. The charts are the files <name>.png beside it.
+std::string to_markdown(const Study& study);
+/// Draws <name>.png of every experiment into the folder; nothing where pictures are not available.
+void draw_charts(const Study& study, const std::filesystem::path& folder);
+
+// The standard studies, in src/study/standard_studies.cpp.
+Experiment study_transform(const Case& scene, int threads, double seconds);
+Experiment study_steps(const Case& scene, int threads, double seconds);
+Experiment study_lattice(const Case& scene, const StudyOptions& options, double seconds);
+Experiment study_whole(const Case& scene, const StudyOptions& options, double seconds);
+
+/// Runs the case without files and pictures: error at the last output, median of seconds.
+Sample measure_run(const Case& scene, const StudyOptions& options);
+
+}  // namespace gaussdrift::study

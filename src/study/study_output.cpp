@@ -1,0 +1,172 @@
+// A study as text, tables, JSON, a page, and charts.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "render/chart.hpp"
+#include "render/picture.hpp"
+#include "study/study.hpp"
+
+namespace gaussdrift::study {
+
+namespace {
+
+std::string short_number(double value, const char* missing = "") {
+  return std::isfinite(value) ? fmt::format("{:.2e}", value) : missing;
+}
+
+/// Columns of one table, padded.
+std::string table_of(const Experiment& experiment) {
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> header = experiment.keys;
+  for (const char* name : {"error", "seconds", "order", "particles", "steps", ""}) header.push_back(name);
+  rows.push_back(header);
+  for (const Sample& sample : experiment.samples) {
+    std::vector<std::string> row = sample.values;
+    if (!sample.failure.empty()) {
+      row.push_back("-- " + sample.failure.substr(0, sample.failure.find('\n')));
+    } else {
+      row.push_back(short_number(sample.error));
+      row.push_back(short_number(sample.seconds));
+      row.push_back(std::isfinite(sample.order) ? fmt::format("{:.1f}", sample.order) : "");
+      row.push_back(sample.particles ? std::to_string(sample.particles) : "");
+      row.push_back(sample.steps ? std::to_string(sample.steps) : "");
+      row.push_back(sample.on_front ? "*" : "");
+    }
+    rows.push_back(row);
+  }
+  std::vector<std::size_t> width(header.size(), 0);
+  for (const auto& row : rows)
+    if (row.size() == header.size())
+      for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < experiment.keys.size(); ++k) width[k] = std::max(width[k], row[k].size());
+  std::string text;
+  for (const auto& row : rows) {
+    std::string line = " ";
+    for (std::size_t k = 0; k < row.size(); ++k) line += fmt::format(" {:<{}}", row[k], width[k]);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string to_text(const Study& study) {
+  std::string text;
+  for (const Experiment& experiment : study.experiments) {
+    text += fmt::format("{}\n  {}; seconds {}; * no other is faster and more accurate\n{}", experiment.title,
+                        experiment.error_is, experiment.seconds_are, table_of(experiment));
+    for (const std::string& note : experiment.notes) text += fmt::format("  {}\n", note);
+    text += fmt::format("=> {}\n\n", experiment.conclusion);
+  }
+  return text;
+}
+
+std::string to_csv(const Experiment& experiment) {
+  std::string text;
+  for (const std::string& key : experiment.keys) text += csv_field(key) + ",";
+  text += "error,seconds,order,particles,steps,front,failure\n";
+  const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.6e}", value) : ""; };
+  for (const Sample& sample : experiment.samples) {
+    for (const std::string& value : sample.values) text += csv_field(value) + ",";
+    text += fmt::format("{},{},{},{},{},{},{}\n", number(sample.error), number(sample.seconds), number(sample.order),
+                        sample.particles, sample.steps, sample.on_front ? 1 : 0, csv_field(sample.failure));
+  }
+  return text;
+}
+
+std::string to_json(const Study& study) {
+  using json = nlohmann::ordered_json;
+  const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
+  json experiments = json::array();
+  for (const Experiment& experiment : study.experiments) {
+    json samples = json::array();
+    for (const Sample& sample : experiment.samples) {
+      json row;
+      for (std::size_t k = 0; k < experiment.keys.size(); ++k) row[experiment.keys[k]] = sample.values[k];
+      row["error"] = number(sample.error);
+      row["seconds"] = number(sample.seconds);
+      row["order"] = number(sample.order);
+      row["particles"] = sample.particles;
+      row["steps"] = sample.steps;
+      row["front"] = sample.on_front;
+      if (!sample.failure.empty()) row["failure"] = sample.failure;
+      samples.push_back(row);
+    }
+    experiments.push_back({{"name", experiment.name},
+                           {"title", experiment.title},
+                           {"error", experiment.error_is},
+                           {"seconds", experiment.seconds_are},
+                           {"samples", samples},
+                           {"conclusion", experiment.conclusion},
+                           {"notes", experiment.notes}});
+  }
+  return json{{"case", study.case_name},
+              {"threads", study.threads},
+              {"seconds", study.seconds},
+              {"experiments", experiments}}
+             .dump(2, ' ', false, json::error_handler_t::replace) +
+         "\n";
+}
+
+std::string to_markdown(const Study& study) {
+  std::string text = fmt::format("# What accuracy costs: {}\n\n", study.title.empty() ? study.case_name : study.title);
+  for (const Experiment& experiment : study.experiments) {
+    text += fmt::format("## {}\n\n{}\n\n![{}]({}.png)\n\n**{}**\n\n", experiment.title, experiment.question,
+                        experiment.title, experiment.name, experiment.conclusion);
+    text += fmt::format("Error: {}. Seconds: {}. `*`: no other is faster and more accurate.\n\n```\n{}```\n\n",
+                        experiment.error_is, experiment.seconds_are, table_of(experiment));
+    for (const std::string& note : experiment.notes) text += fmt::format("* {}\n", note);
+    text += "\n";
+  }
+  text += fmt::format("{} threads, {:.0f} s in all; tables as CSV and JSON beside this page.\n", study.threads,
+                      study.seconds);
+  return text;
+}
+
+void draw_charts(const Study& study, const std::filesystem::path& folder) {
+  if (!render::unavailable_reason().empty()) return;
+  for (const Experiment& experiment : study.experiments) {
+    render::Chart chart{
+        .title = experiment.title,
+        .x = {.name = "seconds", .logarithmic = true},
+        .y = {.name = experiment.error_is.substr(0, experiment.error_is.find(',')), .logarithmic = true},
+        .series = {}};
+    // A series a combination of all keys but the last; the front behind them.
+    std::vector<render::ChartPoint> front;
+    for (const Sample& sample : experiment.samples) {
+      if (!sample.failure.empty()) continue;
+      if (sample.on_front) front.push_back({sample.seconds, sample.error});
+      const std::string name = fmt::format("{}", fmt::join(sample.values.begin(), sample.values.end() - 1, ", "));
+      auto series =
+          std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.name == name; });
+      if (series == chart.series.end()) {
+        chart.series.push_back({.name = name});
+        if (experiment.keys.size() == 1) chart.series.back().look = render::ChartSeries::Look::marks;
+        series = chart.series.end() - 1;
+      }
+      series->points.push_back({sample.seconds, sample.error, sample.values.back()});
+    }
+    std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+    chart.series.insert(chart.series.begin(), {.name = "nothing faster is as accurate",
+                                               .points = front,
+                                               .look = render::ChartSeries::Look::dashed,
+                                               .quiet = true});
+    chart.conclusion = experiment.conclusion;
+    chart.footer = fmt::format("{}; {} threads", study.title.empty() ? study.case_name : study.title, study.threads);
+    render::draw_chart(chart, folder / (experiment.name + ".png"));
+  }
+}
+
+}  // namespace gaussdrift::study
