@@ -109,6 +109,7 @@ struct OutputSpec {
   std::vector<double> times;  // ascending, 0 <= t <= end
   std::vector<Vtk> vtk{Vtk::density, Vtk::particles};
   std::vector<Image> images{Image::surface};
+  bool report = true;  // report.html, report.json, summary.png
 };
 
 // --- what the results are compared with -------------------------------------------------------------------------

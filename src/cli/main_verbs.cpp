@@ -107,6 +107,42 @@ ExitCode dispatch(int argc, char** argv) {
   study_verb->add_option("--out", study_options.folder, "folder for tables and charts; output/study_<case> by default")
       ->type_name("DIR");
 
+  ReportOptions report_options;
+  CLI::App* report_verb =
+      app.add_subcommand("report", "make the page of a run again: report.html, report.json, summary.png");
+  report_verb->add_option("folder", report_options.folder, "folder of a run")->required()->type_name("DIR");
+  report_verb->add_flag("--json", report_options.json, "results as JSON on standard output");
+
+  RenderOptions render_options;
+  CLI::App* render_verb = app.add_subcommand("render", "draw the densities of a run again, without running it");
+  render_verb->add_option("folder", render_options.folder, "folder of a run, or a .vti")->required()->type_name("DIR");
+  render_verb
+      ->add_option("--style", render_options.style, "surface, contour, heatmap; slices, projection, isosurface; error")
+      ->type_name("NAME");
+  render_verb->add_option("--field", render_options.field, "rho (the default), rho_exact or error")->type_name("NAME");
+  render_verb->add_option("--times", render_options.times, "only these output times")
+      ->delimiter(',')
+      ->type_name("T,...");
+  render_verb->add_option("--out", render_options.out, "folder for the pictures; images/ of the run by default")
+      ->type_name("DIR");
+  render_verb->add_flag("--json", render_options.json, "results as JSON on standard output");
+
+  CompareOptions compare_options;
+  CLI::App* compare_verb =
+      app.add_subcommand("compare", "norms of the difference of two results, relative to the second");
+  compare_verb->add_option("first", compare_options.first, "folder of a run, or a .vti")->required()->type_name("A");
+  compare_verb->add_option("second", compare_options.second, "what it is compared with")->required()->type_name("B");
+  compare_verb
+      ->add_option("--tolerance", compare_options.tolerance, "exit code 5 if the largest difference is above this")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("X");
+  compare_verb->add_flag("--json", compare_options.json, "results as JSON on standard output");
+
+  DoctorOptions doctor_options;
+  CLI::App* doctor_verb =
+      app.add_subcommand("doctor", "does everything work on this machine? a sum, a picture, a file");
+  doctor_verb->add_flag("--json", doctor_options.json, "results as JSON on standard output");
+
   SumOptions sum_options;
   CLI::App* sum_verb = app.add_subcommand("sum", "sums of Gaussians and their derivatives over a table of points");
   add_sum_options(*sum_verb, sum_options);
@@ -166,7 +202,14 @@ ExitCode dispatch(int argc, char** argv) {
   }
   if (new_verb->parsed()) return new_case(new_options);
   if (explain_verb->parsed()) return explain(explain_options);
-  if (run_verb->parsed()) return run(run_options);
+  if (run_verb->parsed()) {
+    for (int i = 0; i < argc; ++i) run_options.command += (i ? " " : "") + std::string(argv[i]);
+    return run(run_options);
+  }
+  if (report_verb->parsed()) return report(report_options);
+  if (render_verb->parsed()) return render(render_options);
+  if (compare_verb->parsed()) return compare(compare_options);
+  if (doctor_verb->parsed()) return doctor(doctor_options);
   if (check_verb->parsed()) return check(check_options);
   if (study_verb->parsed()) return study(study_options);
   if (sum_verb->parsed()) return sum(sum_options);

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/parallel.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "input/read_case.hpp"
@@ -14,11 +16,13 @@
 #include "study/accuracy.hpp"
 #include "study/budget.hpp"
 #include "study/describe.hpp"
+#include "study/report.hpp"
 #include "study/reproduce_cone.hpp"
 #include "study/reproduce_fgtd.hpp"
 #include "study/reproduce_figures.hpp"
 #include "write/atomic_file.hpp"
 #include "write/observers.hpp"
+#include "write/provenance.hpp"
 #include "write/run_folder.hpp"
 #include "write/summary.hpp"
 
@@ -115,11 +119,12 @@ std::string place_text(const Vector& place, int dimension) {
   return text + ")";
 }
 
-void print_ending(const Case& scene, const RunSummary& summary, const study::Budget* budget,
-                  std::optional<double> target, const fs::path& folder) {
+std::string ending_text(const Case& scene, const RunSummary& summary, const study::Budget* budget,
+                        std::optional<double> target, const fs::path& folder) {
+  std::string text;
   double worst = 0;
   for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
-  fmt::print(
+  text += fmt::format(
       "done   {} particles, {} steps, {} frames in {:.2f} s on {} threads (transport {:.2f}, density {:.2f}, "
       "reference {:.2f}, files {:.2f}, pictures {:.2f})\n",
       summary.particles, summary.steps, summary.frames.size(), summary.seconds, summary.threads,
@@ -134,34 +139,58 @@ void print_ending(const Case& scene, const RunSummary& summary, const study::Bud
     const auto& [t1, last] = summary.frames.back();
     std::string heights = fmt::format("{} at t = {:.4g}", extremes(first), t0);
     if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {:.4g}", extremes(last), t1);
-    fmt::print("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights,
-               last.mass, worst, scene.evaluate.tolerance);
+    text += fmt::format("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights,
+                        last.mass, worst, scene.evaluate.tolerance);
   }
   if (!summary.frames.empty() && summary.frames.back().second.error) {
     const auto& [time, numbers] = summary.frames.back();
     const std::string where = numbers.compared < summary.grid_points
                                   ? fmt::format(", on {} of {} grid points", numbers.compared, summary.grid_points)
                                   : "";
-    fmt::print("error  at t = {:.4g}, relative to the exact density{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", time,
-               where, numbers.error->l1, numbers.error->l2, numbers.error->linf);
+    text += fmt::format("error  at t = {:.4g}, relative to the exact density{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n",
+                        time, where, numbers.error->l1, numbers.error->l2, numbers.error->linf);
   }
   if (target && !summary.frames.empty() && summary.frames.back().second.error) {
     const double achieved = summary.frames.back().second.error->linf;
-    fmt::print("target {:g}: achieved {:.2e}{}\n", *target, achieved, achieved <= *target ? "" : ", MISSED");
+    text += fmt::format("target {:g}: achieved {:.2e}{}\n", *target, achieved, achieved <= *target ? "" : ", MISSED");
   }
   if (budget && budget->known()) {
-    fmt::print("budget {}\n", one_line(*budget));
-    for (const std::string& advice : budget->advice) fmt::print("hint   {}\n", advice);
+    text += fmt::format("budget {}\n", one_line(*budget));
+    for (const std::string& advice : budget->advice) text += fmt::format("hint   {}\n", advice);
   } else if (budget) {
-    fmt::print("budget none: {}\n", budget->not_covered);
+    text += fmt::format("budget none: {}\n", budget->not_covered);
   }
   for (const CheckResult& result : summary.checks)
-    fmt::print("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
+    text += fmt::format("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
   const bool pictures = fs::exists(folder / "images");
   const bool density = fs::exists(folder / "density.pvd");
-  fmt::print("open   {}{}{}\n",
-             density ? (folder / "density.pvd").string() + " in ParaView" : (folder / "series.csv").string(),
-             pictures ? ", pictures in " : "", pictures ? (folder / "images").string() : "");
+  text += fmt::format("open   {}{}{}{}\n", scene.output.report ? (folder / "report.html").string() + ", " : "",
+                      density ? (folder / "density.pvd").string() + " in ParaView" : (folder / "series.csv").string(),
+                      pictures ? ", pictures in " : "", pictures ? (folder / "images").string() : "");
+  return text;
+}
+
+/// The last output summed again at several tolerances, where that is a small part of the run.
+void add_accuracy_table(const Case& scene, const RunSummary& summary, const study::LastFrame::Kept& last,
+                        nlohmann::ordered_json& more, int threads) {
+  if (!last.any || last.particles.size() == 0) return;
+  constexpr std::array tolerances{1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+  constexpr double share = 0.1;
+  const auto& numbers = summary.frames.back().second;
+  if (numbers.evaluate_seconds * (tolerances.size() + 2) > share * summary.seconds) return;
+  const Scene parts = make_scene(scene, threads);
+  const Cutoff blob = last.particles.spread > 0
+                          ? spread_cutoff(parts.cutoff, last.particles.dimension, last.particles.spread)
+                          : parts.cutoff;
+  nlohmann::ordered_json table = nlohmann::ordered_json::array();
+  for (const double tolerance : tolerances) {
+    DensityReport report;
+    evaluate_density(last.particles, blob, parts.evaluation,
+                     {.tolerance = tolerance, .method = scene.evaluate.method, .threads = threads}, &report);
+    table.push_back(
+        {{"tolerance", tolerance}, {"error", report.measured_error}, {"milliseconds", 1e3 * report.evaluate_seconds}});
+  }
+  more["accuracy_table"] = table;
 }
 
 }  // namespace
@@ -172,12 +201,14 @@ ExitCode run(const RunOptions& options) {
   Simulation simulation(scene, options.scene.threads);
   simulation.prepare();  // what cannot begin must not cost an earlier run
   write::prepare_run_folder(folder, options.force);
-  write::write_run_inputs(folder, scene, input::resolved_toml(scene));
+  const std::string resolved = input::resolved_toml(scene);
+  write::write_run_inputs(folder, scene, resolved);
+  write::write_provenance(folder, scene, resolved, options.command, base::resolve_threads(options.scene.threads));
   add_observers(simulation, scene, folder);
   const bool budgeted =
       scene.accuracy.budget != AccuracySpec::Budget::none && scene.reference.kind != ReferenceSpec::Kind::none;
   study::LastFrame::Kept last;
-  if (budgeted && study::budget_not_covered(scene).empty())
+  if ((budgeted && study::budget_not_covered(scene).empty()) || scene.output.report)
     simulation.observe(std::make_unique<study::LastFrame>(last, scene.output.times.back()));
 
   RunSummary summary;
@@ -226,12 +257,17 @@ ExitCode run(const RunOptions& options) {
                       {"measured", study::to_json(*measured)},
                       {"advice", measured->advice}};
   }
+  if (scene.output.report) add_accuracy_table(scene, summary, last, more, options.scene.threads);
   const std::string json = write::summary_json(scene, summary, more);
   write::write_text(folder / "summary.json", json);
+  const std::string ending =
+      ending_text(scene, summary, measured ? &*measured : nullptr, asked.accuracy.target, folder);
+  write::write_text(folder / "log.txt", ending);
+  if (scene.output.report) study::write_report(folder, !scene.output.images.empty());
   if (options.scene.json)
     fmt::print("{}", json);
   else
-    print_ending(scene, summary, measured ? &*measured : nullptr, asked.accuracy.target, folder);
+    fmt::print("{}", ending);
   bool failed = false;
   for (const CheckResult& result : summary.checks) {
     if (result.passed) continue;

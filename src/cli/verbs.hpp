@@ -22,6 +22,7 @@ struct RunOptions {
   CaseOptions scene;
   std::filesystem::path folder;  // --out; empty: output/<case name>
   bool force = false;
+  std::string command;  // as it was typed, for provenance.json
 };
 
 struct StudyVerbOptions {
@@ -59,6 +60,34 @@ struct ExplainOptions {
   bool json = false;
 };
 
+struct ReportOptions {
+  std::filesystem::path folder;
+  bool json = false;
+};
+
+struct RenderOptions {
+  std::filesystem::path folder;
+  std::string style;          // empty: the default of the dimension and field
+  std::string field = "rho";  // rho, rho_exact, error
+  std::vector<double> times;  // empty: all
+  std::filesystem::path out;  // empty: images/ of the folder
+  bool json = false;
+};
+
+struct CompareOptions {
+  std::filesystem::path first, second;
+  double tolerance = -1;  // negative: none
+  bool json = false;
+};
+
+struct DoctorOptions {
+  bool json = false;
+};
+
+ExitCode report(const ReportOptions& options);
+ExitCode render(const RenderOptions& options);
+ExitCode compare(const CompareOptions& options);
+ExitCode doctor(const DoctorOptions& options);
 ExitCode new_case(const NewOptions& options);
 ExitCode explain(const ExplainOptions& options);
 ExitCode run(const RunOptions& options);

@@ -957,6 +957,7 @@ class Reader {
 
     choices("vtk", output.vtk);
     choices("images", output.images);
+    output.report = choice("output", "report") == "html";
     if (dimension_) check_images(output.images);
   }
 

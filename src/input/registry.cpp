@@ -358,6 +358,14 @@ std::vector<Key> written_keys() {
        .meaning =
            "pictures. In 2D `surface`, `contour`, `heatmap`; in 3D `slices`, `projection`, `isosurface`; in both "
            "`error`, which needs a reference. Of the defaults the one for the dimension"},
+      {.table = "output",
+       .name = "report",
+       .type = Type::choice,
+       .fallback = "html",
+       .choices = {"html", "none"},
+       .meaning =
+           "`html`: a page about the run, report.html, with report.json, and summary.png where pictures and densities "
+           "are wanted"},
 
       {.table = "reference",
        .name = "kind",

@@ -176,6 +176,7 @@ std::string resolved_toml(const Case& scene) {
   out.entry("times", written(scene.output.times));
   out.entry("vtk", written(choices("vtk", scene.output.vtk)));
   out.entry("images", written(choices("images", scene.output.images)));
+  out.entry("report", written(std::string(scene.output.report ? "html" : "none")));
   if (const auto& reaction = scene.effects.reaction) {
     out.table("effects.reaction");
     out.entry("rate", written(reaction->rate));

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // What a run writes at the top of its folder, and the numbered files below it.
-constexpr std::array<std::string_view, 7> run_files{"density.pvd", "particles.pvd", "case.toml", "run.toml",
+constexpr std::array<std::string_view, 12> run_files{"report.html", "report.json", "summary.png", "provenance.json", "log.txt", "density.pvd", "particles.pvd", "case.toml", "run.toml",
                                                     "series.csv",  "summary.json",  "view.py"};
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> numbered_files{
     {{"density", ".vti"}, {"particles", ".vtp"}, {"images", ".png"}}};

@@ -329,6 +329,7 @@ method = "auto"
 times = [0, 0.16666666666666666, 0.3333333333333333, 0.5, 0.6666666666666666]
 vtk = ["density", "particles"]
 images = ["slices"]
+report = "html"
 
 [reference]
 kind = "characteristics"

@@ -1,0 +1,105 @@
+// gaussdrift doctor: does everything work on this machine?
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <fgtd/fgtd.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/parallel.hpp"
+#include "cli/verbs.hpp"
+#include "read/grid_file.hpp"
+#include "render/picture.hpp"
+#include "write/vtk_files.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Finding {
+  std::string what, found;
+  bool well = true;
+};
+
+/// sum_j exp(-sigma |y - x_j|^2) over the corners of a square, by every method: 4 exp(-2 sigma) at its centre.
+Finding check_sum() {
+  fgtd::Points<2> corners(2, 4), centre(2, 1);
+  corners << -1, 1, -1, 1, -1, -1, 1, 1;
+  centre << 0, 0;
+  const double exact = 4 * std::exp(-2 * 0.7);
+  double worst = 0;
+  for (const fgtd::Method method : fgtd::methods())
+    worst = std::max(
+        worst, std::abs(fgtd::Plan<2>(corners, Eigen::MatrixXd::Ones(4, 1), 0.7, {.tolerance = 1e-12, .method = method})
+                            .evaluate(centre)(0, 0) -
+                        exact));
+  return {"Gauss sum", fmt::format("{} methods agree with 4 exp(-2 sigma) to {:.0e}", fgtd::methods().size(), worst),
+          worst < 1e-11};
+}
+
+DensityGrid hill() {
+  DensityGrid density{make_lattice(2, {-1, -1, 0}, {1, 1, 0}, 41), {}};
+  for (std::size_t i = 0; i < density.lattice.size(); ++i) {
+    const double x = density.lattice.coordinate(0, i % 41), y = density.lattice.coordinate(1, i / 41);
+    density.rho.push_back(std::exp(-4 * (x * x + y * y)));
+  }
+  return density;
+}
+
+Finding check_picture(const fs::path& folder) {
+  if (const std::string reason = render::unavailable_reason(); !reason.empty()) return {"picture", reason, false};
+  render::draw(render::Style::surface, hill(), {.width = 320, .height = 240}, folder / "picture.png");
+  return {"picture", fmt::format("drawn off screen, {} bytes", fs::file_size(folder / "picture.png")), true};
+}
+
+Finding check_file(const fs::path& folder) {
+  const DensityGrid density = hill();
+  write::write_density(folder / "density.vti", density, 0, nullptr);
+  const auto back = read::read_grid(folder / "density.vti", "rho", 2, 1, 1);
+  return {"file", "a density written for ParaView reads back bit for bit", back->values.front() == density.rho};
+}
+
+}  // namespace
+
+ExitCode doctor(const DoctorOptions& options) {
+  std::vector<Finding> findings;
+  findings.push_back({"version", fmt::format("gaussdrift {}, {}", GAUSSDRIFT_VERSION, GAUSSDRIFT_COMPILER)});
+  findings.push_back(
+      {"libraries", fmt::format("Eigen {}.{}.{}, fmt {}, VTK {}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                                EIGEN_MINOR_VERSION, FMT_VERSION, GAUSSDRIFT_VTK_VERSION)});
+  findings.push_back({"threads", std::to_string(base::resolve_threads(0))});
+  findings.push_back({"vectors", __builtin_cpu_supports("avx512f") ? "AVX-512"
+                                 : __builtin_cpu_supports("avx2")  ? "AVX2"
+                                                                   : "baseline x86-64"});
+  std::string pattern = (fs::temp_directory_path() / "gaussdrift-doctor.XXXXXX").string();
+  if (!mkdtemp(pattern.data()))
+    throw FileError(fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));
+  const fs::path folder = pattern;
+  const auto check = [&](const char* what, const std::function<Finding()>& find) {
+    try {
+      findings.push_back(find());
+    } catch (const std::exception& error) {
+      findings.push_back({what, error.what(), false});
+    }
+  };
+  check("Gauss sum", check_sum);
+  check("picture", [&] { return check_picture(folder); });
+  check("file", [&] { return check_file(folder); });
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+  bool well = true;
+  nlohmann::ordered_json document;
+  for (const Finding& finding : findings) {
+    well = well && finding.well;
+    document[finding.what] = {{"found", finding.found}, {"well", finding.well}};
+    if (!options.json) fmt::print("{:<10} {:<4} {}\n", finding.what, finding.well ? "ok" : "BAD", finding.found);
+  }
+  if (options.json) fmt::print("{}\n", document.dump(2));
+  return well ? ExitCode::ok : ExitCode::internal;
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,55 @@
+#include "render/panel.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+#include "render/on_canvas.hpp"
+#include "render/picture.hpp"
+#include "render/read_png.hpp"
+
+namespace gaussdrift::render {
+
+void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& png) {
+  constexpr int width = 640, height = 480;
+  double low = 0, high = 0, low_error = 0, high_error = 0;
+  for (const Panel& panel : panels)
+    for (const double value : panel.density.rho) {
+      double &least = panel.is_error ? low_error : low, &most = panel.is_error ? high_error : high;
+      least = std::min(least, value), most = std::max(most, value);
+    }
+  const auto [range_min, range_max] = rounded_range(low, high);
+  const auto [error_min, error_max] = symmetric_range(low_error, high_error);
+  std::vector<Image> images;
+  for (const Panel& panel : panels) {
+    const bool flat = panel.density.lattice.dimension == 2;
+    const std::filesystem::path part = png.string() + ".panel";
+    draw(panel.is_error ? Style::error
+         : flat         ? Style::heatmap
+                        : Style::slices,
+         panel.density,
+         {.title = panel.title,
+          .quantity = panel.is_error ? "error" : "density",
+          .time = panel.time,
+          .range_min = panel.is_error ? error_min : range_min,
+          .range_max = panel.is_error ? error_max : range_max,
+          .width = width,
+          .height = height},
+         part);
+    images.push_back(read_png(part));
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+  }
+  const int rows = (static_cast<int>(panels.size()) + 1) / 2, columns = panels.size() > 1 ? 2 : 1;
+  on_canvas(columns * width, rows * height, png, [&](Canvas& canvas) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const int column = static_cast<int>(i) % 2, row = static_cast<int>(i) / 2;
+      canvas.image(column * width, (rows - 1 - row) * height, width, height, images[i].pixels);
+    }
+  });
+}
+
+}  // namespace gaussdrift::render

@@ -1,0 +1,22 @@
+// Several densities side by side in one picture, with a colour range in common: the summary of a run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/frame.hpp"
+
+namespace gaussdrift::render {
+
+struct Panel {
+  std::string title;
+  DensityGrid density;
+  double time = 0;
+  bool is_error = false;  // its own range, as far below 0 as above
+};
+
+/// Two panels a row, as heatmaps (2D) or slices (3D), of 640 x 480 pixels each. Throws as draw() does.
+void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& png);
+
+}  // namespace gaussdrift::render

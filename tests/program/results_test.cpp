@@ -1,0 +1,119 @@
+// What runs leave, looked at again: the page, pictures, differences; and the self-test.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace gaussdrift {
+namespace {
+
+const std::string scene = R"(gaussdrift = 1
+[case]
+title = "Cone <with> \"marks\" & more"
+[domain]
+min = [-1, -1]
+max = [1, 1]
+[velocity]
+field = "rotation"
+[density]
+shape = "wendland"
+center = [0.5, 0]
+radius = 0.25
+[particles]
+per_axis = 60
+[time]
+end = 1
+step = 0.1
+[evaluate]
+per_axis = 41
+[output]
+times = [0, 1]
+images = ["heatmap"]
+)";
+
+TEST(Report, IsLeftByARunAndMadeAgainFromItsFiles) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml").exit_code, 0);
+  const fs::path run = folder / "output/a";
+  const std::string page = read_file(run / "report.html");
+  for (const char* part :
+       {"Cone &lt;with&gt; &quot;marks&quot; &amp; more", "the largest error is", "<svg", "smoothing", "Conservation",
+        "data:image/png;base64,", "per_axis = 60", "gaussdrift run run.toml"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
+  EXPECT_TRUE(fs::exists(run / "summary.png"));
+  EXPECT_TRUE(fs::exists(run / "log.txt"));
+  const auto report = nlohmann::json::parse(read_file(run / "report.json"));
+  EXPECT_EQ(report["provenance"]["case"].get<std::string>().rfind("fnv1a64:", 0), 0u);
+  EXPECT_TRUE(report["budget"]["measured"].contains("smoothing"));
+  fs::remove(run / "report.html");
+  EXPECT_EQ(gaussdrift_in(folder, "report output/a").exit_code, 0);
+  EXPECT_EQ(read_file(run / "report.html"), page);
+}
+
+TEST(Report, IsNotWrittenWhereTheCaseDoesNotWantIt) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --set output.report=none").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "output/a/report.html"));
+  EXPECT_FALSE(fs::exists(folder / "output/a/summary.png"));
+}
+
+TEST(Report, SaysWhatTheFolderLacks) {
+  const ScratchFolder folder;
+  EXPECT_EQ(gaussdrift_in(folder, "report .").exit_code, 6);
+  write_file(folder / "summary.json", "{");
+  const Outcome damaged = gaussdrift_in(folder, "report .");
+  EXPECT_EQ(damaged.exit_code, 6);
+  EXPECT_NE(damaged.err.find("damaged"), std::string::npos);
+}
+
+TEST(Render, DrawsAgainWithoutRunning) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --set output.report=none").exit_code, 0);
+  const Outcome drawn = gaussdrift_in(folder, "render output/a --field error --times 1 --out pictures");
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_TRUE(fs::exists(folder / "pictures/error_error_0000.png"));
+  EXPECT_FALSE(fs::exists(folder / "pictures/error_error_0001.png"));
+  const Outcome wrong = gaussdrift_in(folder, "render output/a --style heatmup");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("did you mean heatmap?"), std::string::npos) << wrong.err;
+  EXPECT_EQ(gaussdrift_in(folder, "render output/a --style slices").exit_code, 2);
+  EXPECT_EQ(gaussdrift_in(folder, "render output/a --field rha").exit_code, 2);
+  EXPECT_EQ(gaussdrift_in(folder, "render output/b").exit_code, 6);
+}
+
+TEST(Compare, MeasuresTheDifferenceOfTwoRuns) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  const std::string quick = " --set output.report=none --set 'output.images=[]'";
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out one" + quick).exit_code, 0);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out two --set time.step=0.05" + quick).exit_code, 0);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out three --set evaluate.per_axis=31" + quick).exit_code, 0);
+  const auto same = nlohmann::json::parse(gaussdrift_in(folder, "compare one one --json").out);
+  EXPECT_EQ(same["largest"], 0.0);
+  const auto other = nlohmann::json::parse(gaussdrift_in(folder, "compare one two --json").out);
+  // 10 steps of 0.1 lag by 8.3e-7 rad: 0.5 times that, times the largest slope of the cone, 2.1/R.
+  EXPECT_GT(other["largest"].get<double>(), 1e-8);
+  EXPECT_LT(other["largest"].get<double>(), 0.5 * 8.4e-7 * 2.1 / 0.25 + 1e-7);
+  EXPECT_EQ(gaussdrift_in(folder, "compare one two --tolerance 1e-3").exit_code, 0);
+  EXPECT_EQ(gaussdrift_in(folder, "compare one two --tolerance 1e-12").exit_code, 5);
+  const Outcome grids = gaussdrift_in(folder, "compare one three");
+  EXPECT_EQ(grids.exit_code, 6);
+  EXPECT_NE(grids.err.find("different grids"), std::string::npos) << grids.err;
+}
+
+TEST(Doctor, FindsThisMachineWell) {
+  const ScratchFolder folder;
+  const Outcome out = gaussdrift_in(folder, "doctor --json");
+  const auto found = nlohmann::json::parse(out.out);
+  EXPECT_TRUE(found["Gauss sum"]["well"]);
+  EXPECT_TRUE(found["file"]["well"]);
+  EXPECT_EQ(out.exit_code == 0, found["picture"]["well"].get<bool>());
+}
+
+}  // namespace
+}  // namespace gaussdrift
