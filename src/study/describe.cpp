@@ -214,9 +214,16 @@ Description describe(const Case& description, int threads) {
   // Positions, weights, ids, a stepped copy, the sorted copy of the transform; density, its transform's result and
   // sample.
   result.memory_bytes = n * 8 * (4 * d + 6) + m * 8 * 3 + (pictures > 0 ? 3e8 + frames * m * 4 : 0);
-  if (wants(description, OutputSpec::Vtk::density)) result.disk_bytes += frames * (8 * m + 1500);
-  if (wants(description, OutputSpec::Vtk::particles)) result.disk_bytes += frames * (8 * n * 9 + 2500);
-  result.disk_bytes += pictures * 1.5e5;
+  // Numbers are written as base64, four letters for three bytes; with the error beside rho, three arrays instead of
+  // one.
+  constexpr double base64 = 4. / 3;
+  const bool compared = description.reference.kind != ReferenceSpec::Kind::none &&
+                        most_compared(description, scene) >= result.grid_points;
+  if (wants(description, OutputSpec::Vtk::density))
+    result.disk_bytes += frames * (base64 * 8 * m * (compared ? 3 : 1) + 1500);
+  if (wants(description, OutputSpec::Vtk::particles)) result.disk_bytes += frames * (base64 * 8 * n * 9 + 2500);
+  result.disk_bytes += pictures * 8e4;
+  if (description.output.report) result.disk_bytes += 5e4 + (pictures > 0 ? 5e5 : 0);  // the page and its picture
   result.budget = predict_budget(description, scene, Effort::whatever, threads);
   return result;
 }
