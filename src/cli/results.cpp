@@ -8,7 +8,6 @@
 
 #include "base/suggest.hpp"
 #include "cli/verbs.hpp"
-#include "read/grid_file.hpp"
 #include "render/picture.hpp"
 #include "sim/reference.hpp"
 #include "study/report.hpp"
@@ -43,28 +42,6 @@ std::vector<double> times_of(const fs::path& folder) {
   if (!summary.is_discarded() && summary.contains("frames"))
     for (const auto& frame : summary["frames"]) times.push_back(frame["t"].get<double>());
   return times;
-}
-
-DensityGrid read_density(const fs::path& file, const std::string& array) {
-  std::string trouble;
-  for (const int dimension : {2, 3}) {
-    try {
-      const auto data = read::read_grid(file, array, dimension, 1, 1);
-      DensityGrid density;
-      density.lattice.dimension = dimension;
-      density.lattice.spacing = data->axis[0][1] - data->axis[0][0];
-      for (int k = 0; k < dimension; ++k) {
-        density.lattice.points[static_cast<std::size_t>(k)] = data->axis[static_cast<std::size_t>(k)].size();
-        density.lattice.origin[static_cast<std::size_t>(k)] = data->axis[static_cast<std::size_t>(k)].front();
-      }
-      density.rho = data->values.front();
-      return density;
-    } catch (const read::GridFileError& error) {
-      if (trouble.empty() || dimension == 3) trouble = error.what();
-      if (dimension == 2) continue;
-    }
-  }
-  throw FileError(trouble);
 }
 
 }  // namespace
@@ -114,7 +91,7 @@ ExitCode render(const RenderOptions& options) {
           return std::abs(wanted - time) <= 1e-9 * std::max(1.0, std::abs(time));
         }))
       continue;
-    frames.emplace_back(time, read_density(files[i], options.field));
+    frames.emplace_back(time, study::read_density(files[i], options.field));
     const auto [least, most] = std::minmax_element(frames.back().second.rho.begin(), frames.back().second.rho.end());
     low = std::min(low, *least), high = std::max(high, *most);
   }
@@ -161,7 +138,7 @@ ExitCode compare(const CompareOptions& options) {
         std::abs(times_a[i] - times_b[i]) > 1e-9 * std::max(1.0, std::abs(times_a[i])))
       throw FileError(
           fmt::format("output {} is at t = {:g} in the one and at t = {:g} in the other", i, times_a[i], times_b[i]));
-    const DensityGrid x = read_density(a[i], "rho"), y = read_density(b[i], "rho");
+    const DensityGrid x = study::read_density(a[i], "rho"), y = study::read_density(b[i], "rho");
     if (x.lattice.points != y.lattice.points)
       throw FileError(
           fmt::format("{} and {} are on different grids; run one of them with the evaluate.per_axis of the other",

@@ -215,23 +215,6 @@ constexpr const char* style =
     "#86b6d8;height:1rem}pre{background:#f6f6f6;padding:.8rem;overflow:auto;font-size:.85rem}small,.quiet{color:#666}"
     "svg text{font-size:13px}.scroll{overflow-x:auto}";
 
-std::optional<DensityGrid> read_density(const fs::path& file, const std::string& array, int dimension) {
-  try {
-    const auto data = read::read_grid(file, array, dimension, 1, 1);
-    DensityGrid density;
-    density.lattice.dimension = dimension;
-    density.lattice.spacing = data->axis[0][1] - data->axis[0][0];
-    for (int k = 0; k < dimension; ++k) {
-      density.lattice.points[static_cast<std::size_t>(k)] = data->axis[static_cast<std::size_t>(k)].size();
-      density.lattice.origin[static_cast<std::size_t>(k)] = data->axis[static_cast<std::size_t>(k)].front();
-    }
-    density.rho = data->values.front();
-    return density;
-  } catch (const read::GridFileError&) {
-    return std::nullopt;
-  }
-}
-
 /// Initial, final, exact and error densities in one picture; false where the run left no density files.
 bool draw_summary(const fs::path& folder, const json& summary) {
   std::vector<fs::path> files;
@@ -241,12 +224,13 @@ bool draw_summary(const fs::path& folder, const json& summary) {
   if (files.empty()) return false;
   std::sort(files.begin(), files.end());
   const json frames = summary["frames"];
-  const int dimension = frames.empty() ? 2 : static_cast<int>(frames.front()["centroid"].size());
   std::vector<render::Panel> panels;
   const auto add = [&](const fs::path& file, const char* array, const std::string& title, const json& frame,
                        bool error) {
-    if (auto density = read_density(file, array, dimension))
-      panels.push_back({title, std::move(*density), frame["t"].get<double>(), error});
+    try {
+      panels.push_back({title, read_density(file, array), frame["t"].get<double>(), error});
+    } catch (const FileError&) {  // an array that the run did not write, or with values that are not known
+    }
   };
   add(files.front(), "rho", "initial", frames.front(), false);
   if (files.size() > 1) add(files.back(), "rho", "final", frames.back(), false);
@@ -258,6 +242,33 @@ bool draw_summary(const fs::path& folder, const json& summary) {
 }
 
 }  // namespace
+
+DensityGrid read_density(const fs::path& file, const std::string& array) {
+  const auto has = [&](int dimension) {
+    try {
+      read::read_grid(file, "rho", dimension, 1, 1);
+      return true;
+    } catch (const read::GridFileError&) {
+      return false;
+    }
+  };
+  const int dimension = has(2) ? 2 : 3;
+  try {
+    const auto data = read::read_grid(file, array, dimension, 1, 1);
+    DensityGrid density;
+    density.lattice.dimension = dimension;
+    density.lattice.spacing = data->axis[0][1] - data->axis[0][0];
+    for (int k = 0; k < dimension; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      density.lattice.points[axis] = data->axis[axis].size();
+      density.lattice.origin[axis] = data->axis[axis].front();
+    }
+    density.rho = data->values.front();
+    return density;
+  } catch (const read::GridFileError& error) {
+    throw FileError(error.what());
+  }
+}
 
 ReportFiles write_report(const fs::path& folder, bool pictures) {
   ReportFiles result;

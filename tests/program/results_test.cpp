@@ -84,6 +84,10 @@ TEST(Render, DrawsAgainWithoutRunning) {
   EXPECT_EQ(gaussdrift_in(folder, "render output/a --style slices").exit_code, 2);
   EXPECT_EQ(gaussdrift_in(folder, "render output/a --field rha").exit_code, 2);
   EXPECT_EQ(gaussdrift_in(folder, "render output/b").exit_code, 6);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out bare --set reference.kind=none").exit_code, 0);
+  const Outcome absent = gaussdrift_in(folder, "render bare --field error");
+  EXPECT_EQ(absent.exit_code, 6);
+  EXPECT_NE(absent.err.find("\"error\""), std::string::npos) << absent.err;
 }
 
 TEST(Compare, MeasuresTheDifferenceOfTwoRuns) {
