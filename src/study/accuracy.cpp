@@ -109,10 +109,10 @@ double step_for(const Case& scene, const Scene& parts, double wanted, int thread
   return trial.time.step;
 }
 
-/// Two digits, downwards.
+/// Two digits, downwards, as they are written.
 double two_digits(double x) {
   const double power = std::pow(10, std::floor(std::log10(x)) - 1);
-  return std::floor(x / power * (1 + 1e-12)) * power;
+  return std::stod(fmt::format("{:.1e}", std::floor(x / power * (1 + 1e-12)) * power));
 }
 
 }  // namespace
