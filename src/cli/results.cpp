@@ -84,13 +84,20 @@ ExitCode render(const RenderOptions& options) {
   const auto files = densities_of(options.folder);
   const auto times = times_of(options.folder);
   std::vector<std::pair<double, DensityGrid>> frames;
+  std::vector<std::size_t> numbers;  // of the outputs
+  for (const double wanted : options.times)
+    if (std::none_of(times.begin(), times.end(),
+                     [&](double time) { return std::abs(wanted - time) <= 1e-3 * std::max(1e-9, std::abs(time)); }))
+      throw CommandLineError(fmt::format("--times {:g}: no output of {} is within a thousandth of it; there are {:.6g}",
+                                         wanted, options.folder.string(), fmt::join(times, ", ")));
   double low = 0, high = 0;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const double time = i < times.size() ? times[i] : static_cast<double>(i);
     if (!options.times.empty() && std::none_of(options.times.begin(), options.times.end(), [&](double wanted) {
-          return std::abs(wanted - time) <= 1e-9 * std::max(1.0, std::abs(time));
+          return std::abs(wanted - time) <= 1e-3 * std::max(1e-9, std::abs(time));
         }))
       continue;
+    numbers.push_back(i);
     frames.emplace_back(time, study::read_density(files[i], options.field));
     const auto [least, most] = std::minmax_element(frames.back().second.rho.begin(), frames.back().second.rho.end());
     low = std::min(low, *least), high = std::max(high, *most);
@@ -110,7 +117,7 @@ ExitCode render(const RenderOptions& options) {
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const fs::path png = out / fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_",
-                                           render::to_string(*style), i);
+                                           render::to_string(*style), numbers[i]);
     draw(*style, frames[i].second,
          {.title = options.folder.filename().string(),
           .quantity = options.field == "rho" ? "density" : options.field,
@@ -139,10 +146,15 @@ ExitCode compare(const CompareOptions& options) {
       throw FileError(
           fmt::format("output {} is at t = {:g} in the one and at t = {:g} in the other", i, times_a[i], times_b[i]));
     const DensityGrid x = study::read_density(a[i], "rho"), y = study::read_density(b[i], "rho");
-    if (x.lattice.points != y.lattice.points)
-      throw FileError(
-          fmt::format("{} and {} are on different grids; run one of them with the evaluate.per_axis of the other",
-                      a[i].string(), b[i].string()));
+    const auto apart_by = [&](int k) {
+      return std::abs(x.lattice.origin[static_cast<std::size_t>(k)] - y.lattice.origin[static_cast<std::size_t>(k)]);
+    };
+    const double same = 1e-6 * x.lattice.spacing;
+    if (x.lattice.points != y.lattice.points || std::abs(x.lattice.spacing - y.lattice.spacing) > same * 1e-3 ||
+        apart_by(0) > same || apart_by(1) > same || apart_by(2) > same)
+      throw FileError(fmt::format(
+          "{} and {} are on different grids; run one of them with the domain and evaluate.per_axis of the other",
+          a[i].string(), b[i].string()));
     const ErrorNorms norms = gaussdrift::compare(x.rho, y.rho);
     const double linf = std::isnan(norms.linf) ? (x.rho == y.rho ? 0.0 : INFINITY) : norms.linf;
     worst = std::max(worst, linf);

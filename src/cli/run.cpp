@@ -217,29 +217,33 @@ ExitCode run(const RunOptions& options) {
     simulation.on_progress([&](const Progress& progress) { line.show(progress); });
     summary = simulation.run();
   }
+  std::vector<std::string> warnings;  // also for the page and the log
+  const auto warn = [&](const std::string& text) {
+    fmt::print(stderr, "warning: {}\n", text);
+    warnings.push_back(text);
+  };
   if (summary.transform_achievable > scene.evaluate.tolerance)
-    fmt::print(stderr,
-               "warning: evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
-               "{:.1e} of max rho\n",
-               scene.evaluate.tolerance, summary.transform_achievable);
+    warn(
+        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
+                    "{:.1e} of max rho",
+                    scene.evaluate.tolerance, summary.transform_achievable));
   for (const auto& [time, numbers] : summary.frames)
     if (numbers.stretch > scene.particles.overlap) {
-      fmt::print(stderr,
-                 "warning: at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart, and blobs "
-                 "{:g} spacings wide no longer overlap there: the density has gaps and peaks that are not there; "
-                 "[effects.remesh], or more overlap on a finer lattice\n",
-                 time, numbers.stretch, scene.particles.overlap);
+      warn(
+          fmt::format("at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart, and blobs "
+                      "{:g} spacings wide no longer overlap there: the density has gaps and peaks that are not there; "
+                      "[effects.remesh], or more overlap on a finer lattice",
+                      time, numbers.stretch, scene.particles.overlap));
       break;
     }
   for (const EffectSummary& effect : summary.effects)
-    if (!effect.warning.empty()) fmt::print(stderr, "warning: {}: {}\n", effect.name, effect.warning);
+    if (!effect.warning.empty()) warn(fmt::format("{}: {}", effect.name, effect.warning));
   if (summary.reference.untraced > 0)
-    fmt::print(
-        stderr,
-        "warning: the exact density is not known at {} grid points of all outputs (one is {}: {}); the norms of the "
-        "error leave them out\n",
-        summary.reference.untraced, place_text(summary.reference.first_untraced, scene.domain.dimension),
-        summary.reference.trouble);
+    warn(
+        fmt::format("the exact density is not known at {} grid points of all outputs (one is {}: {}); the norms of the "
+                    "error leave them out",
+                    summary.reference.untraced, place_text(summary.reference.first_untraced, scene.domain.dimension),
+                    summary.reference.trouble));
   std::optional<study::Budget> measured;
   nlohmann::ordered_json more;
   if (budgeted) {
@@ -258,11 +262,14 @@ ExitCode run(const RunOptions& options) {
                       {"advice", measured->advice}};
   }
   if (scene.output.report) add_accuracy_table(scene, summary, last, more, options.scene.threads);
+  if (!warnings.empty()) more["warnings"] = warnings;
   const std::string json = write::summary_json(scene, summary, more);
   write::write_text(folder / "summary.json", json);
   const std::string ending =
       ending_text(scene, summary, measured ? &*measured : nullptr, asked.accuracy.target, folder);
-  write::write_text(folder / "log.txt", ending);
+  std::string log;
+  for (const std::string& warning : warnings) log += "warning: " + warning + "\n";
+  write::write_text(folder / "log.txt", log + ending);
   if (scene.output.report) study::write_report(folder, !scene.output.images.empty());
   if (options.scene.json)
     fmt::print("{}", json);

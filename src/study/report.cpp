@@ -208,7 +208,8 @@ constexpr const char* style =
     "h2{margin-top:2.2rem;border-bottom:1px solid #ddd}.verdict{font-size:1.15rem;background:#f3f6f9;padding:.8rem "
     "1rem;"
     "border-left:4px solid "
-    "#0072b2}.bad{color:#b02a1a}img,svg{max-width:100%;height:auto}table{border-collapse:collapse;"
+    "#0072b2}.warning{background:#fdf3e7;padding:.6rem 1rem;border-left:4px solid "
+    "#d55e00}.bad{color:#b02a1a}img,svg{max-width:100%;height:auto}table{border-collapse:collapse;"
     "margin:.6rem 0}td,th{padding:.2rem .8rem .2rem 0;text-align:left;vertical-align:top}td.n{text-align:right;"
     "font-variant-numeric:tabular-nums}tr.most td{font-weight:bold}.bars{width:100%}.bars .w{width:60%}.bars "
     "div{background:"
@@ -275,7 +276,9 @@ ReportFiles write_report(const fs::path& folder, bool pictures) {
   const std::string text = read_text(folder / "summary.json");
   if (text.empty()) throw FileError(fmt::format("{} holds no finished run: there is no summary.json", folder.string()));
   const json summary = json::parse(text, nullptr, false);
-  if (summary.is_discarded() || !summary.contains("frames"))
+  const auto lacks = [&](const char* name) { return !summary.contains(name); };
+  if (summary.is_discarded() || !summary.is_object() || lacks("frames") || lacks("title") || lacks("case") ||
+      lacks("effects"))
     throw FileError(fmt::format("{} is damaged: run the case again", (folder / "summary.json").string()));
   const json provenance = json::parse(read_text(folder / "provenance.json"), nullptr, false);
   const json frames = summary["frames"];
@@ -298,6 +301,8 @@ ReportFiles write_report(const fs::path& folder, bool pictures) {
       escaped(title), style, escaped(summary["case"].get<std::string>()),
       escaped(get(provenance, "version").is_string() ? provenance["version"].get<std::string>() : ""),
       verdict(summary));
+  for (const json& warning : get(summary, "warnings"))
+    page += fmt::format("<p class=warning><b>Warning:</b> {}</p>\n", escaped(warning.get<std::string>()));
   if (const std::string picture = read_text(folder / "summary.png"); !picture.empty())
     page += fmt::format(
         "<p><img alt=\"initial, final and exact density, and the error\" src=\"data:image/png;base64,{}\"></p>\n",

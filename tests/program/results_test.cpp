@@ -53,6 +53,16 @@ TEST(Report, IsLeftByARunAndMadeAgainFromItsFiles) {
   EXPECT_EQ(read_file(run / "report.html"), page);
 }
 
+TEST(Report, HasTheWarningsOfTheRun) {
+  const ScratchFolder folder;
+  std::string sheared = scene;
+  sheared.replace(sheared.find("field = \"rotation\""), 18, "u = [\"9*y\", \"0\"]");
+  write_file(folder / "b.toml", sheared);
+  ASSERT_EQ(gaussdrift_in(folder, "run b.toml").exit_code, 0);
+  for (const char* file : {"output/b/report.html", "output/b/log.txt", "output/b/summary.json"})
+    EXPECT_NE(read_file(folder / file).find("no longer overlap there"), std::string::npos) << file;
+}
+
 TEST(Report, IsNotWrittenWhereTheCaseDoesNotWantIt) {
   const ScratchFolder folder;
   write_file(folder / "a.toml", scene);
@@ -68,6 +78,8 @@ TEST(Report, SaysWhatTheFolderLacks) {
   const Outcome damaged = gaussdrift_in(folder, "report .");
   EXPECT_EQ(damaged.exit_code, 6);
   EXPECT_NE(damaged.err.find("damaged"), std::string::npos);
+  write_file(folder / "summary.json", R"({"frames": []})");
+  EXPECT_EQ(gaussdrift_in(folder, "report .").exit_code, 6);
 }
 
 TEST(Render, DrawsAgainWithoutRunning) {
@@ -76,8 +88,8 @@ TEST(Render, DrawsAgainWithoutRunning) {
   ASSERT_EQ(gaussdrift_in(folder, "run a.toml --set output.report=none").exit_code, 0);
   const Outcome drawn = gaussdrift_in(folder, "render output/a --field error --times 1 --out pictures");
   ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
-  EXPECT_TRUE(fs::exists(folder / "pictures/error_error_0000.png"));
-  EXPECT_FALSE(fs::exists(folder / "pictures/error_error_0001.png"));
+  EXPECT_TRUE(fs::exists(folder / "pictures/error_error_0001.png"));
+  EXPECT_FALSE(fs::exists(folder / "pictures/error_error_0000.png"));
   const Outcome wrong = gaussdrift_in(folder, "render output/a --style heatmup");
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("did you mean heatmap?"), std::string::npos) << wrong.err;
@@ -105,6 +117,10 @@ TEST(Compare, MeasuresTheDifferenceOfTwoRuns) {
   EXPECT_LT(other["largest"].get<double>(), 0.5 * 8.4e-7 * 2.1 / 0.25 + 1e-7);
   EXPECT_EQ(gaussdrift_in(folder, "compare one two --tolerance 1e-3").exit_code, 0);
   EXPECT_EQ(gaussdrift_in(folder, "compare one two --tolerance 1e-12").exit_code, 5);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out four --set 'domain.min=[0, -1]' --set 'domain.max=[2, 1]'" + quick)
+                .exit_code,
+            0);
+  EXPECT_EQ(gaussdrift_in(folder, "compare one four").exit_code, 6) << "the same number of points elsewhere";
   const Outcome grids = gaussdrift_in(folder, "compare one three");
   EXPECT_EQ(grids.exit_code, 6);
   EXPECT_NE(grids.err.find("different grids"), std::string::npos) << grids.err;
