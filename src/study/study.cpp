@@ -201,6 +201,7 @@ Study run_study(const StudyOptions& options) {
     if (combinations > most_combinations)
       throw CommandLineError(fmt::format("the study has more than {} combinations; vary less", most_combinations));
   }
+  std::optional<Case> varied;  // the last one that could be read
   for (std::size_t i = 0; i < combinations; ++i) {
     std::vector<std::string> overrides = options.overrides, values;
     for (std::size_t rest = i, k = options.vary.size(); k-- > 0; rest /= options.vary[k].values.size())
@@ -208,15 +209,21 @@ Study run_study(const StudyOptions& options) {
     for (std::size_t k = 0; k < values.size(); ++k)
       overrides.push_back(experiment.keys[k] + "=" + value_or_quoted(values[k]));
     if (options.progress) options.progress(fmt::format("{} of {}: {}", i + 1, combinations, fmt::join(values, ", ")));
-    // A key or value that the case does not have is an error of the command, not a sample.
-    const Case varied = input::read_case(options.file, overrides, options.threads).scene;
-    Sample sample = measure_run(varied, options);
+    // A key that the case does not have shows at once; a wrong value among others is a row that says so.
+    Sample sample;
+    try {
+      varied = input::read_case(options.file, overrides, options.threads).scene;
+      sample = measure_run(*varied, options);
+    } catch (const InputError& error) {
+      if (!varied) throw;
+      sample.failure = error.what();
+    }
     sample.values = values;
     experiment.samples.push_back(sample);
     if (options.sample_done) options.sample_done(experiment, sample);
     if (i + 1 == combinations) {
-      finish(experiment, varied);
-      if (const auto order = expected_order(experiment.keys.back(), varied))
+      finish(experiment, *varied);
+      if (const auto order = expected_order(experiment.keys.back(), *varied))
         experiment.notes.push_back(
             fmt::format("where {} decides, the error is its power {:g}", experiment.keys.back(), *order));
     }

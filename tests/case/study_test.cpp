@@ -69,6 +69,12 @@ TEST(Study, VariesKeysAndKeepsWhatCannotRun) {
   const std::string csv = to_csv(experiment);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
 
+  options.vary = {parse_variation("particles.overlap=2,-1,3")};
+  const Study wrong = run_study(options);
+  EXPECT_EQ(wrong.experiments[0].samples[0].failure, "");
+  EXPECT_NE(wrong.experiments[0].samples[1].failure.find("particles.overlap"), std::string::npos);
+  EXPECT_EQ(wrong.experiments[0].samples[2].failure, "");
+
   options.file = cases + "rotating_cone.toml";
   options.overrides = {"particles.per_axis=40", "evaluate.per_axis=21", "output.times=[0, \"2*pi\"]"};
   options.vary = {parse_variation("time.step=0.1,3")};
