@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 
 #include "base/suggest.hpp"
 #include "cli/verbs.hpp"
 #include "render/picture.hpp"
 #include "sim/reference.hpp"
 #include "study/report.hpp"
+#include "study/written_densities.hpp"
 
 namespace gaussdrift::cli {
 
@@ -18,31 +20,33 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Names of density/density_*.vti in their order, or the one file itself.
-std::vector<fs::path> densities_of(const fs::path& place) {
-  if (fs::is_regular_file(place)) return {place};
-  std::vector<fs::path> files;
-  if (fs::is_directory(place / "density"))
-    for (const auto& entry : fs::directory_iterator(place / "density"))
-      if (entry.path().extension() == ".vti") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  if (files.empty())
-    throw FileError(
-        fs::exists(place)
-            ? fmt::format("{} holds no densities: name the folder of a run that wrote vtk = [\"density\"], or a .vti",
-                          place.string())
-            : fmt::format("there is no {}", place.string()));
-  return files;
+std::vector<study::WrittenOutput> outputs_of(const fs::path& place) {
+  auto outputs = study::written_outputs(place);
+  if (outputs.empty())
+    throw FileError(fmt::format(
+        "{} holds no densities: name the folder of a run that wrote vtk = [\"density\"], or a .vti", place.string()));
+  return outputs;
 }
 
-std::vector<double> times_of(const fs::path& folder) {
+/// The one at a time that was typed, maybe with few digits: the nearest within a thousandth.
+std::size_t output_at(double wanted, const std::vector<study::WrittenOutput>& outputs, const fs::path& folder) {
+  std::optional<std::size_t> nearest;
   std::vector<double> times;
-  std::ifstream in(folder / "summary.json");
-  const auto summary = nlohmann::json::parse(in, nullptr, false);
-  if (!summary.is_discarded() && summary.contains("frames"))
-    for (const auto& frame : summary["frames"]) times.push_back(frame["t"].get<double>());
-  return times;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (!outputs[i].time) continue;
+    const double time = *outputs[i].time, apart = std::abs(wanted - time);
+    times.push_back(time);
+    if (apart <= 1e-3 * std::max(1e-9, std::abs(time)) &&
+        (!nearest || apart < std::abs(wanted - *outputs[*nearest].time)))
+      nearest = i;
+  }
+  if (!nearest)
+    throw CommandLineError(fmt::format("--times {:g}: no output of {} is within a thousandth of it; there are {:.6g}",
+                                       wanted, folder.string(), fmt::join(times, ", ")));
+  return *nearest;
 }
+
+std::string in_text(std::optional<double> time) { return time ? fmt::format("t = {:g}", *time) : "no time"; }
 
 }  // namespace
 
@@ -81,30 +85,18 @@ ExitCode render(const RenderOptions& options) {
     throw CommandLineError(fmt::format("--style {} is not known{} there are {}", options.style,
                                        near ? fmt::format("; did you mean {}?", *near) : ";", fmt::join(names, ", ")));
   }
-  const auto files = densities_of(options.folder);
-  const auto times = times_of(options.folder);
-  std::vector<std::pair<double, DensityGrid>> frames;
-  std::vector<std::size_t> numbers;  // of the outputs
-  for (const double wanted : options.times)
-    if (std::none_of(times.begin(), times.end(),
-                     [&](double time) { return std::abs(wanted - time) <= 1e-3 * std::max(1e-9, std::abs(time)); }))
-      throw CommandLineError(fmt::format("--times {:g}: no output of {} is within a thousandth of it; there are {:.6g}",
-                                         wanted, options.folder.string(), fmt::join(times, ", ")));
+  const auto outputs = outputs_of(options.folder);
+  std::set<std::size_t> wanted;
+  for (const double time : options.times) wanted.insert(output_at(time, outputs, options.folder));
+  for (std::size_t i = 0; options.times.empty() && i < outputs.size(); ++i) wanted.insert(i);
+  // Read twice, for the range and for the picture: all of a run at once need not fit into memory.
   double low = 0, high = 0;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const double time = i < times.size() ? times[i] : static_cast<double>(i);
-    if (!options.times.empty() && std::none_of(options.times.begin(), options.times.end(), [&](double wanted) {
-          return std::abs(wanted - time) <= 1e-3 * std::max(1e-9, std::abs(time));
-        }))
-      continue;
-    numbers.push_back(i);
-    frames.emplace_back(time, study::read_density(files[i], options.field));
-    const auto [least, most] = std::minmax_element(frames.back().second.rho.begin(), frames.back().second.rho.end());
-    low = std::min(low, *least), high = std::max(high, *most);
+  int dimension = 2;
+  for (const std::size_t i : wanted) {
+    const DensityGrid density = study::read_density(outputs[i].file, options.field);
+    dimension = density.lattice.dimension;
+    for (const double value : density.rho) low = std::min(low, value), high = std::max(high, value);  // not of NaN
   }
-  if (frames.empty())
-    throw CommandLineError(fmt::format("none of --times is an output time of {}", options.folder.string()));
-  const int dimension = frames.front().second.lattice.dimension;
   if (!style) style = error ? render::Style::error : dimension == 2 ? render::Style::surface : render::Style::slices;
   if (!render::shows(*style, dimension))
     throw CommandLineError(
@@ -115,13 +107,14 @@ ExitCode render(const RenderOptions& options) {
                            ? (fs::is_directory(options.folder) ? options.folder / "images" : fs::path("."))
                            : options.out;
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  const fs::path named = (options.folder / "").parent_path();  // "a/b/" is "a/b"
+  for (const std::size_t i : wanted) {
     const fs::path png = out / fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_",
-                                           render::to_string(*style), numbers[i]);
-    draw(*style, frames[i].second,
-         {.title = options.folder.filename().string(),
+                                           render::to_string(*style), outputs[i].number);
+    draw(*style, study::read_density(outputs[i].file, options.field),
+         {.title = named.stem().string(),
           .quantity = options.field == "rho" ? "density" : options.field,
-          .time = frames[i].first,
+          .time = outputs[i].time,
           .range_min = range_min,
           .range_max = range_max},
          png);
@@ -133,19 +126,18 @@ ExitCode render(const RenderOptions& options) {
 }
 
 ExitCode compare(const CompareOptions& options) {
-  const auto a = densities_of(options.first), b = densities_of(options.second);
+  const auto a = outputs_of(options.first), b = outputs_of(options.second);
   if (a.size() != b.size())
     throw FileError(fmt::format("{} has {} outputs, {} has {}: compare runs with the same output times",
                                 options.first.string(), a.size(), options.second.string(), b.size()));
-  const auto times_a = times_of(options.first), times_b = times_of(options.second);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   double worst = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    if (i < times_a.size() && i < times_b.size() &&
-        std::abs(times_a[i] - times_b[i]) > 1e-9 * std::max(1.0, std::abs(times_a[i])))
+    const std::optional<double> time = a[i].time, other = b[i].time;
+    if (time && other && std::abs(*time - *other) > 1e-9 * std::max(std::abs(*time), std::abs(*other)))
       throw FileError(
-          fmt::format("output {} is at t = {:g} in the one and at t = {:g} in the other", i, times_a[i], times_b[i]));
-    const DensityGrid x = study::read_density(a[i], "rho"), y = study::read_density(b[i], "rho");
+          fmt::format("output {} is at {} in the one and at {} in the other", i, in_text(time), in_text(other)));
+    const DensityGrid x = study::read_density(a[i].file, "rho"), y = study::read_density(b[i].file, "rho");
     const auto apart_by = [&](int k) {
       return std::abs(x.lattice.origin[static_cast<std::size_t>(k)] - y.lattice.origin[static_cast<std::size_t>(k)]);
     };
@@ -154,17 +146,16 @@ ExitCode compare(const CompareOptions& options) {
         apart_by(0) > same || apart_by(1) > same || apart_by(2) > same)
       throw FileError(fmt::format(
           "{} and {} are on different grids; run one of them with the domain and evaluate.per_axis of the other",
-          a[i].string(), b[i].string()));
+          a[i].file.string(), b[i].file.string()));
     const ErrorNorms norms = gaussdrift::compare(x.rho, y.rho);
     const double linf = std::isnan(norms.linf) ? (x.rho == y.rho ? 0.0 : INFINITY) : norms.linf;
     worst = std::max(worst, linf);
-    rows.push_back({{"t", i < times_a.size() ? times_a[i] : static_cast<double>(i)},
+    rows.push_back({{"t", time ? nlohmann::ordered_json(*time) : nlohmann::ordered_json(nullptr)},
                     {"L1", norms.l1},
                     {"L2", norms.l2},
                     {"Linf", linf}});
     if (!options.json)
-      fmt::print("t = {:<10.6g} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", rows.back()["t"].get<double>(), norms.l1,
-                 norms.l2, linf);
+      fmt::print("{:<14} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", in_text(time), norms.l1, norms.l2, linf);
   }
   const bool apart = options.tolerance >= 0 && !(worst <= options.tolerance);
   if (options.json)

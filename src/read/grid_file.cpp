@@ -6,6 +6,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
+#include <vtkFieldData.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkNew.h>
@@ -28,11 +29,6 @@ namespace gaussdrift::read {
 namespace {
 
 constexpr double most_numbers = 268435456;  // 2 GiB
-
-struct Entry {
-  std::filesystem::path file;
-  double time = 0;
-};
 
 std::string name_of(const std::filesystem::path& file) { return file.filename().string(); }
 
@@ -64,19 +60,19 @@ class Complaints {
   bool any_ = false;
 };
 
-std::vector<Entry> series(const std::filesystem::path& file) {
+std::vector<SeriesEntry> series(const std::filesystem::path& file) {
   const auto root =
       vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.string().c_str()));
   vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
   if (!collection)
     throw GridFileError(fmt::format("{} is not a ParaView series: it has no <Collection>", name_of(file)));
-  std::vector<Entry> entries;
+  std::vector<SeriesEntry> entries;
   for (int k = 0; k < collection->GetNumberOfNestedElements(); ++k) {
     vtkXMLDataElement* item = collection->GetNestedElement(k);
     if (std::string(item->GetName()) != "DataSet") continue;
     const char* name = item->GetAttribute("file");
     const char* stamp = item->GetAttribute("timestep");
-    Entry entry;
+    SeriesEntry entry;
     const std::string text = stamp ? stamp : "0";
     const auto read = std::from_chars(text.data(), text.data() + text.size(), entry.time);
     if (!name || read.ec != std::errc() || !std::isfinite(entry.time))
@@ -170,16 +166,52 @@ vtkDataArray* find_array(vtkDataSet* data, const std::filesystem::path& file, co
   throw GridFileError(fmt::format("{} has no array \"{}\"; {}", name_of(file), name, list));
 }
 
+void check_count(vtkDataArray* values, std::size_t points, const std::filesystem::path& file,
+                 const std::string& array) {
+  if (static_cast<std::size_t>(values->GetNumberOfTuples()) != points)
+    throw GridFileError(fmt::format("{} is damaged: the array \"{}\" has {} values for {} points", name_of(file), array,
+                                    values->GetNumberOfTuples(), points));
+}
+
 }  // namespace
+
+std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
+  check_readable(file, "");
+  return series(file);
+}
+
+GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array) {
+  check_readable(file, "");
+  const Grid grid = read_one(file);
+  GridSnapshot result;
+  const int dimension = result.dimension = grid.axis[2].size() > 1 ? 3 : 2;
+  check_shape(grid, file, dimension);
+  vtkDataArray* values = find_array(grid.data, file, array);
+  std::size_t points = 1;
+  for (int k = 0; k < dimension; ++k) {
+    result.axis[k] = grid.axis[k];
+    points *= grid.axis[k].size();
+  }
+  if (values->GetNumberOfComponents() != 1)
+    throw GridFileError(fmt::format("the array \"{}\" of {} has {} components, needed: 1", array, name_of(file),
+                                    values->GetNumberOfComponents()));
+  check_count(values, points, file, array);
+  result.values.resize(points);
+  for (std::size_t i = 0; i < points; ++i) result.values[i] = values->GetComponent(static_cast<vtkIdType>(i), 0);
+  if (vtkDataArray* stamp = grid.data->GetFieldData()->GetArray("TimeValue");
+      stamp && stamp->GetNumberOfTuples() > 0 && std::isfinite(stamp->GetComponent(0, 0)))
+    result.time = stamp->GetComponent(0, 0);
+  return result;
+}
 
 std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const std::string& array, int dimension,
                                           std::size_t least_components, std::size_t most_components) {
   check_readable(file, "");
   const bool is_series = file.extension() == ".pvd";
-  const std::vector<Entry> entries = is_series ? series(file) : std::vector<Entry>{{file, 0}};
+  const std::vector<SeriesEntry> entries = is_series ? series(file) : std::vector<SeriesEntry>{{file, 0}};
   auto result = std::make_shared<GridData>();
   result->dimension = dimension;
-  for (const Entry& entry : entries) {
+  for (const SeriesEntry& entry : entries) {
     check_readable(entry.file, is_series ? fmt::format(", of the series {}", name_of(file)) : "");
     const Grid grid = read_one(entry.file);
     check_shape(grid, entry.file, dimension);
@@ -207,9 +239,7 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
             fmt::format("the grid of {} differs from that of {}", name_of(entry.file), name_of(entries.front().file)),
             "all times of a series share one grid");
     std::vector<double> numbers(result->points() * components);
-    if (static_cast<std::size_t>(values->GetNumberOfTuples()) != result->points())
-      throw GridFileError(fmt::format("{} is damaged: the array \"{}\" has {} values for {} points",
-                                      name_of(entry.file), array, values->GetNumberOfTuples(), result->points()));
+    check_count(values, result->points(), entry.file, array);
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       numbers[i] = values->GetComponent(static_cast<vtkIdType>(i / components), static_cast<int>(i % components));
       if (std::isfinite(numbers[i])) continue;

@@ -2,10 +2,13 @@
 // grid_file.cpp is the one place that reads with VTK.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "field/grid_data.hpp"
 
@@ -28,5 +31,23 @@ class GridFileError : public std::runtime_error {
 /// are not finite, grids of a series that differ.
 std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const std::string& array, int dimension,
                                           std::size_t least_components, std::size_t most_components);
+
+/// One file of a series, the times ascending.
+struct SeriesEntry {
+  std::filesystem::path file;
+  double time = 0;
+};
+/// The files that a .pvd lists, relative to its folder. Throws GridFileError.
+std::vector<SeriesEntry> read_series(const std::filesystem::path& file);
+
+/// An array with one component of one .vti or .vtr, as it is: values may be NaN.
+struct GridSnapshot {
+  int dimension = 2;                                    // 2 where the grid is one layer thick along z, else 3
+  std::array<std::vector<double>, max_dimension> axis;  // coordinates, ascending
+  std::vector<double> values;                           // first axis fastest
+  std::optional<double> time;                           // the file's TimeValue
+};
+/// Throws GridFileError as read_grid() does.
+GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array);
 
 }  // namespace gaussdrift::read

@@ -1,17 +1,32 @@
 #include "render/panel.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <system_error>
+#include <utility>
 
 #include "render/on_canvas.hpp"
 #include "render/picture.hpp"
 #include "render/read_png.hpp"
 
 namespace gaussdrift::render {
+
+namespace {
+
+/// A file that is gone at the end, also where drawing fails.
+struct Scratch {
+  explicit Scratch(std::filesystem::path name) : file(std::move(name)) {}
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const std::filesystem::path file;
+};
+
+}  // namespace
 
 void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& png) {
   constexpr int width = 640, height = 480;
@@ -26,7 +41,7 @@ void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& 
   std::vector<Image> images;
   for (const Panel& panel : panels) {
     const bool flat = panel.density.lattice.dimension == 2;
-    const std::filesystem::path part = png.string() + ".panel";
+    const Scratch part(png.string() + ".panel");
     draw(panel.is_error ? Style::error
          : flat         ? Style::heatmap
                         : Style::slices,
@@ -38,10 +53,8 @@ void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& 
           .range_max = panel.is_error ? error_max : range_max,
           .width = width,
           .height = height},
-         part);
-    images.push_back(read_png(part));
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+         part.file);
+    images.push_back(read_png(part.file));
   }
   const int rows = (static_cast<int>(panels.size()) + 1) / 2, columns = panels.size() > 1 ? 2 : 1;
   on_canvas(columns * width, rows * height, png, [&](Canvas& canvas) {

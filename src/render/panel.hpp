@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace gaussdrift::render {
 struct Panel {
   std::string title;
   DensityGrid density;
-  double time = 0;
+  std::optional<double> time;
   bool is_error = false;  // its own range, as far below 0 as above
 };
 

@@ -11,10 +11,9 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "read/grid_file.hpp"
 #include "render/panel.hpp"
 #include "render/picture.hpp"
-#include "sim/frame.hpp"
+#include "study/written_densities.hpp"
 #include "write/atomic_file.hpp"
 
 namespace gaussdrift::study {
@@ -77,15 +76,24 @@ json get(const json& object, const char* name) {
 // --- the parts of the page ----------------------------------------------------------------------------------------
 
 std::string verdict(const json& summary) {
-  const json frames = get(summary, "frames"), checks = get(summary, "checks"),
-             budget = get(get(summary, "budget"), "measured");
+  const json frames = get(summary, "frames"), checks = get(summary, "checks"), target = get(summary, "accuracy"),
+             budget = get(get(summary, "budget"), "measured"), advice = get(get(summary, "budget"), "advice");
+  const json last = frames.empty() ? json() : frames.back();
   std::string text;
-  if (!frames.empty() && frames.back().contains("Linf"))
-    text += fmt::format("At t = {} the largest error is <b>{}</b> of the largest density (L1 {}, L2 {}).",
-                        number(frames.back()["t"], "{:.4g}"), number(frames.back()["Linf"], "{:.2e}"),
-                        number(frames.back()["L1"], "{:.2e}"), number(frames.back()["L2"], "{:.2e}"));
-  else
+  if (!last.contains("Linf"))
     text += "The run was compared with nothing, so its error is not known.";
+  else if (!last["Linf"].is_number())
+    text += fmt::format("At t = {} the exact density is 0 wherever it was compared, so there is no relative error.",
+                        number(last["t"], "{:.4g}"));
+  else
+    text += fmt::format("At t = {} the largest error is <b>{}</b> of the largest density (L1 {}, L2 {}).",
+                        number(last["t"], "{:.4g}"), number(last["Linf"], "{:.2e}"), number(last["L1"], "{:.2e}"),
+                        number(last["L2"], "{:.2e}"));
+  if (target.is_object())
+    text += fmt::format(" {} asked for: {}.", number(target["target"], "{:g}"),
+                        !target["achieved"].is_number() ? "not known whether it is met"
+                        : target["met"] == json(true)   ? "<b>met</b>"
+                                                        : "<b class=bad>missed</b>");
   if (budget.contains("dominates"))
     text += fmt::format(" Most of it is {}.", escaped(budget["dominates"].get<std::string>()));
   std::size_t failed = 0;
@@ -93,6 +101,31 @@ std::string verdict(const json& summary) {
   if (!checks.empty())
     text += failed ? fmt::format(" <b class=bad>{} of {} checks failed.</b>", failed, checks.size())
                    : fmt::format(" {} passed.", checks.size() == 1 ? "The check" : "All checks");
+  for (const json& line : advice) text += "<br>Advice: " + escaped(line.get<std::string>()) + ".";
+  return text;
+}
+
+/// Of how the errors were measured: all that a reader would otherwise guess wrongly.
+std::string about_comparison(const json& summary, const json& last) {
+  const json points = get(get(summary, "evaluate"), "grid_points"), compared = get(last, "compared"),
+             untraced = get(last, "untraced"), kind = get(get(summary, "reference"), "kind");
+  std::string text = "Relative to the exact density of the same time";
+  if (kind == json("characteristics")) text += ", which is traced back along the paths of the flow";
+  if (kind == json("exact")) text += ", which the case gives as a formula";
+  text += ".";
+  if (compared.is_number() && points.is_number() && compared < points)
+    text += fmt::format(
+        " Compared at a sample, {} of the {} grid points, those around the maximum among them: the largest error is "
+        "that "
+        "of the sample.",
+        compared.get<std::size_t>(), points.get<std::size_t>());
+  if (untraced.is_number() && untraced > 0)
+    text +=
+        fmt::format(" At {} points of the last output the exact density is not known, and the norms leave them out{}.",
+                    untraced.get<std::size_t>(),
+                    get(get(summary, "reference"), "trouble").is_string()
+                        ? ": " + escaped(summary["reference"]["trouble"].get<std::string>())
+                        : "");
   return text;
 }
 
@@ -134,8 +167,17 @@ std::string error_curves(const json& frames) {
         "<line x1={0} x2={1} y1={2:.1f} y2={2:.1f} stroke=\"#ddd\"/><text x={3} y={4:.1f} "
         "text-anchor=end>1e{5:.0f}</text>",
         left, left + width, y(std::pow(10, k)), left - 8, y(std::pow(10, k)) + 4, k);
-  for (const double t : {first, 0.5 * (first + last), last})
-    svg += fmt::format("<text x={:.1f} y={} text-anchor=middle>{:.4g}</text>", x(t), top + height + 20, t);
+  // Round times, four to eight of them.
+  const double power = std::pow(10, std::floor(std::log10((last - first) / 4)));
+  const double step = (last - first) / power >= 40   ? 10 * power
+                      : (last - first) / power >= 20 ? 5 * power
+                      : (last - first) / power >= 8  ? 2 * power
+                                                     : power;
+  for (double k = std::ceil(first / step - 1e-9); k * step <= last + 1e-9 * step; ++k)
+    svg += fmt::format(
+        "<line x1={0:.1f} x2={0:.1f} y1={1} y2={2} stroke=\"#888\"/><text x={0:.1f} y={3} "
+        "text-anchor=middle>{4:.6g}</text>",
+        x(k * step), top + height, top + height + 5, top + height + 20, k == 0 ? 0 : k * step);
   svg += fmt::format("<text x={} y={} text-anchor=middle>t</text>", left + width / 2, top + height + 40);
   double key = top + 14;
   for (const Curve& curve : curves) {
@@ -169,7 +211,7 @@ std::string budget_table(const json& budget) {
   const json predicted = get(budget, "predicted"), measured = get(budget, "measured");
   if (measured.contains("not_covered") && predicted.contains("not_covered"))
     return "<p>Not told apart: " + escaped(measured["not_covered"].get<std::string>()) + ".";
-  std::string text = "<table><tr><th>cause<th>predicted<th>measured";
+  std::string text = "<table class=numbers><tr><th>cause<th>predicted<th>measured";
   for (const auto& [key, name] : {std::pair{"time_stepping", "time stepping"},
                                   {"smoothing", "smoothing"},
                                   {"quadrature", "quadrature"},
@@ -189,7 +231,7 @@ std::string budget_table(const json& budget) {
 }
 
 std::string conservation(const json& frames) {
-  std::string text = "<table><tr><th>t<th>mass<th>change<th>centroid<th>minimum<th>maximum";
+  std::string text = "<table class=numbers><tr><th>t<th>mass<th>change<th>centroid<th>minimum<th>maximum";
   const double begun = frames.front()["mass"].get<double>();
   for (const json& frame : frames) {
     std::string centroid;
@@ -202,93 +244,121 @@ std::string conservation(const json& frames) {
   return text + "</table>";
 }
 
-constexpr const char* style =
-    "body{font:16px/1.5 system-ui,sans-serif;color:#222;max-width:60rem;margin:2rem auto;padding:0 "
-    "1rem}h1{margin-bottom:0}"
-    "h2{margin-top:2.2rem;border-bottom:1px solid #ddd}.verdict{font-size:1.15rem;background:#f3f6f9;padding:.8rem "
-    "1rem;"
-    "border-left:4px solid "
-    "#0072b2}.warning{background:#fdf3e7;padding:.6rem 1rem;border-left:4px solid "
-    "#d55e00}.bad{color:#b02a1a}img,svg{max-width:100%;height:auto}table{border-collapse:collapse;"
-    "margin:.6rem 0}td,th{padding:.2rem .8rem .2rem 0;text-align:left;vertical-align:top}td.n{text-align:right;"
-    "font-variant-numeric:tabular-nums}tr.most td{font-weight:bold}.bars{width:100%}.bars .w{width:60%}.bars "
-    "div{background:"
-    "#86b6d8;height:1rem}pre{background:#f6f6f6;padding:.8rem;overflow:auto;font-size:.85rem}small,.quiet{color:#666}"
-    "svg text{font-size:13px}.scroll{overflow-x:auto}";
+constexpr const char* style = R"(
+body{font:16px/1.5 system-ui,sans-serif;color:#222;max-width:60rem;margin:2rem auto;padding:0 1rem;overflow-wrap:break-word}
+h1{margin-bottom:0;line-height:1.2}
+h2{margin-top:2.2rem;border-bottom:1px solid #ddd}
+.verdict{font-size:1.15rem;background:#f3f6f9;padding:.8rem 1rem;border-left:4px solid #0072b2}
+.warning{background:#fdf3e7;padding:.6rem 1rem;border-left:4px solid #d55e00}
+.bad{color:#b02a1a}
+.quiet{color:#666}
+img,svg{max-width:100%;height:auto}
+svg text{font-size:13px}
+table{border-collapse:collapse;margin:.6rem 0}
+td,th{padding:.2rem .8rem .2rem 0;text-align:left;vertical-align:top}
+td.n,.numbers th{text-align:right;font-variant-numeric:tabular-nums}
+td.n{white-space:nowrap}
+.numbers th:first-child,.numbers td:first-child:not(.n){text-align:left}
+tr.most td{font-weight:bold}
+.bars{width:100%}
+.bars .w{width:60%;padding-right:0}
+.bars div{background:#86b6d8;height:1rem}
+.facts td:last-child{overflow-wrap:anywhere}
+pre{background:#f6f6f6;padding:.8rem;overflow:auto;font-size:.85rem}
+.scroll{overflow-x:auto}
+@media(max-width:40rem){body{margin:1rem auto}.bars .w{width:35%}svg text{font-size:22px}pre{font-size:.75rem}}
+@media print{body{max-width:none;margin:0;font-size:10pt}h2{break-after:avoid}img,svg,tr{break-inside:avoid}
+pre{white-space:pre-wrap;overflow-wrap:anywhere}.bars div,.verdict,.warning{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
+)";
 
-/// Initial, final, exact and error densities in one picture; false where the run left no density files.
-bool draw_summary(const fs::path& folder, const json& summary) {
-  std::vector<fs::path> files;
-  if (!fs::is_directory(folder / "density")) return false;
-  for (const auto& entry : fs::directory_iterator(folder / "density"))
-    if (entry.path().extension() == ".vti") files.push_back(entry.path());
-  if (files.empty()) return false;
-  std::sort(files.begin(), files.end());
-  const json frames = summary["frames"];
+/// Initial, final, exact and error densities in one picture. Returns why some or all are not drawn.
+std::vector<std::string> draw_summary(const fs::path& folder, const json& summary) {
+  std::error_code ignored;
+  fs::remove(folder / "summary.png", ignored);  // an older one must not pass for this
+  if (const std::string reason = render::unavailable_reason(); !reason.empty()) return {"pictures: " + reason};
+  const auto outputs = written_outputs(folder);
+  if (outputs.empty()) return {"pictures: the run wrote no density files (output.vtk)"};
   std::vector<render::Panel> panels;
-  const auto add = [&](const fs::path& file, const char* array, const std::string& title, const json& frame,
-                       bool error) {
-    try {
-      panels.push_back({title, read_density(file, array), frame["t"].get<double>(), error});
-    } catch (const FileError&) {  // an array that the run did not write, or with values that are not known
-    }
+  const auto add = [&](const WrittenOutput& output, const char* array, const char* title, bool error) {
+    panels.push_back({title, read_density(output.file, array), output.time, error});
   };
-  add(files.front(), "rho", "initial", frames.front(), false);
-  if (files.size() > 1) add(files.back(), "rho", "final", frames.back(), false);
-  add(files.back(), "rho_exact", "exact", frames.back(), false);
-  add(files.back(), "error", "error", frames.back(), true);
-  if (panels.empty()) return false;
-  render::draw_panels(panels, folder / "summary.png");
-  return true;
-}
-
-}  // namespace
-
-DensityGrid read_density(const fs::path& file, const std::string& array) {
-  const auto has = [&](int dimension) {
+  std::vector<std::string> notes;
+  if (outputs.size() > 1) add(outputs.front(), "rho", "initial", false);
+  add(outputs.back(), "rho", outputs.size() > 1 ? "final" : "density", false);
+  const json frame = summary["frames"].empty() ? json::object() : summary["frames"].back();
+  const std::size_t points = panels.back().density.lattice.size(), compared = frame.value("compared", points);
+  if (!frame.contains("Linf")) {
+    notes.push_back("pictures of the exact density and the error: the run was compared with nothing");
+  } else if (compared < points) {
+    notes.push_back(
+        fmt::format("pictures of the exact density and the error: the run was compared at a sample, {} of the {} grid "
+                    "points (reference.points sets how many)",
+                    compared, points));
+  } else {
     try {
-      read::read_grid(file, "rho", dimension, 1, 1);
-      return true;
-    } catch (const read::GridFileError&) {
-      return false;
+      add(outputs.back(), "rho_exact", "exact", false);
+      add(outputs.back(), "error", "error", true);
+    } catch (const FileError& error) {
+      notes.push_back(fmt::format("pictures of the exact density and the error: {}", error.what()));
     }
-  };
-  const int dimension = has(2) ? 2 : 3;
-  try {
-    const auto data = read::read_grid(file, array, dimension, 1, 1);
-    DensityGrid density;
-    density.lattice.dimension = dimension;
-    density.lattice.spacing = data->axis[0][1] - data->axis[0][0];
-    for (int k = 0; k < dimension; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      density.lattice.points[axis] = data->axis[axis].size();
-      density.lattice.origin[axis] = data->axis[axis].front();
-    }
-    density.rho = data->values.front();
-    return density;
-  } catch (const read::GridFileError& error) {
-    throw FileError(error.what());
   }
+  render::draw_panels(panels, folder / "summary.png");
+  return notes;
 }
 
-ReportFiles write_report(const fs::path& folder, bool pictures) {
-  ReportFiles result;
-  const std::string text = read_text(folder / "summary.json");
-  if (text.empty()) throw FileError(fmt::format("{} holds no finished run: there is no summary.json", folder.string()));
-  const json summary = json::parse(text, nullptr, false);
-  const auto lacks = [&](const char* name) { return !summary.contains(name); };
-  if (summary.is_discarded() || !summary.is_object() || lacks("frames") || lacks("title") || lacks("case") ||
-      lacks("effects"))
-    throw FileError(fmt::format("{} is damaged: run the case again", (folder / "summary.json").string()));
-  const json provenance = json::parse(read_text(folder / "provenance.json"), nullptr, false);
-  const json frames = summary["frames"];
-  const bool compared = !frames.empty() && frames.back().contains("Linf");
+std::string seconds(const json& summary) {
+  std::vector<std::pair<std::string, double>> stages;
+  const json spent = get(summary, "seconds"), total = get(spent, "total");
+  double told = 0;
+  for (const auto& [name, value] : spent.items())
+    if (name != "total") stages.emplace_back(name, value.get<double>()), told += value.get<double>();
+  if (total.is_number() && total.get<double>() > told) stages.emplace_back("other", total.get<double>() - told);
+  const json threads = get(summary, "threads");
+  std::string text =
+      fmt::format("<h2>Seconds</h2><p>{} s in all on {}.</p>{}\n", number(total, "{:.3g}"),
+                  threads == json(1) ? "one thread" : number(threads, "{:.0f}") + " threads", bars(stages));
+  text += "<div class=scroll><table><tr><th>effect<th>equation<th>seconds<th>conserves";
+  for (const json& effect : summary["effects"])
+    text += fmt::format("<tr><td>{}<td>{}<td class=n>{}<td>{}", escaped(effect["name"].get<std::string>()),
+                        escaped(effect["equation"].get<std::string>()), number(effect["seconds"], "{:.2g}"),
+                        escaped(effect["conserves"].get<std::string>()));
+  return text + "</table></div>\n";
+}
 
-  if (pictures && render::unavailable_reason().empty()) {
-    if (draw_summary(folder, summary))
-      result.written.push_back(folder / "summary.png");
-    else
-      result.left_out.push_back("pictures: the run left no density files");
+std::string how_to_make_again(const json& provenance) {
+  std::string text =
+      "<h2>How to make it again</h2><p>In the folder of this page:</p><pre>gaussdrift run run.toml --out again</pre>"
+      "<p>How it was made:</p><table class=facts>";
+  for (const auto& [name, value] : provenance.items()) {
+    if (!value.is_array()) {
+      text += fmt::format("<tr><td>{}<td>{}", escaped(name),
+                          escaped(value.is_string() ? value.get<std::string>() : value.dump()));
+      continue;
+    }
+    for (const json& file : value)  // of data
+      text += fmt::format("<tr><td>{}<td>{}<br>{}", escaped(name), escaped(file["file"].get<std::string>()),
+                          escaped(file["hash"].get<std::string>()));
+  }
+  return text + "</table>\n";
+}
+
+ReportFiles write_page(const fs::path& folder, const json& summary, bool pictures) {
+  ReportFiles result;
+  std::vector<std::string> by_choice;  // what the case did without
+  const json provenance = json::parse(read_text(folder / "provenance.json"), nullptr, false);
+  const json frames = summary["frames"], last = frames.empty() ? json::object() : frames.back();
+  const bool compared = last.contains("Linf");
+  const json untraced = get(last, "untraced");
+
+  if (pictures) {
+    try {
+      result.left_out = draw_summary(folder, summary);
+    } catch (const Error& error) {
+      result.left_out.push_back(fmt::format("pictures: {}", error.what()));
+    }
+    if (fs::exists(folder / "summary.png")) result.written.push_back(folder / "summary.png");
+  } else {
+    by_choice.push_back("pictures: the case wants none (output.images); gaussdrift report draws them all the same");
   }
 
   const std::string title = summary["title"].get<std::string>().empty() ? summary["case"].get<std::string>()
@@ -303,65 +373,88 @@ ReportFiles write_report(const fs::path& folder, bool pictures) {
       verdict(summary));
   for (const json& warning : get(summary, "warnings"))
     page += fmt::format("<p class=warning><b>Warning:</b> {}</p>\n", escaped(warning.get<std::string>()));
-  if (const std::string picture = read_text(folder / "summary.png"); !picture.empty())
+  if (const std::string picture = read_text(folder / "summary.png"); !picture.empty()) {
     page += fmt::format(
-        "<p><img alt=\"initial, final and exact density, and the error\" src=\"data:image/png;base64,{}\"></p>\n",
+        "<p><img alt=\"the densities of the first and the last output, the exact one and the error where they are "
+        "known\" src=\"data:image/png;base64,{}\"></p>\n",
         base64(picture));
-  if (const std::string curves = compared ? error_curves(frames) : ""; !curves.empty())
-    page += fmt::format("<h2>Error over time</h2><p>Relative to the exact density of the same time.</p>{}\n", curves);
+    if (untraced.is_number() && untraced > 0)
+      page += "<p class=quiet>Red in the exact density and grey in the error: points where it is not known.</p>\n";
+  }
+  if (compared) {
+    const std::string curves = error_curves(frames);
+    page += fmt::format("<h2>Error over time</h2><p>{}</p>{}\n", about_comparison(summary, last), curves);
+    if (curves.empty()) by_choice.push_back("a curve of the error over time: the run was compared at one time only");
+  } else {
+    by_choice.push_back("errors: the run was compared with nothing (reference.kind)");
+  }
   if (summary.contains("budget"))
     page += "<h2>Where the error comes from</h2>" + budget_table(summary["budget"]) + "\n";
-  if (const json table = get(summary, "accuracy_table"); !table.empty()) {
+  else if (compared)
+    by_choice.push_back("where the error comes from: accuracy.budget = \"none\"");
+  if (const json table = get(summary, "accuracy_table"); table.is_array() && !table.empty()) {
     page +=
-        "<h2>What digits of the sum cost</h2><p>The last output, summed again: tolerance asked for, error measured "
-        "against the "
-        "direct sum, milliseconds.</p><table><tr><th>tolerance<th>error<th>ms";
+        "<h2>What digits of the sum cost</h2><p>The Gauss transform of the last output, done again: tolerance asked "
+        "for, error measured against the direct sum on a sample, both relative to the largest density; milliseconds, "
+        "the fastest of some.</p><table class=numbers><tr><th>tolerance<th>error<th>ms";
     for (const json& row : table)
       page += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}", number(row["tolerance"], "{:.0e}"),
                           number(row["error"], "{:.1e}"), number(row["milliseconds"], "{:.3g}"));
     page += "</table>\n";
+  } else if (table.is_string()) {
+    by_choice.push_back("what digits of the sum cost: " + table.get<std::string>());
   }
-  std::vector<std::pair<std::string, double>> stages;
-  const json spent = get(summary, "seconds");  // items() refers to it
-  for (const auto& [name, seconds] : spent.items())
-    if (name != "total") stages.emplace_back(name, seconds.get<double>());
-  page += fmt::format("<h2>Seconds</h2><p>{} s in all on {} threads.</p>{}\n",
-                      number(get(get(summary, "seconds"), "total"), "{:.3g}"),
-                      number(get(summary, "threads"), "{:.0f}"), bars(stages));
-  page += "<table><tr><th>effect<th>equation<th>seconds<th>conserves";
-  for (const json& effect : summary["effects"])
-    page += fmt::format("<tr><td>{}<td>{}<td class=n>{}<td>{}", escaped(effect["name"].get<std::string>()),
-                        escaped(effect["equation"].get<std::string>()), number(effect["seconds"], "{:.2g}"),
-                        escaped(effect["conserves"].get<std::string>()));
-  page += "</table>\n";
+  page += seconds(summary);
   if (!frames.empty()) page += "<h2>Conservation</h2><div class=scroll>" + conservation(frames) + "</div>\n";
   if (const json checks = get(summary, "checks"); !checks.empty()) {
-    page += "<h2>Checks</h2><table><tr><th>what<th>value<th>at t<th>at least<th>at most<th>";
+    page +=
+        "<h2>Checks</h2><div class=scroll><table class=numbers><tr><th>what<th>value<th>at t<th>at least<th>at "
+        "most<th>";
     for (const json& check : checks)
       page += fmt::format("<tr><td>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td>{}",
                           escaped(check["what"].get<std::string>()), number(check["value"], "{:.4g}"),
                           number(check["t"], "{:.4g}"), number(check["min"]), number(check["max"]),
                           check["passed"].get<bool>() ? "passed" : "<b class=bad>failed</b>");
-    page += "</table>\n";
+    page += "</table></div>\n";
+  }
+  std::vector<std::string> absent = result.left_out;
+  absent.insert(absent.end(), by_choice.begin(), by_choice.end());
+  if (!absent.empty()) {
+    page += "<h2>What is not on this page</h2><ul>";
+    for (const std::string& what : absent) page += "<li>" + escaped(what);
+    page += "</ul>\n";
   }
   if (const std::string resolved = read_text(folder / "run.toml"); !resolved.empty())
     page += "<h2>The case, with all defaults</h2><pre>" + escaped(resolved) + "</pre>\n";
-  if (provenance.is_object()) {
-    page += "<h2>How to make it again</h2><pre>gaussdrift run run.toml</pre><table>";
-    for (const auto& [name, value] : provenance.items())
-      page += fmt::format("<tr><td>{}<td>{}", escaped(name),
-                          escaped(value.is_string() ? value.get<std::string>() : value.dump()));
-    page += "</table>\n";
-  }
+  if (provenance.is_object()) page += how_to_make_again(provenance);
   page += "</html>\n";
   write::write_text(folder / "report.html", page);
   result.written.push_back(folder / "report.html");
 
   json report = summary;
+  report["not_on_the_page"] = absent;
   if (provenance.is_object()) report["provenance"] = provenance;
   write::write_text(folder / "report.json", report.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
   result.written.push_back(folder / "report.json");
   return result;
+}
+
+}  // namespace
+
+ReportFiles write_report(const fs::path& folder, bool pictures) {
+  const std::string text = read_text(folder / "summary.json");
+  if (text.empty()) throw FileError(fmt::format("{} holds no finished run: there is no summary.json", folder.string()));
+  const auto damaged = [&] {
+    return FileError(fmt::format("{} is damaged: run the case again", (folder / "summary.json").string()));
+  };
+  const json summary = json::parse(text, nullptr, false);
+  for (const char* name : {"frames", "title", "case", "effects"})
+    if (!summary.is_object() || !summary.contains(name)) throw damaged();
+  try {
+    return write_page(folder, summary, pictures);
+  } catch (const json::exception&) {  // members of other types than they should have
+    throw damaged();
+  }
 }
 
 }  // namespace gaussdrift::study

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/frame.hpp"
-
 namespace gaussdrift::study {
 
 struct ReportFiles {
@@ -18,9 +16,5 @@ struct ReportFiles {
 /// From summary.json, provenance.json, run.toml, density/ and images/ of a run's folder. pictures: draw the panel of
 /// initial, final, exact and error densities. Throws FileError where the folder holds no run.
 ReportFiles write_report(const std::filesystem::path& folder, bool pictures);
-
-/// An array ("rho", "rho_exact", "error") of a density file that a run has written. Throws FileError where there is no
-/// such file or array, or where values are not finite.
-DensityGrid read_density(const std::filesystem::path& file, const std::string& array);
 
 }  // namespace gaussdrift::study

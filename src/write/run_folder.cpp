@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 namespace {
 
 // What a run writes at the top of its folder, and the numbered files below it.
-constexpr std::array<std::string_view, 12> run_files{"report.html", "report.json", "summary.png", "provenance.json", "log.txt", "density.pvd", "particles.pvd", "case.toml", "run.toml",
-                                                    "series.csv",  "summary.json",  "view.py"};
+constexpr std::array<std::string_view, 13> run_files{
+    "case.toml", "density.pvd", "log.txt",      "particles.pvd",     "provenance.json", "report.html", "report.json",
+    "run.toml",  "series.csv",  "summary.json", "summary.png.panel", "summary.png",     "view.py"};
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> numbered_files{
     {{"density", ".vti"}, {"particles", ".vtp"}, {"images", ".png"}}};
 
@@ -45,7 +46,10 @@ void remove_earlier_run(const fs::path& folder) {
         if (is_numbered(entry.path().filename().string(), ending)) fs::remove(entry.path());
       if (fs::is_empty(folder / name)) fs::remove(folder / name);
     }
-    for (const std::string_view name : run_files) fs::remove(folder / name);
+    for (const std::string_view name : run_files) {
+      fs::remove(folder / name);
+      fs::remove(folder / (std::string(name) + ".part"));  // where a run was killed
+    }
   } catch (const fs::filesystem_error& failure) {
     throw FileError(fmt::format("the earlier run in {} cannot be removed: {}; choose another folder with --out",
                                 folder.string(), failure.code().message()));
