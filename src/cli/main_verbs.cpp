@@ -7,6 +7,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/suggest.hpp"
@@ -18,6 +19,15 @@ namespace gaussdrift::cli {
 namespace {
 
 constexpr int exit_code(ExitCode code) { return static_cast<int>(code); }
+
+/// As a shell reads it again: words with other than the plain characters stand in single quotes.
+std::string quoted(const std::string& word) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
 
 void add_case_options(CLI::App& verb, CaseOptions& options) {
   verb.add_option("case", options.file, "case file (TOML), see docs/cases.md")->required()->type_name("CASE");
@@ -203,7 +213,7 @@ ExitCode dispatch(int argc, char** argv) {
   if (new_verb->parsed()) return new_case(new_options);
   if (explain_verb->parsed()) return explain(explain_options);
   if (run_verb->parsed()) {
-    for (int i = 0; i < argc; ++i) run_options.command += (i ? " " : "") + std::string(argv[i]);
+    for (int i = 0; i < argc; ++i) run_options.command += (i ? " " : "") + quoted(argv[i]);
     return run(run_options);
   }
   if (report_verb->parsed()) return report(report_options);

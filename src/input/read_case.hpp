@@ -36,7 +36,17 @@ ReadResult parse_case(const std::string& text, const std::filesystem::path& file
                       const std::vector<std::string>& overrides = {}, int threads = 0);
 
 /// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case, but for parameters
-/// that only stood in numbers, which are written as values.
-std::string resolved_toml(const Case& scene);
+/// that only stood in numbers, which are written as values. Data files are named by their absolute paths, or as seen
+/// from `folder`, where the text is to lie.
+std::string resolved_toml(const Case& scene, const std::filesystem::path& folder = {});
+
+/// Grids and tables that the case reads, in its order; those that a .pvd lists follow it.
+std::vector<std::filesystem::path> data_files(const Case& scene);
+
+/// The case with the names of its data files without their folders; its text then is the same wherever they lie.
+Case with_bare_names(Case scene);
+
+/// `file` as seen from `folder`: relative, whatever links lead there; absolute where that cannot be.
+std::filesystem::path seen_from(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 }  // namespace gaussdrift::input

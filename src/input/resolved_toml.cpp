@@ -60,6 +60,7 @@ std::vector<std::string> choices(std::string_view name, const std::vector<Enum>&
 
 class Writer {
  public:
+  explicit Writer(std::filesystem::path folder) : folder_(std::move(folder)) {}
   void table(std::string_view name) { text_ += fmt::format("\n[{}]\n", name); }
   /// One of `count` parts of a table that may be repeated.
   void part(std::string_view name, std::size_t count) {
@@ -75,13 +76,13 @@ class Writer {
   void entry(std::string_view name, const std::string& value) { text_ += fmt::format("{} = {}\n", name, value); }
   template <class FileSpec>
   void file(const FileSpec& spec) {
-    entry("file", written(spec.file.string()));
+    entry("file", data_file(spec.file));
     if (!spec.array.empty()) entry("array", written(spec.array));
     entry("interpolation", written(spec.interpolation));
     entry("outside", written(spec.outside));
   }
   void gaussians(const GaussianVelocitySpec& spec) {
-    entry("gaussians", written(spec.file.string()));
+    entry("gaussians", data_file(spec.file));
     entry("kind", written(spec.kind));
     entry("width", written(spec.model->width));
     if (spec.residual > 0) entry("residual", written(spec.residual));
@@ -91,6 +92,11 @@ class Writer {
   const std::string& text() const { return text_; }
 
  private:
+  std::string data_file(const std::filesystem::path& file) const {
+    return written((folder_.empty() ? file : seen_from(folder_, file)).generic_string());
+  }
+
+  std::filesystem::path folder_;
   std::string text_;
 };
 
@@ -119,9 +125,9 @@ Params params_in_use(const Case& scene) {
 
 }  // namespace
 
-std::string resolved_toml(const Case& scene) {
+std::string resolved_toml(const Case& scene, const std::filesystem::path& folder) {
   const int dimension = scene.domain.dimension;
-  Writer out;
+  Writer out(folder);
   out.entry("gaussdrift", "1");
   out.table("case");
   out.entry("title", written(scene.title));

@@ -253,6 +253,7 @@ RunSummary Simulation::run() {
   RunSummary summary;
   summary.threads = threads_;
   summary.transform_tolerance = case_.evaluate.tolerance;
+  const double before = particles_.size() == 0 ? 0 : seed_seconds_;  // prepared before this watch ran
   if (particles_.size() == 0) prepare();
   summary.stages.add("seed", seed_seconds_);
   summary.lattice_points = scene_.seeding.size();
@@ -274,7 +275,7 @@ RunSummary Simulation::run() {
   summary.steps = steps_done_;
   summary.steps_rejected = carrier_.steps_rejected();
   summarise_effects(carrier_.effects(), scene_, summary);
-  summary.seconds = watch_.seconds();
+  summary.seconds = before + watch_.seconds();
   return summary;
 }
 

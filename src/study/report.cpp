@@ -392,7 +392,7 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
     page += "<h2>Where the error comes from</h2>" + budget_table(summary["budget"]) + "\n";
   else if (compared)
     by_choice.push_back("where the error comes from: accuracy.budget = \"none\"");
-  if (const json table = get(summary, "accuracy_table"); table.is_array() && !table.empty()) {
+  if (const json table = get(summary, "accuracy_table"); !table.empty()) {
     page +=
         "<h2>What digits of the sum cost</h2><p>The Gauss transform of the last output, done again: tolerance asked "
         "for, error measured against the direct sum on a sample, both relative to the largest density; milliseconds, "
@@ -401,8 +401,8 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
       page += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}", number(row["tolerance"], "{:.0e}"),
                           number(row["error"], "{:.1e}"), number(row["milliseconds"], "{:.3g}"));
     page += "</table>\n";
-  } else if (table.is_string()) {
-    by_choice.push_back("what digits of the sum cost: " + table.get<std::string>());
+  } else if (const json why = get(summary, "accuracy_table_left_out"); why.is_string()) {
+    by_choice.push_back("what digits of the sum cost: " + why.get<std::string>());
   }
   page += seconds(summary);
   if (!frames.empty()) page += "<h2>Conservation</h2><div class=scroll>" + conservation(frames) + "</div>\n";

@@ -3,13 +3,16 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
-#include "write/atomic_file.hpp"
+#include "base/error.hpp"
 
 namespace gaussdrift::write {
 
@@ -24,31 +27,73 @@ std::string processor() {
 }
 
 std::string date() {
-  const char* epoch = std::getenv("SOURCE_DATE_EPOCH");
-  const std::time_t now = epoch ? static_cast<std::time_t>(std::strtoll(epoch, nullptr, 10)) : std::time(nullptr);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+  std::int64_t seconds = std::time(nullptr);
+  if (const char* text = std::getenv("SOURCE_DATE_EPOCH")) {
+    constexpr std::int64_t year_10000 = 253402300800;
+    const char* end = text + std::strlen(text);
+    const auto read = std::from_chars(text, end, seconds);
+    if (read.ec != std::errc() || read.ptr != end || seconds < 0 || seconds >= year_10000)
+      throw InputError(
+          fmt::format("SOURCE_DATE_EPOCH = \"{}\" must be a whole number of seconds since 1970, before the year 10000; "
+                      "unset it, or "
+                      "set it as in SOURCE_DATE_EPOCH=1700000000",
+                      text));
+  }
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(seconds)));
+}
+
+/// Of bytes as they come.
+class Hash {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  }
+  std::string text() const { return fmt::format("fnv1a64:{:016x}", value_); }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+std::string hash_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  Hash hash;
+  std::vector<char> piece(1 << 16);
+  while (in) {
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    hash.add({piece.data(), static_cast<std::size_t>(in.gcount())});
+  }
+  if (!in.eof()) throw FileError(fmt::format("{} cannot be read", file.string()));
+  return hash.text();
 }
 
 }  // namespace
 
 std::string hash_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("fnv1a64:{:016x}", hash);
+  Hash hash;
+  hash.add(text);
+  return hash.text();
 }
 
-void write_provenance(const std::filesystem::path& folder, const Case& scene, const std::string& resolved,
-                      const std::string& command, int threads) {
-  const nlohmann::ordered_json document{{"version", GAUSSDRIFT_VERSION},
-                                        {"compiler", GAUSSDRIFT_COMPILER},
-                                        {"flags", GAUSSDRIFT_FLAGS},
-                                        {"processor", processor()},
-                                        {"threads", threads},
-                                        {"command", command},
-                                        {"date", date()},
-                                        {"case", hash_of(scene.source)},
-                                        {"resolved_case", hash_of(resolved)}};
-  write_text(folder / "provenance.json", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+std::string provenance_json(const Case& scene, const std::string& resolved, const std::vector<DataFile>& data,
+                            const std::string& command, int threads) {
+  using json = nlohmann::ordered_json;
+  json document{{"version", GAUSSDRIFT_VERSION},
+                {"compiler", GAUSSDRIFT_COMPILER},
+                {"flags", GAUSSDRIFT_FLAGS},
+                {"processor", processor()},
+                {"threads", threads},
+                {"command", command},
+                {"date", date()},
+                {"case", hash_of(scene.source)}};
+  std::string all = resolved;
+  json files = json::array();
+  for (const DataFile& each : data) {
+    files.push_back({{"file", each.name}, {"hash", hash_of_file(each.file)}});
+    all += files.back()["hash"].get<std::string>();
+  }
+  document["resolved_case"] = hash_of(all);
+  if (!files.empty()) document["data"] = files;
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gaussdrift::write

@@ -3,15 +3,23 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "gaussdrift/case.hpp"
 
 namespace gaussdrift::write {
 
-/// Version, compiler and flags, processor, threads, command line, time, and a hash of the case (FNV-1a, 64 bits) and of
-/// the resolved case. The time is that of SOURCE_DATE_EPOCH, where that is set. Throws FileError.
-void write_provenance(const std::filesystem::path& folder, const Case& scene, const std::string& resolved,
-                      const std::string& command, int threads);
+struct DataFile {
+  std::string name;            // as it is told
+  std::filesystem::path file;  // as it is read
+};
+
+/// The text of provenance.json: version, compiler and flags, processor, threads, command line, time, hashes (FNV-1a, 64
+/// bits) of the case as it was written and of every data file. "resolved_case" is the hash of all that the result
+/// depends on: the resolved case, and the bytes of its data. The time is that of SOURCE_DATE_EPOCH, where that is set.
+/// Throws FileError (data that cannot be read), InputError (SOURCE_DATE_EPOCH is no time).
+std::string provenance_json(const Case& scene, const std::string& resolved, const std::vector<DataFile>& data,
+                            const std::string& command, int threads);
 
 /// "fnv1a64:..." of a text.
 std::string hash_of(const std::string& text);

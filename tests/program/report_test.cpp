@@ -105,6 +105,48 @@ TEST(Page, TellsAboutPointsWhoseExactDensityIsNotKnown) {
             std::string::npos);
 }
 
+TEST(Page, ThatCannotBeWrittenCostsNeitherTheRunNorItsChecks) {
+  const ScratchFolder folder;
+  // Every < is 4 bytes of the page and stands there three times: it alone is more than a file may have.
+  write_file(folder / "a.toml", small_case + "vtk = []\n[[check]]\nwhat = \"Linf\"\nmax = 1e-9\n[case]\ntitle = \"" +
+                                    std::string(3000, '<') + "\"\n");
+  const Outcome out = gaussdrift_in(folder, "run a.toml --set time.end=1 --set 'output.times=[0, 1]'", "ulimit -f 32;");
+  EXPECT_EQ(out.exit_code, 5) << out.err;
+  EXPECT_NE(out.err.find("there is no page about this run"), std::string::npos) << out.err;
+  EXPECT_NE(out.err.find("check failed"), std::string::npos) << out.err;
+  EXPECT_TRUE(fs::exists(folder / "output/a/summary.json"));
+  EXPECT_NE(read_file(folder / "output/a/log.txt").find("there is no page"), std::string::npos);
+  EXPECT_EQ(gaussdrift_in(folder, "report output/a", "ulimit -f 32;").exit_code, 6) << "asked for, it is an error";
+}
+
+TEST(Page, SetsTheTargetBesideWhatWasAchievedAndTheAdvice) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", small_case);
+  const Outcome out = gaussdrift_in(folder, "run a.toml --accuracy 0.02 --set time.end=1 --set 'output.times=[0, 1]'");
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const auto summary = nlohmann::json::parse(read_file(folder / "output/a/summary.json"));
+  EXPECT_EQ(summary["accuracy"]["target"], 0.02);
+  EXPECT_EQ(summary["accuracy"]["achieved"], summary["frames"].back()["Linf"]);
+  EXPECT_EQ(summary["accuracy"]["met"], summary["accuracy"]["achieved"] <= 0.02);
+  const std::string page = read_file(folder / "output/a/report.html");
+  EXPECT_NE(page.find("0.02 asked for: "), std::string::npos);
+  ASSERT_FALSE(summary["budget"]["advice"].empty());
+  EXPECT_NE(page.find("Advice: "), std::string::npos);
+}
+
+TEST(Page, HasTheAccuracyTableOfEveryShortRunAndSecondsThatAddUp) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", small_case);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml").exit_code, 0);
+  const auto summary = nlohmann::json::parse(read_file(folder / "output/a/summary.json"));
+  ASSERT_EQ(summary["accuracy_table"].size(), 6u);
+  for (const auto& row : summary["accuracy_table"]) EXPECT_LE(row["error"], row["tolerance"]);
+  double told = 0;
+  for (const auto& [stage, seconds] : summary["seconds"].items())
+    if (stage != "total") told += seconds.get<double>();
+  EXPECT_LE(told, summary["seconds"]["total"].get<double>() + 1e-9);  // roundings of sums
+}
+
 TEST(Page, OfARunInSpaceHasItsPanels) {
   const ScratchFolder folder;
   write_file(folder / "a.toml", R"(gaussdrift = 1
@@ -136,6 +178,55 @@ images = ["slices"]
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("What is not on this page"), std::string::npos) << "nothing is missing";
   EXPECT_FALSE(fs::exists(folder / "output/a/summary.png.panel"));
+}
+
+TEST(Provenance, HasFlagsACommandForTheShellAndHashesOfTheData) {
+  const ScratchFolder folder;
+  ASSERT_EQ(gaussdrift_in(folder, "new gridded_wind --out cases").exit_code, 0);
+  std::string windy = small_case;
+  windy.replace(windy.find("u = ["), std::string("u = [\"-y\", \"x\"]").size(), "file = \"gridded_wind.pvd\"");
+  write_file(folder / "cases/a.toml", windy + "[reference]\nkind = \"none\"\n");
+  const auto run = [&](const std::string& call) {
+    const Outcome out = gaussdrift_in(folder, call, "SOURCE_DATE_EPOCH=86400");
+    EXPECT_EQ(out.exit_code, 0) << out.err;
+  };
+  run("run cases/a.toml --out there/one --set time.end=0.1 --set 'output.times=[0.1]'");
+  const auto first = nlohmann::json::parse(read_file(folder / "there/one/provenance.json"));
+  EXPECT_EQ(first["date"], "1970-01-02T00:00:00Z");
+  EXPECT_NE(first["flags"].get<std::string>().find("-O"), std::string::npos) << first["flags"];
+  EXPECT_NE(first["command"].get<std::string>().find(" --set 'output.times=[0.1]'"), std::string::npos)
+      << first["command"];
+  ASSERT_EQ(first["data"].size(), 3u) << "a series and its two files";
+  EXPECT_EQ(first["data"][0]["file"], "../../cases/gridded_wind.pvd");
+  EXPECT_EQ(read_file(folder / "there/one/run.toml").find(folder.path().string()), std::string::npos)
+      << "no absolute paths";
+
+  // What lies elsewhere and is run from its resolved case is the same; other data are not.
+  fs::create_directory(folder / "moved");
+  fs::copy(folder / "cases", folder / "moved/cases", fs::copy_options::recursive);
+  fs::copy(folder / "there", folder / "moved/there", fs::copy_options::recursive);
+  run("run moved/there/one/run.toml --out two");
+  const auto second = nlohmann::json::parse(read_file(folder / "two/provenance.json"));
+  EXPECT_EQ(second["resolved_case"], first["resolved_case"]);
+  std::string wind = read_file(folder / "cases/gridded_wind_1.vti");
+  write_file(folder / "cases/gridded_wind_1.vti", wind + "\n");
+  run("run there/one/run.toml --out three");
+  const auto third = nlohmann::json::parse(read_file(folder / "three/provenance.json"));
+  EXPECT_EQ(third["data"][1],
+            (nlohmann::json{{"file", "../cases/gridded_wind_0.vti"}, {"hash", first["data"][1]["hash"]}}));
+  EXPECT_NE(third["data"][2]["hash"], first["data"][2]["hash"]);
+  EXPECT_NE(third["resolved_case"], first["resolved_case"]);
+}
+
+TEST(Provenance, RefusesATimeThatIsNoneBeforeAnEarlierRunIsTouched) {
+  const ScratchFolder folder;
+  run_cone(folder);
+  for (const char* wrong : {"yesterday", "", "-1", "1.5", "253402300800", "99999999999999999999"}) {
+    const Outcome out = gaussdrift_in(folder, "run a.toml --force", std::string("SOURCE_DATE_EPOCH='") + wrong + "'");
+    EXPECT_EQ(out.exit_code, 3) << wrong;
+    EXPECT_NE(out.err.find("SOURCE_DATE_EPOCH"), std::string::npos) << out.err;
+  }
+  EXPECT_TRUE(fs::exists(folder / "output/a/summary.json"));
 }
 
 }  // namespace
