@@ -10,6 +10,7 @@
 
 #include "base/parallel.hpp"
 #include "cli/verbs.hpp"
+#include "fgtd/kernels.hpp"
 #include "read/grid_file.hpp"
 #include "render/picture.hpp"
 #include "write/vtk_files.hpp"
@@ -68,13 +69,13 @@ Finding check_file(const fs::path& folder) {
 ExitCode doctor(const DoctorOptions& options) {
   std::vector<Finding> findings;
   findings.push_back({"version", fmt::format("gaussdrift {}, {}", GAUSSDRIFT_VERSION, GAUSSDRIFT_COMPILER)});
-  findings.push_back(
-      {"libraries", fmt::format("Eigen {}.{}.{}, fmt {}, VTK {}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
-                                EIGEN_MINOR_VERSION, FMT_VERSION, GAUSSDRIFT_VTK_VERSION)});
+  findings.push_back({"libraries", fmt::format("Eigen {}.{}.{}, fmt {}.{}.{}, VTK {}", EIGEN_WORLD_VERSION,
+                                               EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, FMT_VERSION / 10000,
+                                               FMT_VERSION / 100 % 100, FMT_VERSION % 100, read::vtk_version())});
   findings.push_back({"threads", std::to_string(base::resolve_threads(0))});
-  findings.push_back({"vectors", __builtin_cpu_supports("avx512f") ? "AVX-512"
-                                 : __builtin_cpu_supports("avx2")  ? "AVX2"
-                                                                   : "baseline x86-64"});
+  const fgtd::detail::Kernels& kernels = fgtd::detail::kernels();
+  findings.push_back(
+      {"vectors", fmt::format("{}: {} numbers at once in the Gauss transform", kernels.name, kernels.lanes)});
   std::string pattern = (fs::temp_directory_path() / "gaussdrift-doctor.XXXXXX").string();
   if (!mkdtemp(pattern.data()))
     throw FileError(fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));

@@ -13,6 +13,7 @@
 #include <vtkPointData.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkSmartPointer.h>
+#include <vtkVersion.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
@@ -174,6 +175,8 @@ void check_count(vtkDataArray* values, std::size_t points, const std::filesystem
 }
 
 }  // namespace
+
+std::string vtk_version() { return vtkVersion::GetVTKVersion(); }
 
 std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
   check_readable(file, "");

@@ -50,4 +50,7 @@ struct GridSnapshot {
 /// Throws GridFileError as read_grid() does.
 GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array);
 
+/// Of the library that runs: "9.1.0".
+std::string vtk_version();
+
 }  // namespace gaussdrift::read

@@ -90,7 +90,7 @@ std::string verdict(const json& summary) {
                         number(last["t"], "{:.4g}"), number(last["Linf"], "{:.2e}"), number(last["L1"], "{:.2e}"),
                         number(last["L2"], "{:.2e}"));
   if (target.is_object())
-    text += fmt::format(" {} asked for: {}.", number(target["target"], "{:g}"),
+    text += fmt::format(" Target {}: {}.", number(target["target"], "{:g}"),
                         !target["achieved"].is_number() ? "not known whether it is met"
                         : target["met"] == json(true)   ? "<b>met</b>"
                                                         : "<b class=bad>missed</b>");
@@ -99,9 +99,10 @@ std::string verdict(const json& summary) {
   std::size_t failed = 0;
   for (const json& check : checks) failed += !check["passed"].get<bool>();
   if (!checks.empty())
-    text += failed ? fmt::format(" <b class=bad>{} of {} checks failed.</b>", failed, checks.size())
-                   : fmt::format(" {} passed.", checks.size() == 1 ? "The check" : "All checks");
-  for (const json& line : advice) text += "<br>Advice: " + escaped(line.get<std::string>()) + ".";
+    text += failed && checks.size() == 1 ? " <b class=bad>The check failed.</b>"
+            : failed ? fmt::format(" <b class=bad>{} of {} checks failed.</b>", failed, checks.size())
+                     : fmt::format(" {} passed.", checks.size() == 1 ? "The check" : "All checks");
+  if (!advice.empty()) text += "<br>Advice: " + escaped(advice.front().get<std::string>()) + ".";
   return text;
 }
 
@@ -160,8 +161,8 @@ std::string error_curves(const json& frames) {
       if (const double at = k + std::log10(factor); at >= low && at <= high)
         svg += fmt::format(
             "<line x1={0} x2={1} y1={2:.1f} y2={2:.1f} stroke=\"#eee\"/><text x={3} y={4:.1f} "
-            "text-anchor=end>{5:.0e}</text>",
-            left, left + width, y(std::pow(10, at)), left - 8, y(std::pow(10, at)) + 4, std::pow(10, at));
+            "text-anchor=end>{5:.0f}e{6:.0f}</text>",
+            left, left + width, y(std::pow(10, at)), left - 8, y(std::pow(10, at)) + 4, factor, k);
   for (double k = std::ceil(low); k <= high; ++k)
     svg += fmt::format(
         "<line x1={0} x2={1} y1={2:.1f} y2={2:.1f} stroke=\"#ddd\"/><text x={3} y={4:.1f} "
@@ -179,19 +180,20 @@ std::string error_curves(const json& frames) {
         "text-anchor=middle>{4:.6g}</text>",
         x(k * step), top + height, top + height + 5, top + height + 20, k == 0 ? 0 : k * step);
   svg += fmt::format("<text x={} y={} text-anchor=middle>t</text>", left + width / 2, top + height + 40);
-  double key = top + 14;
+  double key = top + 18;
   for (const Curve& curve : curves) {
     std::string points;
     for (const json& frame : frames)
       if (frame.contains(curve.name) && frame[curve.name].is_number() && frame[curve.name].get<double>() > 0) {
         const double a = x(frame["t"].get<double>()), b = y(frame[curve.name].get<double>());
         points += fmt::format("{:.1f},{:.1f} ", a, b);
-        svg += fmt::format("<circle cx={:.1f} cy={:.1f} r=3 fill=\"{}\"/>", a, b, curve.colour);
+        if (frames.size() <= 60)
+          svg += fmt::format("<circle cx={:.1f} cy={:.1f} r=3 fill=\"{}\"/>", a, b, curve.colour);
       }
     svg += fmt::format(
         "<polyline points=\"{}\" fill=none stroke=\"{}\" stroke-width=2 /><text x={} y={} fill=\"{}\">{}</text>",
         points, curve.colour, left + width + 12, key, curve.colour, curve.name);
-    key += 20;
+    key += 26;
   }
   return svg + "</svg>";
 }
@@ -211,7 +213,7 @@ std::string budget_table(const json& budget) {
   const json predicted = get(budget, "predicted"), measured = get(budget, "measured");
   if (measured.contains("not_covered") && predicted.contains("not_covered"))
     return "<p>Not told apart: " + escaped(measured["not_covered"].get<std::string>()) + ".";
-  std::string text = "<table class=numbers><tr><th>cause<th>predicted<th>measured";
+  std::string text = "<table class=numbers><tr><th class=l>cause<th>predicted<th>measured";
   for (const auto& [key, name] : {std::pair{"time_stepping", "time stepping"},
                                   {"smoothing", "smoothing"},
                                   {"quadrature", "quadrature"},
@@ -233,15 +235,31 @@ std::string budget_table(const json& budget) {
 std::string conservation(const json& frames) {
   std::string text = "<table class=numbers><tr><th>t<th>mass<th>change<th>centroid<th>minimum<th>maximum";
   const double begun = frames.front()["mass"].get<double>();
-  for (const json& frame : frames) {
+  double far = 0;  // centroids below rounding of the furthest are 0
+  for (const json& frame : frames)
+    for (const json& x : frame["centroid"])
+      if (x.is_number()) far = std::max(far, std::abs(x.get<double>()));
+  constexpr std::size_t rows = 25;
+  const std::size_t stride = (frames.size() + rows - 1) / rows;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i % stride != 0 && i + 1 < frames.size()) continue;
+    const json& frame = frames[i];
     std::string centroid;
-    for (const json& x : frame["centroid"]) centroid += (centroid.empty() ? "" : ", ") + number(x, "{:.5g}");
-    text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{:.1e}<td class=n>{}<td class=n>{}<td class=n>{}",
+    for (const json& x : frame["centroid"]) {
+      const bool is_zero = x.is_number() && std::abs(x.get<double>()) <= 1e-12 * far;
+      centroid += (centroid.empty() ? "" : ", ") + (is_zero ? "0" : number(x, "{:.5g}"));
+    }
+    const double change = begun != 0 ? frame["mass"].get<double>() / begun - 1 : 0;
+    text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}",
                         number(frame["t"], "{:.5g}"), number(frame["mass"], "{:.9g}"),
-                        begun != 0 ? frame["mass"].get<double>() / begun - 1 : 0, centroid,
-                        number(frame["minimum"], "{:.4g}"), number(frame["maximum"], "{:.6g}"));
+                        change == 0 ? "0" : fmt::format("{:.1e}", change), centroid, number(frame["minimum"], "{:.4g}"),
+                        number(frame["maximum"], "{:.6g}"));
   }
-  return text + "</table>";
+  text += "</table>";
+  if (stride > 1)
+    text +=
+        fmt::format("<p class=quiet>One of {} of the {} outputs; all are in series.csv.</p>", stride, frames.size());
+  return text;
 }
 
 constexpr const char* style = R"(
@@ -256,9 +274,8 @@ img,svg{max-width:100%;height:auto}
 svg text{font-size:13px}
 table{border-collapse:collapse;margin:.6rem 0}
 td,th{padding:.2rem .8rem .2rem 0;text-align:left;vertical-align:top}
-td.n,.numbers th{text-align:right;font-variant-numeric:tabular-nums}
+td.n,.numbers th:not(.l){text-align:right;font-variant-numeric:tabular-nums}
 td.n{white-space:nowrap}
-.numbers th:first-child,.numbers td:first-child:not(.n){text-align:left}
 tr.most td{font-weight:bold}
 .bars{width:100%}
 .bars .w{width:60%;padding-right:0}
@@ -408,7 +425,7 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
   if (!frames.empty()) page += "<h2>Conservation</h2><div class=scroll>" + conservation(frames) + "</div>\n";
   if (const json checks = get(summary, "checks"); !checks.empty()) {
     page +=
-        "<h2>Checks</h2><div class=scroll><table class=numbers><tr><th>what<th>value<th>at t<th>at least<th>at "
+        "<h2>Checks</h2><div class=scroll><table class=numbers><tr><th class=l>what<th>value<th>at t<th>at least<th>at "
         "most<th>";
     for (const json& check : checks)
       page += fmt::format("<tr><td>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td>{}",

@@ -129,7 +129,7 @@ TEST(Page, SetsTheTargetBesideWhatWasAchievedAndTheAdvice) {
   EXPECT_EQ(summary["accuracy"]["achieved"], summary["frames"].back()["Linf"]);
   EXPECT_EQ(summary["accuracy"]["met"], summary["accuracy"]["achieved"] <= 0.02);
   const std::string page = read_file(folder / "output/a/report.html");
-  EXPECT_NE(page.find("0.02 asked for: "), std::string::npos);
+  EXPECT_NE(page.find("Target 0.02: "), std::string::npos);
   ASSERT_FALSE(summary["budget"]["advice"].empty());
   EXPECT_NE(page.find("Advice: "), std::string::npos);
 }
@@ -178,6 +178,16 @@ images = ["slices"]
     EXPECT_NE(page.find(part), std::string::npos) << part;
   EXPECT_EQ(page.find("What is not on this page"), std::string::npos) << "nothing is missing";
   EXPECT_FALSE(fs::exists(folder / "output/a/summary.png.panel"));
+}
+
+TEST(Machine, IsDescribedByTheLibrariesThemselves) {
+  const ScratchFolder folder;
+  const auto found = nlohmann::json::parse(gaussdrift_in(folder, "doctor --json").out);
+  const std::string vectors = found["vectors"]["found"], libraries = found["libraries"]["found"];
+  EXPECT_TRUE(vectors.starts_with("baseline") || vectors.starts_with("avx")) << vectors;
+  const std::size_t vtk = libraries.find("VTK ");
+  ASSERT_NE(vtk, std::string::npos) << libraries;
+  EXPECT_GE(std::atoi(libraries.c_str() + vtk + 4), 9) << libraries;
 }
 
 TEST(Provenance, HasFlagsACommandForTheShellAndHashesOfTheData) {
