@@ -26,8 +26,8 @@ struct ReadResult {
 };
 
 /// Reads and validates. `overrides` are "key=value" with dotted keys as in --set; values have the types of the file.
-/// Throws FileError (the file cannot be read) or CaseError with all errors of the file in one pass. Tables and data that
-/// the case names are read as well, and fields fitted to samples on `threads` threads (0: all).
+/// Throws FileError (the file cannot be read) or CaseError with all errors of the file in one pass. Tables and data
+/// that the case names are read as well, and fields fitted to samples on `threads` threads (0: all).
 ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                      int threads = 0);
 
@@ -35,9 +35,9 @@ ReadResult read_case(const std::filesystem::path& file, const std::vector<std::s
 ReadResult parse_case(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides = {}, int threads = 0);
 
-/// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case, but for parameters
-/// that only stood in numbers, which are written as values. Data files are named by their absolute paths, or as seen
-/// from `folder`, where the text is to lie.
+/// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case, but for
+/// parameters that only stood in numbers, which are written as values. Data files are named by their absolute paths, or
+/// as seen from `folder`, where the text is to lie.
 std::string resolved_toml(const Case& scene, const std::filesystem::path& folder = {});
 
 /// Grids and tables that the case reads, in its order; those that a .pvd lists follow it.

@@ -228,6 +228,19 @@ TEST(Provenance, HasFlagsACommandForTheShellAndHashesOfTheData) {
   EXPECT_NE(third["resolved_case"], first["resolved_case"]);
 }
 
+TEST(Provenance, HasACommandThatAShellTakesAsItWasTyped) {
+  const ScratchFolder folder;
+  run_cone(folder, R"(--out 'a b' --set 'case.title="it'\''s $HOME & <more>"' --set 'case.cite=""')");
+  const auto provenance = nlohmann::json::parse(read_file(folder / "a b/provenance.json"));
+  const std::string command = provenance["command"];
+  write_file(folder / "again.sh", "printf '%s\\n' " + command + "\n");
+  const std::string call = "sh '" + (folder / "again.sh").string() + "' > '" + (folder / "words").string() + "'";
+  ASSERT_EQ(std::system(call.c_str()), 0);
+  const std::string words = read_file(folder / "words");
+  for (const char* word : {"\na b\n", "\ncase.title=\"it's $HOME & <more>\"\n", "\ncase.cite=\"\"\n"})
+    EXPECT_NE(words.find(word), std::string::npos) << word << " in\n" << words;
+}
+
 TEST(Provenance, RefusesATimeThatIsNoneBeforeAnEarlierRunIsTouched) {
   const ScratchFolder folder;
   run_cone(folder);
