@@ -46,6 +46,11 @@ std::size_t output_at(double wanted, const std::vector<study::WrittenOutput>& ou
   return *nearest;
 }
 
+/// Names of files need not be UTF-8, JSON must.
+std::string laid_out(const nlohmann::ordered_json& document) {
+  return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 std::string in_text(std::optional<double> time) { return time ? fmt::format("t = {:g}", *time) : "no time"; }
 
 }  // namespace
@@ -55,7 +60,7 @@ ExitCode report(const ReportOptions& options) {
   if (options.json) {
     nlohmann::ordered_json written = nlohmann::ordered_json::array();
     for (const fs::path& file : files.written) written.push_back(file.string());
-    fmt::print("{}\n", nlohmann::ordered_json{{"written", written}, {"left_out", files.left_out}}.dump(2));
+    fmt::print("{}\n", laid_out(nlohmann::ordered_json{{"written", written}, {"left_out", files.left_out}}));
   } else {
     for (const fs::path& file : files.written) fmt::print("wrote  {}\n", file.string());
     for (const std::string& what : files.left_out) fmt::print("left out {}\n", what);
@@ -121,7 +126,7 @@ ExitCode render(const RenderOptions& options) {
     written.push_back(png.string());
     if (!options.json) fmt::print("wrote  {}\n", png.string());
   }
-  if (options.json) fmt::print("{}\n", nlohmann::ordered_json{{"written", written}}.dump(2));
+  if (options.json) fmt::print("{}\n", laid_out(nlohmann::ordered_json{{"written", written}}));
   return ExitCode::ok;
 }
 
@@ -159,7 +164,7 @@ ExitCode compare(const CompareOptions& options) {
   }
   const bool apart = options.tolerance >= 0 && !(worst <= options.tolerance);
   if (options.json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"outputs", rows}, {"largest", worst}, {"within", !apart}}.dump(2));
+    fmt::print("{}\n", laid_out(nlohmann::ordered_json{{"outputs", rows}, {"largest", worst}, {"within", !apart}}));
   else
     fmt::print("largest difference {:.2e}, relative to {}{}\n", worst, options.second.string(),
                options.tolerance < 0 ? ""

@@ -82,22 +82,22 @@ std::string verdict(const json& summary) {
   std::string text;
   if (!last.contains("Linf"))
     text += "The run was compared with nothing, so its error is not known.";
-  else if (!last["Linf"].is_number())
+  else if (!last.at("Linf").is_number())
     text += fmt::format("At t = {} the exact density is 0 wherever it was compared, so there is no relative error.",
-                        number(last["t"], "{:.4g}"));
+                        number(last.at("t"), "{:.4g}"));
   else
     text += fmt::format("At t = {} the largest error is <b>{}</b> of the largest density (L1 {}, L2 {}).",
-                        number(last["t"], "{:.4g}"), number(last["Linf"], "{:.2e}"), number(last["L1"], "{:.2e}"),
-                        number(last["L2"], "{:.2e}"));
+                        number(last.at("t"), "{:.4g}"), number(last.at("Linf"), "{:.2e}"),
+                        number(last.at("L1"), "{:.2e}"), number(last.at("L2"), "{:.2e}"));
   if (target.is_object())
-    text += fmt::format(" Target {}: {}.", number(target["target"], "{:g}"),
-                        !target["achieved"].is_number() ? "not known whether it is met"
-                        : target["met"] == json(true)   ? "<b>met</b>"
-                                                        : "<b class=bad>missed</b>");
+    text += fmt::format(" Target {}: {}.", number(target.at("target"), "{:g}"),
+                        !target.at("achieved").is_number() ? "not known whether it is met"
+                        : target.at("met") == json(true)   ? "<b>met</b>"
+                                                           : "<b class=bad>missed</b>");
   if (budget.contains("dominates"))
-    text += fmt::format(" Most of it is {}.", escaped(budget["dominates"].get<std::string>()));
+    text += fmt::format(" Most of it is {}.", escaped(budget.at("dominates").get<std::string>()));
   std::size_t failed = 0;
-  for (const json& check : checks) failed += !check["passed"].get<bool>();
+  for (const json& check : checks) failed += !check.at("passed").get<bool>();
   if (!checks.empty())
     text += failed && checks.size() == 1 ? " <b class=bad>The check failed.</b>"
             : failed ? fmt::format(" <b class=bad>{} of {} checks failed.</b>", failed, checks.size())
@@ -125,7 +125,7 @@ std::string about_comparison(const json& summary, const json& last) {
         fmt::format(" At {} points of the last output the exact density is not known, and the norms leave them out{}.",
                     untraced.get<std::size_t>(),
                     get(get(summary, "reference"), "trouble").is_string()
-                        ? ": " + escaped(summary["reference"]["trouble"].get<std::string>())
+                        ? ": " + escaped(summary.at("reference").at("trouble").get<std::string>())
                         : "");
   return text;
 }
@@ -139,11 +139,11 @@ std::string error_curves(const json& frames) {
   double first = INFINITY, last = -INFINITY, low = INFINITY, high = -INFINITY;
   for (const json& frame : frames) {
     if (!frame.contains("Linf")) continue;
-    first = std::min(first, frame["t"].get<double>()), last = std::max(last, frame["t"].get<double>());
+    first = std::min(first, frame.at("t").get<double>()), last = std::max(last, frame.at("t").get<double>());
     for (const Curve& curve : curves)
-      if (frame[curve.name].is_number() && frame[curve.name].get<double>() > 0) {
-        low = std::min(low, std::log10(frame[curve.name].get<double>()));
-        high = std::max(high, std::log10(frame[curve.name].get<double>()));
+      if (frame.at(curve.name).is_number() && frame.at(curve.name).get<double>() > 0) {
+        low = std::min(low, std::log10(frame.at(curve.name).get<double>()));
+        high = std::max(high, std::log10(frame.at(curve.name).get<double>()));
       }
   }
   if (!(last > first) || !(high >= low)) return "";
@@ -184,8 +184,8 @@ std::string error_curves(const json& frames) {
   for (const Curve& curve : curves) {
     std::string points;
     for (const json& frame : frames)
-      if (frame.contains(curve.name) && frame[curve.name].is_number() && frame[curve.name].get<double>() > 0) {
-        const double a = x(frame["t"].get<double>()), b = y(frame[curve.name].get<double>());
+      if (frame.contains(curve.name) && frame.at(curve.name).is_number() && frame.at(curve.name).get<double>() > 0) {
+        const double a = x(frame.at("t").get<double>()), b = y(frame.at(curve.name).get<double>());
         points += fmt::format("{:.1f},{:.1f} ", a, b);
         if (frames.size() <= 60)
           svg += fmt::format("<circle cx={:.1f} cy={:.1f} r=3 fill=\"{}\"/>", a, b, curve.colour);
@@ -212,7 +212,7 @@ std::string bars(const std::vector<std::pair<std::string, double>>& rows) {
 std::string budget_table(const json& budget) {
   const json predicted = get(budget, "predicted"), measured = get(budget, "measured");
   if (measured.contains("not_covered") && predicted.contains("not_covered"))
-    return "<p>Not told apart: " + escaped(measured["not_covered"].get<std::string>()) + ".";
+    return "<p>Not told apart: " + escaped(measured.at("not_covered").get<std::string>()) + ".";
   std::string text = "<table class=numbers><tr><th class=l>cause<th>predicted<th>measured";
   for (const auto& [key, name] : {std::pair{"time_stepping", "time stepping"},
                                   {"smoothing", "smoothing"},
@@ -234,10 +234,10 @@ std::string budget_table(const json& budget) {
 
 std::string conservation(const json& frames) {
   std::string text = "<table class=numbers><tr><th>t<th>mass<th>change<th>centroid<th>minimum<th>maximum";
-  const double begun = frames.front()["mass"].get<double>();
+  const double begun = frames.front().at("mass").get<double>();
   double far = 0;  // centroids below rounding of the furthest are 0
   for (const json& frame : frames)
-    for (const json& x : frame["centroid"])
+    for (const json& x : frame.at("centroid"))
       if (x.is_number()) far = std::max(far, std::abs(x.get<double>()));
   constexpr std::size_t rows = 25;
   const std::size_t stride = (frames.size() + rows - 1) / rows;
@@ -245,15 +245,15 @@ std::string conservation(const json& frames) {
     if (i % stride != 0 && i + 1 < frames.size()) continue;
     const json& frame = frames[i];
     std::string centroid;
-    for (const json& x : frame["centroid"]) {
+    for (const json& x : frame.at("centroid")) {
       const bool is_zero = x.is_number() && std::abs(x.get<double>()) <= 1e-12 * far;
       centroid += (centroid.empty() ? "" : ", ") + (is_zero ? "0" : number(x, "{:.5g}"));
     }
-    const double change = begun != 0 ? frame["mass"].get<double>() / begun - 1 : 0;
+    const double change = begun != 0 ? frame.at("mass").get<double>() / begun - 1 : 0;
     text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}",
-                        number(frame["t"], "{:.5g}"), number(frame["mass"], "{:.9g}"),
-                        change == 0 ? "0" : fmt::format("{:.1e}", change), centroid, number(frame["minimum"], "{:.4g}"),
-                        number(frame["maximum"], "{:.6g}"));
+                        number(frame.at("t"), "{:.5g}"), number(frame.at("mass"), "{:.9g}"),
+                        change == 0 ? "0" : fmt::format("{:.1e}", change), centroid,
+                        number(frame.at("minimum"), "{:.4g}"), number(frame.at("maximum"), "{:.6g}"));
   }
   text += "</table>";
   if (stride > 1)
@@ -302,7 +302,7 @@ std::vector<std::string> draw_summary(const fs::path& folder, const json& summar
   std::vector<std::string> notes;
   if (outputs.size() > 1) add(outputs.front(), "rho", "initial", false);
   add(outputs.back(), "rho", outputs.size() > 1 ? "final" : "density", false);
-  const json frame = summary["frames"].empty() ? json::object() : summary["frames"].back();
+  const json frame = summary.at("frames").empty() ? json::object() : summary.at("frames").back();
   const std::size_t points = panels.back().density.lattice.size(), compared = frame.value("compared", points);
   if (!frame.contains("Linf")) {
     notes.push_back("pictures of the exact density and the error: the run was compared with nothing");
@@ -335,10 +335,10 @@ std::string seconds(const json& summary) {
       fmt::format("<h2>Seconds</h2><p>{} s in all on {}.</p>{}\n", number(total, "{:.3g}"),
                   threads == json(1) ? "one thread" : number(threads, "{:.0f}") + " threads", bars(stages));
   text += "<div class=scroll><table><tr><th>effect<th>equation<th>seconds<th>conserves";
-  for (const json& effect : summary["effects"])
-    text += fmt::format("<tr><td>{}<td>{}<td class=n>{}<td>{}", escaped(effect["name"].get<std::string>()),
-                        escaped(effect["equation"].get<std::string>()), number(effect["seconds"], "{:.2g}"),
-                        escaped(effect["conserves"].get<std::string>()));
+  for (const json& effect : summary.at("effects"))
+    text += fmt::format("<tr><td>{}<td>{}<td class=n>{}<td>{}", escaped(effect.at("name").get<std::string>()),
+                        escaped(effect.at("equation").get<std::string>()), number(effect.at("seconds"), "{:.2g}"),
+                        escaped(effect.at("conserves").get<std::string>()));
   return text + "</table></div>\n";
 }
 
@@ -353,8 +353,8 @@ std::string how_to_make_again(const json& provenance) {
       continue;
     }
     for (const json& file : value)  // of data
-      text += fmt::format("<tr><td>{}<td>{}<br>{}", escaped(name), escaped(file["file"].get<std::string>()),
-                          escaped(file["hash"].get<std::string>()));
+      text += fmt::format("<tr><td>{}<td>{}<br>{}", escaped(name), escaped(file.at("file").get<std::string>()),
+                          escaped(file.at("hash").get<std::string>()));
   }
   return text + "</table>\n";
 }
@@ -363,7 +363,7 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
   ReportFiles result;
   std::vector<std::string> by_choice;  // what the case did without
   const json provenance = json::parse(read_text(folder / "provenance.json"), nullptr, false);
-  const json frames = summary["frames"], last = frames.empty() ? json::object() : frames.back();
+  const json frames = summary.at("frames"), last = frames.empty() ? json::object() : frames.back();
   const bool compared = last.contains("Linf");
   const json untraced = get(last, "untraced");
 
@@ -378,15 +378,15 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
     by_choice.push_back("pictures: the case wants none (output.images); gaussdrift report draws them all the same");
   }
 
-  const std::string title = summary["title"].get<std::string>().empty() ? summary["case"].get<std::string>()
-                                                                        : summary["title"].get<std::string>();
+  const std::string title = summary.at("title").get<std::string>().empty() ? summary.at("case").get<std::string>()
+                                                                           : summary.at("title").get<std::string>();
   std::string page = fmt::format(
       "<!doctype html>\n<html lang=en><meta charset=utf-8><meta name=viewport "
       "content=\"width=device-width,initial-scale=1\">"
       "<title>{0}</title><style>{1}</style>\n<h1>{0}</h1><p class=quiet>{2}, by gaussdrift {3}</p>\n<p "
       "class=verdict>{4}</p>\n",
-      escaped(title), style, escaped(summary["case"].get<std::string>()),
-      escaped(get(provenance, "version").is_string() ? provenance["version"].get<std::string>() : ""),
+      escaped(title), style, escaped(summary.at("case").get<std::string>()),
+      escaped(get(provenance, "version").is_string() ? provenance.at("version").get<std::string>() : ""),
       verdict(summary));
   for (const json& warning : get(summary, "warnings"))
     page += fmt::format("<p class=warning><b>Warning:</b> {}</p>\n", escaped(warning.get<std::string>()));
@@ -406,7 +406,7 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
     by_choice.push_back("errors: the run was compared with nothing (reference.kind)");
   }
   if (summary.contains("budget"))
-    page += "<h2>Where the error comes from</h2>" + budget_table(summary["budget"]) + "\n";
+    page += "<h2>Where the error comes from</h2>" + budget_table(summary.at("budget")) + "\n";
   else if (compared)
     by_choice.push_back("where the error comes from: accuracy.budget = \"none\"");
   if (const json table = get(summary, "accuracy_table"); !table.empty()) {
@@ -415,8 +415,8 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
         "for, error measured against the direct sum on a sample, both relative to the largest density; milliseconds, "
         "the fastest of some.</p><table class=numbers><tr><th>tolerance<th>error<th>ms";
     for (const json& row : table)
-      page += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}", number(row["tolerance"], "{:.0e}"),
-                          number(row["error"], "{:.1e}"), number(row["milliseconds"], "{:.3g}"));
+      page += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}", number(row.at("tolerance"), "{:.0e}"),
+                          number(row.at("error"), "{:.1e}"), number(row.at("milliseconds"), "{:.3g}"));
     page += "</table>\n";
   } else if (const json why = get(summary, "accuracy_table_left_out"); why.is_string()) {
     by_choice.push_back("what digits of the sum cost: " + why.get<std::string>());
@@ -429,9 +429,9 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
         "most<th>";
     for (const json& check : checks)
       page += fmt::format("<tr><td>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td>{}",
-                          escaped(check["what"].get<std::string>()), number(check["value"], "{:.4g}"),
-                          number(check["t"], "{:.4g}"), number(check["min"]), number(check["max"]),
-                          check["passed"].get<bool>() ? "passed" : "<b class=bad>failed</b>");
+                          escaped(check.at("what").get<std::string>()), number(check.at("value"), "{:.4g}"),
+                          number(check.at("t"), "{:.4g}"), number(check.at("min")), number(check.at("max")),
+                          check.at("passed").get<bool>() ? "passed" : "<b class=bad>failed</b>");
     page += "</table></div>\n";
   }
   std::vector<std::string> absent = result.left_out;

@@ -119,6 +119,21 @@ TEST(Page, ThatCannotBeWrittenCostsNeitherTheRunNorItsChecks) {
   EXPECT_EQ(gaussdrift_in(folder, "report output/a", "ulimit -f 32;").exit_code, 6) << "asked for, it is an error";
 }
 
+TEST(Page, OfASummaryThatWasCutOrChangedIsRefused) {
+  const ScratchFolder folder;
+  for (const char* summary :
+       {R"({"case": "a", "title": "", "effects": [], "frames": [{}]})",
+        R"({"case": "a", "title": "", "effects": [{"name": 3}], "frames": []})",
+        R"({"case": "a", "title": 1, "effects": [], "frames": []})",
+        R"({"case": "a", "title": "", "effects": [], "frames": [{"t": 0, "mass": 1, "centroid": 2, "Linf": "x"}]})",
+        R"({"case": "a", "title": "", "effects": [], "frames": [], "checks": [{}]})"}) {
+    write_file(folder / "summary.json", summary);
+    const Outcome out = gaussdrift_in(folder, "report .");
+    EXPECT_EQ(out.exit_code, 6) << summary << "\n" << out.err;
+    EXPECT_NE(out.err.find("summary.json is damaged"), std::string::npos) << out.err;
+  }
+}
+
 TEST(Page, SetsTheTargetBesideWhatWasAchievedAndTheAdvice) {
   const ScratchFolder folder;
   write_file(folder / "a.toml", small_case);
