@@ -18,6 +18,8 @@ class ScalarField {
   virtual void add(double t, const PointsView& x, double* values) const = 0;
   /// True if it does not depend on t.
   virtual bool is_steady() const = 0;
+  /// False if it or a derivative of it jumps somewhere.
+  virtual bool is_smooth() const = 0;
   /// Its formula.
   virtual std::string describe() const = 0;
 };
@@ -29,6 +31,7 @@ class WrittenScalar : public ScalarField {
   WrittenScalar(const std::string& text, int dimension, const std::vector<std::pair<std::string, double>>& params);
   void add(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override { return steady_; }
+  bool is_smooth() const override { return expression_.rough_spots().empty(); }
   std::string describe() const override { return expression_.text(); }
 
  private:

@@ -31,7 +31,7 @@ class VelocityField {
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
   /// True if calls for a few hundred points cost no more a point than one call for all of them.
   virtual bool evaluates_in_blocks() const { return true; }
-  /// What a value costs, roughly, in values of a short formula.
+  /// What a value costs, roughly, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
   /// Why u is not finite at x, and what can be done, for a message; empty where the field does not know more than that.
   virtual std::string why_not_finite(double /*t*/, const Vector& /*x*/) const { return ""; }

@@ -15,7 +15,7 @@ ExactPaths carry_exactly(const VelocityField& velocity, const ScalarField* rate,
   const auto dimension = static_cast<std::size_t>(particles.dimension);
   const std::size_t components = dimension + (rate ? 1 : 0);
   // A field with kinks asks for short steps at each; particles that share steps would all take them.
-  const std::size_t longest = velocity.is_smooth() ? 128 : 1;
+  const std::size_t longest = velocity.is_smooth() && (!rate || rate->is_smooth()) ? 128 : 1;
   const std::size_t blocks = (particles.size() + longest - 1) / longest;
   time::AdaptiveOptions bounds;
   bounds.most_steps = options.most_steps;

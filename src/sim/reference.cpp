@@ -63,7 +63,7 @@ class Characteristics : public Reference {
         lattice_(lattice),
         options_(options),
         components_(static_cast<std::size_t>(lattice.dimension) + (growth_ ? 1 : 0)),
-        block_length_(velocity.is_smooth() ? most_together : together_over_kinks) {
+        block_length_(options.smooth ? most_together : together_over_kinks) {
     const double longest = longest_side(lattice);
     // Coordinates far from the origin are rounded by more than the tolerance. A quarter of the domain at a time, so
     // that no step can fly over what is there.
@@ -127,10 +127,12 @@ class Characteristics : public Reference {
   static ReferenceReport sum_of(const std::vector<ReferenceReport>& reports) {
     ReferenceReport all;
     for (const ReferenceReport& report : reports) {
-      if (all.untraced == 0 && report.untraced > 0)
-        all = report;
-      else
-        all.untraced += report.untraced;
+      if (all.untraced == 0 && report.untraced > 0) {
+        all.first_untraced = report.first_untraced;
+        all.trouble = report.trouble;
+      }
+      all.untraced += report.untraced;
+      all.rates += report.rates;
     }
     return all;
   }
@@ -158,6 +160,8 @@ class Characteristics : public Reference {
     if (count > 1 && std::any_of(begun.begin(), begun.end(), [](double value) { return std::isnan(value); }))
       return trace_halves(state, begun, count, from, report);  // lost at an earlier output
     const time::AdaptiveResult result = time::integrate_adaptively(rate, from, 0, count, bounds_, state.data());
+    constexpr std::size_t stages = 12;
+    report.rates += stages * count * (result.steps + result.rejected);
     if (result.reached) return;
     // One point can keep the others from arriving; many steps are a property of all of them.
     if (count > 1 && !result.exhausted) return trace_halves(state, begun, count, from, report);

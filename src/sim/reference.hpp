@@ -26,6 +26,7 @@ struct ReferenceReport {
   std::size_t untraced = 0;  // points whose value is not known: NaN in the result
   Vector first_untraced{};   // one of them
   std::string trouble;       // and why
+  std::size_t rates = 0;     // evaluations of the velocity for one point, summed over all
 };
 
 class Reference {
@@ -44,6 +45,7 @@ using ScalarRate = std::function<void(double t, const PointsView& x, double* val
 
 struct CharacteristicsOptions {
   double tolerance = 1e-12;  // of a step: of the foot relative to the longest side of the lattice, and of the exponent
+  bool smooth = true;        // false: u or g has kinks; the path of every point then takes steps of its own
   bool steady = false;       // u and g do not depend on t: each output goes on from the feet of the one before
   double end = 0;            // of the run; without `steady` no step is longer than a 32nd of it
   std::size_t most_steps = 10'000;  // from one output to the next (not steady: to the start), taken or rejected

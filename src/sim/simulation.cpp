@@ -107,7 +107,8 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
           if (decay) decay->add(t, x, values);
         };
       return characteristics(*scene.velocity, *scene.density, growth, scene.evaluation,
-                             {.tolerance = scene.velocity->is_smooth() ? 1e-12 : 1e-9,  // short steps at every kink
+                             {.tolerance = has_smooth_paths(scene) ? 1e-12 : 1e-9,  // short steps at every kink
+                              .smooth = has_smooth_paths(scene),
                               .steady = scene.velocity->is_steady() && (!decay || decay->is_steady()),
                               .end = description.time.end,
                               .most_steps = 10'000 + total_steps(description),
@@ -117,15 +118,56 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
   return nullptr;
 }
 
-std::size_t most_compared(const Case& description, const Scene& scene) {
+bool has_smooth_paths(const Scene& scene) {
+  return scene.velocity->is_smooth() && (!scene.reaction_rate || scene.reaction_rate->is_smooth());
+}
+
+Work work_of(const Case& description, const Scene& scene, std::size_t particles) {
+  const time::Tableau& tableau = time::find_tableau(description.time.method);
+  // Steps that are chosen are not known here; some hundred are usual.
+  const double steps = time::is_adaptive(tableau) ? 200 : static_cast<double>(total_steps(description));
+  const auto n = static_cast<double>(particles), outputs = static_cast<double>(description.output.times.size());
+  // Measured: 0.2 us and 1 us of one core a particle or grid point in the sum of an output; 0.1 s of two cores a
+  // picture, 0.4 s for the first.
+  const double sum = description.domain.dimension == 2 ? 5 : 25, picture = 5e6, first = 2e7;
+  const double pictures = outputs * static_cast<double>(description.output.images.size());
+  return {n * steps * static_cast<double>(tableau.stages) * scene.velocity->cost(),
+          outputs * sum * (n + static_cast<double>(scene.evaluation.size())),
+          pictures > 0 ? first + picture * pictures : 0};
+}
+
+double work_of_exact_rate(const Scene& scene) {
+  return scene.velocity->cost() + 0.3 + (scene.reaction_rate ? 1 : 0) + (scene.velocity->is_solenoidal() ? 0 : 0.5);
+}
+
+std::size_t points_compared(const Case& description, const Scene& scene, std::size_t particles, int threads) {
   const auto has = [](const auto& list, auto item) { return std::find(list.begin(), list.end(), item) != list.end(); };
   const std::size_t whole = scene.evaluation.size();
   if (description.reference.points) return std::min(whole, static_cast<std::size_t>(*description.reference.points));
-  if (description.reference.kind != ReferenceSpec::Kind::characteristics ||
+  if (description.reference.kind != ReferenceSpec::Kind::characteristics || description.output.times.empty() ||
       has(description.output.images, OutputSpec::Image::error))
     return whole;
-  if (!scene.velocity->is_smooth()) return std::min<std::size_t>(whole, 256);
-  return has(description.output.vtk, OutputSpec::Vtk::density) ? whole : std::min<std::size_t>(whole, 4096);
+  if (!has_smooth_paths(scene)) return std::min<std::size_t>(whole, 256);
+  constexpr double share = 0.15, few = 2.5e6;
+  constexpr std::size_t enough = 4096, least = 1024, tried = 64;
+  const auto& times = description.output.times;
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < std::min(tried, whole); ++i) points.push_back((2 * i + 1) * whole / (2 * tried));
+  std::vector<double> ignored;
+  const ReferenceReport trial = make_reference(description, scene, threads)->evaluate_at(times.back(), points, ignored);
+  // Steady: the last output goes on from the feet of those before, if all points do; else each is traced to the start.
+  const double each = work_of_exact_rate(scene) * static_cast<double>(trial.rates) / static_cast<double>(points.size());
+  const double outputs = times.back() > 0 ? std::accumulate(times.begin(), times.end(), 0.0) / times.back() : 0.0;
+  const double allowed = std::max(few, share * work_of(description, scene, particles).total());
+  const bool steady = scene.velocity->is_steady() && (!scene.reaction_rate || scene.reaction_rate->is_steady());
+  if (has(description.output.vtk, OutputSpec::Vtk::density) &&
+      each * static_cast<double>(whole) * (steady ? 1.0 : outputs) <= allowed)
+    return whole;
+  const double affordable = outputs > 0 && each > 0 ? allowed / (each * outputs) : static_cast<double>(enough);
+  const bool shown = has(description.output.vtk, OutputSpec::Vtk::density);
+  return std::min(
+      whole,
+      std::max(least, static_cast<std::size_t>(std::min(affordable, static_cast<double>(shown ? whole : enough)))));
 }
 
 Particles seed_scene(const Scene& scene, int threads) {
@@ -164,6 +206,7 @@ void Simulation::prepare() {
   mass_at_start_ = std::accumulate(particles_.alpha.begin(), particles_.alpha.end(), 0.0);
   carrier_.begin(particles_);
   velocity_at_particles(0);
+  if (reference_) compared_ = points_compared(case_, scene_, particles_.size(), threads_);
 }
 
 // [j][dimension]. Throws NumericalError where the field is not finite.
@@ -222,15 +265,14 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   std::vector<double> exact;
   if (reference_) {
     summary.stages.run("reference", [&] {
-      const std::size_t most = most_compared(case_, scene_);
       ReferenceReport traced;
-      if (most >= density.rho.size()) {
+      if (compared_ >= density.rho.size()) {
         traced = reference_->evaluate(time, exact);
         frame.exact = &exact;
         frame.numbers.error = compare(density.rho, exact);
         frame.numbers.compared = density.rho.size();
       } else {
-        const GridSample sample = sample_of_grid(scene_.evaluation, density.rho, most);
+        const GridSample sample = sample_of_grid(scene_.evaluation, density.rho, compared_);
         traced = reference_->evaluate_at(time, sample.points, exact);
         frame.numbers.error = compare(density.rho, sample, exact);
         frame.numbers.compared = sample.points.size();

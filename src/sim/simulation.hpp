@@ -44,11 +44,25 @@ Scene make_scene(const Case& description, int threads = 0);
 /// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.
 std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads);
 
-/// Grid points of an output that are compared with the reference, at most; those of the grid where it is compared as a
-/// whole: where the case gives no reference.points and a picture shows the error, or the reference is a formula, or
-/// density files are written and the velocity is smooth. Else 4096, and 256 where the velocity is not smooth, for then
-/// a point costs milliseconds.
-std::size_t most_compared(const Case& description, const Scene& scene);
+/// False where the velocity or a rate of reaction has kinks: integrators of high order step finely at each.
+bool has_smooth_paths(const Scene& scene);
+
+/// What a run does, in evaluations of a velocity with a sine or two: some 40 ns of one core. Counted, not timed,
+/// so that what is decided by it does not depend on the machine.
+struct Work {
+  double transport = 0, density = 0, pictures = 0;
+  double total() const { return transport + density + pictures; }
+};
+Work work_of(const Case& description, const Scene& scene, std::size_t particles);
+
+/// The same for one evaluation on an exact path, with what its integrator adds to it.
+double work_of_exact_rate(const Scene& scene);
+
+/// Grid points of an output that are compared with the reference: reference.points if the case has it; all if a picture
+/// shows the error or the reference is a formula; 256 where paths are not smooth, for then a point costs milliseconds;
+/// else all if density files are written and that takes 15 % of the work of the run at most (or a tenth of a
+/// second), and as many as that allows if not, at least 1024. Where no file shows it, at most 4096.
+std::size_t points_compared(const Case& description, const Scene& scene, std::size_t particles, int threads);
 
 /// Particles of the scene at t = 0. Throws NumericalError where rho_0 is not finite, InputError if it is 0 everywhere.
 Particles seed_scene(const Scene& scene, int threads);
@@ -125,6 +139,7 @@ class Simulation {
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
   double seed_seconds_ = 0, mass_at_start_ = 0;
+  std::size_t compared_ = 0;  // grid points an output
   std::vector<std::unique_ptr<Observer>> observers_;
   std::function<void(const Progress&)> progress_;
   base::Stopwatch watch_;

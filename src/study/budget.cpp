@@ -18,9 +18,9 @@ namespace gaussdrift::study {
 
 namespace {
 
-// Of a run's own evaluations of the velocity as many may go into telling its errors apart: an exact path costs about
-// four times as much an evaluation as the steps, so this is about a sixth. And a few always: a tenth of a second.
-constexpr double share = 0.04, few_rates = 6e6;
+// Of a run's work this much may go into telling its errors apart afterwards, and this much into predicting them; and a
+// tenth of a second always.
+constexpr double share_measured = 0.09, share_predicted = 0.05, few = 2.5e6;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-14;  // no cause is told to be smaller
@@ -32,11 +32,11 @@ double extent(const Case& description) {
   return longest;
 }
 
-/// Beyond this distance a blob adds less than 1e-14 of its height.
-double reach_of(const Cutoff& cutoff) {
+/// Beyond `widths` of the widest Gaussian nothing is summed: 5 leave 1e-11 of a blob's height, 6 leave 1e-15.
+double reach_of(const Cutoff& cutoff, double widths) {
   double widest = 0;
   for (const CutoffTerm& term : cutoff) widest = std::max(widest, term.width);
-  return 6 * widest;
+  return widths * widest;
 }
 
 Vector grid_point(const Lattice& lattice, std::size_t index) {
@@ -109,22 +109,37 @@ Particles at_start(const Particles& particles, const std::vector<std::size_t>& c
   return start;
 }
 
-/// The same blobs on a lattice twice as fine: every particle becomes 2^d, a quarter of a spacing aside.
-Particles refined(const Particles& start, const Scene& scene) {
-  Particles fine;
-  fine.dimension = start.dimension;
-  const double aside = scene.seeding.spacing / 4;
-  for (std::size_t j = 0; j < start.size(); ++j)
+/// The same blobs half a spacing aside on every axis: one in each cell of the lattice that has one of `start` at a
+/// corner.
+Particles between(const Particles& start, const Scene& scene) {
+  const Lattice& lattice = scene.seeding;
+  std::vector<std::size_t> cells;  // cell i of an axis is left of lattice point i; there is one more than points
+  for (const auto id : start.id)
     for (int corner = 0; corner < (1 << start.dimension); ++corner) {
-      for (int k = 0; k < start.dimension; ++k)
-        fine.position[k].push_back(start.position[k][j] + (corner >> k & 1 ? aside : -aside));
-      fine.id.push_back(start.id[j]);
+      std::size_t rest = static_cast<std::size_t>(id), cell = 0, stride = 1;
+      for (int k = 0; k < start.dimension; ++k) {
+        cell += stride * (rest % lattice.points[k] + static_cast<std::size_t>(corner >> k & 1));
+        rest /= lattice.points[k];
+        stride *= lattice.points[k] + 1;
+      }
+      cells.push_back(cell);
     }
-  fine.alpha.assign(fine.id.size(), 0.0);
-  scene.density->add(fine.view(), fine.alpha.data());
-  const double cell = std::pow(scene.seeding.spacing / 2, start.dimension);
-  for (double& alpha : fine.alpha) alpha *= cell;
-  return fine;
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  Particles moved;
+  moved.dimension = start.dimension;
+  for (std::size_t cell : cells) {
+    for (int k = 0; k < start.dimension; ++k) {
+      moved.position[k].push_back(lattice.coordinate(k, cell % (lattice.points[k] + 1)) - lattice.spacing / 2);
+      cell /= lattice.points[k] + 1;
+    }
+    moved.id.push_back(0);
+  }
+  moved.alpha.assign(cells.size(), 0.0);
+  scene.density->add(moved.view(), moved.alpha.data());
+  const double volume = std::pow(lattice.spacing, start.dimension);
+  for (double& alpha : moved.alpha) alpha *= volume;
+  return moved;
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -237,23 +252,77 @@ std::vector<std::string> higher_cutoffs(const Case& description) {
   return names;
 }
 
-/// Smoothing and quadrature at the probes: sums with exact paths on the lattice (`coarse`) and on one twice as fine.
+/// How particles are carried to the last output when causes are told apart.
+struct Carrying {
+  bool exactly = true;        // else by steps of the case, `factor` times as long
+  ExactPathsOptions paths{};  // exactly
+  double factor = 1;
+};
+
+void carry_by_steps(const Case& description, const Scene& scene, Particles& particles, double factor, int threads) {
+  Case longer = description;
+  longer.time.step *= factor;
+  if (time::is_adaptive(time::find_tableau(longer.time.method))) longer.time.tolerance *= std::pow(factor, 5);
+  Carrier carrier(longer, scene, threads);
+  carrier.begin(particles);
+  base::StageTimes ignored;
+  double now = 0;
+  std::size_t steps = 0;
+  const double last = description.output.times.back();
+  for (const double to : landings(description)) {
+    if (to > last) break;
+    steps += carrier.carry(particles, now, to, steps, ignored, [](double, std::size_t) {});
+    now = to;
+  }
+}
+
+/// False if some path could not be followed.
+bool carry(const Case& description, const Scene& scene, const Carrying& how, Particles& particles) {
+  if (how.exactly)
+    return carry_exactly(*scene.velocity, scene.reaction_rate.get(), particles, 0, description.output.times.back(),
+                         how.paths)
+               .lost == 0;
+  carry_by_steps(description, scene, particles, how.factor, how.paths.threads);
+  return true;
+}
+
+/// What halving the steps changes, times this, is their error; past a kink a method is of order 2 at most.
+double of_halved_steps(const Case& description, const Scene& scene) {
+  const int order = time::find_tableau(description.time.method).time_order;
+  return 1 / (1 - std::pow(0.5, has_smooth_paths(scene) ? order : std::min(order, 2)));
+}
+
+constexpr const char* lost_paths = "the paths of some particles could not be followed";
+
+using Better = std::vector<std::pair<std::string, double>>;
+
+/// The smoothing of cutoffs of higher order, of the same width.
+Better smoothing_of_others(const Case& description, const Scene& scene, const std::vector<Probe>& probes,
+                           const Particles& particles, double norm, int threads) {
+  Better better;
+  for (const std::string& name : higher_cutoffs(description)) {
+    const Cutoff cutoff = make_cutoff(name, particles.dimension, scene.core_radius, description.particles.width_ratio);
+    better.emplace_back(name, largest_difference(sums_at(probes, particles, cutoff, threads), exact_of(probes)) / norm);
+  }
+  return better;
+}
+
+/// Smoothing and quadrature at the probes: sums over the lattice (`sums`, of particles that began at `start`) and over
+/// the same lattice half a spacing aside. What a lattice does wrong changes its sign there but for what both have in
+/// common, which is far smaller; so their mean is the integral, and half their difference the error.
 void tell_smoothing_and_quadrature(const Case& description, const Scene& scene, const std::vector<Probe>& probes,
-                                   const Particles& start, const std::vector<double>& coarse, double time, double norm,
-                                   const ExactPathsOptions& paths, Budget& budget,
-                                   std::vector<std::pair<std::string, double>>& better) {
-  Particles fine = refined(start, scene);
-  if (carry_exactly(*scene.velocity, scene.reaction_rate.get(), fine, 0, time, paths).lost > 0) {
-    budget.not_covered = "the paths of some particles could not be followed";
+                                   const Particles& start, std::vector<double> sums, double norm, const Carrying& how,
+                                   Budget& budget, Better& better) {
+  Particles aside = between(start, scene);
+  if (!carry(description, scene, how, aside)) {
+    budget.not_covered = lost_paths;
     return;
   }
-  const std::vector<double> exact = exact_of(probes), smooth = sums_at(probes, fine, scene.cutoff, paths.threads);
-  budget.quadrature = std::max(rounding, largest_difference(coarse, smooth) / norm);
-  budget.smoothing = std::max(rounding, largest_difference(smooth, exact) / norm);
-  for (const std::string& name : higher_cutoffs(description)) {
-    const Cutoff cutoff = make_cutoff(name, start.dimension, scene.core_radius, description.particles.width_ratio);
-    better.emplace_back(name, largest_difference(sums_at(probes, fine, cutoff, paths.threads), exact) / norm);
-  }
+  const std::vector<double> other = sums_at(probes, aside, scene.cutoff, how.paths.threads);
+  budget.quadrature = std::max(rounding, largest_difference(sums, other) / 2 / norm);
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = (sums[i] + other[i]) / 2;
+  budget.smoothing = std::max(rounding, largest_difference(sums, exact_of(probes)) / norm);
+  better = smoothing_of_others(description, scene, probes, aside, norm, how.paths.threads);
 }
 
 /// Every `stride`-th lattice point on each axis, weights scaled.
@@ -275,27 +344,22 @@ Particles thinned(const Particles& particles, const Lattice& lattice, std::size_
   return thin;
 }
 
-/// The paths by the steps of the case, `factor` times as long; weights stay, as their own error is of the same order.
-void carry_by_steps(const Case& description, const Scene& scene, Particles& particles, double factor, int threads) {
-  Case transport = description;
-  transport.effects = {};
-  transport.time.step *= factor;
-  Carrier carrier(transport, scene, threads);
-  base::StageTimes ignored;
-  double now = 0;
-  std::size_t steps = 0;
-  const double last = description.output.times.back();
-  for (const double to : landings(description)) {
-    if (to > last) break;
-    steps += carrier.carry(particles, now, to, steps, ignored, [](double, std::size_t) {});
-    now = to;
+Particles picked(const Particles& particles, const std::vector<std::size_t>& chosen) {
+  Particles some;
+  some.dimension = particles.dimension;
+  for (const std::size_t j : chosen) {
+    for (int k = 0; k < particles.dimension; ++k) some.position[k].push_back(particles.position[k][j]);
+    some.alpha.push_back(particles.alpha[j]);
+    some.id.push_back(particles.id[j]);
   }
+  return some;
 }
 
 double predict_time_stepping(const Case& description, const Scene& scene, const Particles& seeded,
                              const std::vector<Probe>& places, double norm, const ExactPathsOptions& paths) {
   const time::Tableau& tableau = time::find_tableau(description.time.method);
   const double time = description.output.times.back();
+  const bool smooth_paths = has_smooth_paths(scene);
   std::size_t stride = 1;
   Particles thin = seeded;
   // As long as the blobs still overlap.
@@ -306,7 +370,7 @@ double predict_time_stepping(const Case& description, const Scene& scene, const 
   double factor = 1;
   constexpr double affordable = 4e7;  // particles times steps times stages: a fifth of a second on a core
   const auto steps = static_cast<double>(total_steps(description));
-  if (!time::is_adaptive(tableau))
+  if (!time::is_adaptive(tableau) && smooth_paths)
     while (static_cast<double>(thin.size()) * steps * tableau.stages / factor > affordable &&
            2 * factor * description.time.step < time / 16 &&
            estimate_stable_step(*scene.velocity, thin, tableau, description.time.end,
@@ -315,34 +379,87 @@ double predict_time_stepping(const Case& description, const Scene& scene, const 
       factor *= 2;
   Particles stepped = thin, followed = thin;
   carry_by_steps(description, scene, stepped, factor, paths.threads);
-  ExactPathsOptions exact = paths;
-  exact.tolerance = scene.velocity->is_smooth() ? 1e-13 : 1e-10;
-  if (carry_exactly(*scene.velocity, nullptr, followed, 0, time, exact).lost > 0) return nan;
-  const double changed = largest_difference(sums_at(places, stepped, scene.cutoff, paths.threads),
-                                            sums_at(places, followed, scene.cutoff, paths.threads));
+  Carrying better{.exactly = smooth_paths, .paths = paths, .factor = 0.5};
+  better.paths.tolerance = 1e-13;
+  if (!carry(description, scene, better, followed)) return nan;
+  double changed = largest_difference(sums_at(places, stepped, scene.cutoff, paths.threads),
+                                      sums_at(places, followed, scene.cutoff, paths.threads));
+  if (!smooth_paths) changed *= of_halved_steps(description, scene);
   return std::max(rounding, changed / norm * std::pow(factor, -tableau.time_order));
 }
 
-/// Evaluations of the velocity for one particle that the run's steps take.
-double rates_of_run(const Case& description, std::size_t particles) {
-  const time::Tableau& tableau = time::find_tableau(description.time.method);
-  // Steps that are chosen are not known here; some hundred are usual.
-  const double steps = time::is_adaptive(tableau) ? 200 : static_cast<double>(total_steps(description));
-  return static_cast<double>(particles) * steps * tableau.stages;
+/// Evaluations of the velocity of one particle in all steps.
+double rates_of_steps(const Case& description, const Scene& scene) {
+  return work_of(description, scene, 1).transport / scene.velocity->cost();
 }
 
-double rates_allowed(const Case& description, const Scene& scene, std::size_t particles) {
-  return std::max(share * rates_of_run(description, particles), few_rates / scene.velocity->cost());
+double work_allowed(const Case& description, const Scene& scene, std::size_t particles, double share) {
+  return std::max(few, share * work_of(description, scene, particles).total());
 }
 
-/// Evaluations that an exact path takes, from a few of them.
-double rates_of_a_path(const Scene& scene, const Particles& particles, double time, const ExactPathsOptions& options) {
-  std::vector<std::size_t> few;
-  const std::size_t wanted = std::min<std::size_t>(scene.velocity->is_smooth() ? 32 : 4, particles.size());
-  for (std::size_t i = 0; i < wanted; ++i) few.push_back(i * particles.size() / wanted);
-  Particles trial = at_start(particles, few, scene);
-  const ExactPaths paths = carry_exactly(*scene.velocity, scene.reaction_rate.get(), trial, 0, time, options);
-  return std::max(1.0, static_cast<double>(paths.rates) / static_cast<double>(wanted));
+/// Work of carrying one particle, exactly: from a few of them.
+double work_of_a_path(const Case& description, const Scene& scene, const Particles& particles, const Carrying& how) {
+  if (!how.exactly) return rates_of_steps(description, scene) * scene.velocity->cost() / how.factor;
+  std::vector<std::size_t> some;
+  const std::size_t wanted = std::min<std::size_t>(32, particles.size());
+  for (std::size_t i = 0; i < wanted; ++i) some.push_back(i * particles.size() / wanted);
+  Particles trial = at_start(particles, some, scene);
+  const ExactPaths paths =
+      carry_exactly(*scene.velocity, scene.reaction_rate.get(), trial, 0, description.output.times.back(), how.paths);
+  return std::max(1.0, static_cast<double>(paths.rates) / static_cast<double>(wanted)) * work_of_exact_rate(scene);
+}
+
+/// How the causes are told apart at the probes after a run.
+struct Telling {
+  double widths = 5;       // of the Gaussian, that count as near a probe
+  std::size_t stride = 1;  // of the lattice points whose exact paths tell the time stepping
+  Carrying sharp{};        // of those
+  Carrying moved{};        // of the lattice half a spacing aside
+  std::vector<Probe> probes{};
+  std::vector<std::size_t> around{};
+};
+
+/// The sharpest whose work is allowed: many probes rather than one, all paths at 3e-14 rather than some at 1e-10 or by
+/// shorter steps. None if that of one probe is not.
+std::optional<Telling> choose_telling(const Case& description, const Scene& scene, const Particles& particles,
+                                      const std::vector<Probe>& places, Effort effort, const ExactPathsOptions& paths) {
+  const auto overlaps = std::max<std::size_t>(1, static_cast<std::size_t>(description.particles.overlap / 1.5));
+  const bool smooth = has_smooth_paths(scene);
+  const Carrying steps{.exactly = false, .paths = paths};
+  Carrying halves = steps;
+  halves.factor = 0.5;
+  const double allowed = effort == Effort::whatever
+                             ? std::numeric_limits<double>::infinity()
+                             : work_allowed(description, scene, particles.size(), share_measured);
+  const double step_work = work_of_a_path(description, scene, particles, steps);
+  struct Way {
+    double widths;
+    std::size_t stride;
+    double tolerance;  // of exact paths; 0: by steps half as long
+  };
+  std::vector<Way> ways{{6, 1, 3e-14}, {5, 1, 1e-10}, {5, overlaps, 1e-10}, {4, overlaps, 0}};
+  if (!smooth) ways = {{6, 1, 0}, {5, 1, 0}, {4, overlaps, 0}};  // an exact path through kinks is dear
+  std::vector<Telling> tellings;
+  std::vector<std::array<double, 2>> work;  // of a particle near a probe; of one aside
+  for (const Way& way : ways) {
+    Carrying sharp = halves;
+    if (way.tolerance > 0) {
+      sharp = {.exactly = true, .paths = paths};
+      sharp.paths.tolerance = way.tolerance;
+    }
+    const double exact_work = work_of_a_path(description, scene, particles, sharp);
+    tellings.push_back({way.widths, way.stride, sharp, sharp.exactly && exact_work < step_work ? sharp : steps});
+    work.push_back({exact_work / std::pow(way.stride, particles.dimension), std::min(exact_work, step_work)});
+  }
+  for (const std::size_t least : {std::min<std::size_t>(2, places.size()), std::size_t{1}})
+    for (std::size_t i = 0; i < tellings.size(); ++i) {
+      Telling& telling = tellings[i];
+      for (telling.probes = places; telling.probes.size() >= least; telling.probes.pop_back()) {
+        telling.around = near(telling.probes, particles, reach_of(scene.cutoff, telling.widths));
+        if (static_cast<double>(telling.around.size()) * (work[i][0] + work[i][1]) <= allowed) return telling;
+      }
+    }
+  return std::nullopt;
 }
 
 std::unique_ptr<Reference> exact_density(const Case& description, const Scene& scene, int threads) {
@@ -369,78 +486,68 @@ Budget predict_budget(const Case& description, const Scene& scene, Effort effort
   budget.not_covered = budget_not_covered(description);
   if (!budget.known()) return budget;
   const double time = description.output.times.back();
-  const bool smooth_paths = scene.velocity->is_smooth();
-  ExactPathsOptions paths{.tolerance = smooth_paths ? 1e-8 : 1e-6, .length = extent(description), .threads = threads};
+  const bool smooth_paths = has_smooth_paths(scene);
+  const ExactPathsOptions paths{.tolerance = 1e-8, .length = extent(description), .threads = threads};
+  // A path through kinks is dear: then by the steps of the case.
+  const Carrying how{.exactly = smooth_paths, .paths = paths};
 
   const Particles seeded = seed_scene(scene, threads);
   if (effort == Effort::share_of_run &&
-      static_cast<double>(seeded.size()) * 2 * rates_of_a_path(scene, seeded, time, paths) >
-          rates_allowed(description, scene, seeded.size())) {
-    budget.not_covered = "it would cost more than a fifth of the run; `check` predicts it";
+      static_cast<double>(seeded.size() * 2 + 2048) * 1.3 * work_of_a_path(description, scene, seeded, how) >
+          work_allowed(description, scene, seeded.size(), share_predicted)) {
+    budget.not_covered = "it would cost more than a tenth of the run; `check` predicts it";
     return budget;
   }
-  Particles carried = seeded;
-  if (smooth_paths) {
-    if (carry_exactly(*scene.velocity, scene.reaction_rate.get(), carried, 0, time, paths).lost > 0)
-      budget.not_covered = "the paths of some particles could not be followed";
-  } else {  // a path through kinks is dear: all by the steps of the case, only those near the probes exactly
-    carry_by_steps(description, scene, carried, 1, threads);
+  Particles carried = seeded, aside = between(seeded, scene);
+  if (!carry(description, scene, how, carried) || !carry(description, scene, how, aside)) {
+    budget.not_covered = lost_paths;
+    return budget;
   }
-  if (!budget.known()) return budget;
-  const DensityGrid density = evaluate_density(carried, scene.cutoff, scene.evaluation,
-                                               {.tolerance = 1e-10, .threads = threads, .measure = false});
-  const GridSample sample = sample_of_grid(scene.evaluation, density.rho, smooth_paths ? 2048 : 128);
-  std::vector<double> exact, rho;
+  const auto summed = [&](const Particles& particles, const Cutoff& cutoff) {
+    return evaluate_density(particles, cutoff, scene.evaluation,
+                            {.tolerance = 1e-10, .threads = threads, .measure = false})
+        .rho;
+  };
+  const std::vector<double> density = summed(carried, scene.cutoff), other = summed(aside, scene.cutoff);
+  const GridSample sample = sample_of_grid(scene.evaluation, density, smooth_paths ? 2048 : 128);
+  std::vector<double> exact;
   exact_density(description, scene, threads)->evaluate_at(time, sample.points, exact);
-  for (const std::size_t point : sample.points) rho.push_back(density.rho[point]);
-  double norm = 0;
-  for (const double value : exact)
-    if (std::isfinite(value)) norm = std::max(norm, std::abs(value));
+  const auto farthest = [&](const auto& value) {  // from the exact density, over the sample
+    double worst = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      if (std::isfinite(exact[i])) worst = std::max(worst, std::abs(value(sample.points[i]) - exact[i]));
+    return worst;
+  };
+  const double norm = farthest([](std::size_t) { return 0.0; });
   if (!(norm > 0)) {
     budget.not_covered = "the exact density is not known, or 0, at the last output";
     return budget;
   }
-
-  const bool flat = scene.evaluation.dimension == 2;
-  std::vector<Probe> probes = choose_probes(scene.evaluation, sample.points, rho, exact, 3 * scene.core_radius,
-                                            smooth_paths ? (flat ? 6 : 2) : 1);
-  std::vector<std::size_t> around = near(probes, carried, reach_of(scene.cutoff));
-  while (around.size() > 60'000 && probes.size() > 1) {
-    probes.pop_back();
-    around = near(probes, carried, reach_of(scene.cutoff));
-  }
-  budget.probes = probes.size();
-  const Particles start = at_start(carried, around, scene);
-  std::vector<double> coarse;
-  if (smooth_paths) {
-    for (const Probe& probe : probes) coarse.push_back(density.rho[probe.index]);
-  } else {
-    Particles followed = start;
-    carry_exactly(*scene.velocity, scene.reaction_rate.get(), followed, 0, time, paths);
-    coarse = sums_at(probes, followed, scene.cutoff, threads);
-  }
-  std::vector<std::pair<std::string, double>> better;
-  tell_smoothing_and_quadrature(description, scene, probes, start, coarse, time, norm, paths, budget, better);
-  if (!budget.known()) return budget;
-
-  double worst = 0;
-  for (std::size_t i = 0; i < rho.size(); ++i)
-    if (std::isfinite(exact[i])) worst = std::max(worst, std::abs(rho[i] - exact[i]) / norm);
+  budget.probes = sample.points.size();
+  budget.quadrature = std::max(rounding, largest_difference(density, other) / 2 / norm);
+  budget.smoothing = std::max(rounding, farthest([&](std::size_t i) { return (density[i] + other[i]) / 2; }) / norm);
+  const double worst = farthest([&](std::size_t i) { return density[i]; }) / norm;
   budget.total = worst;
   if (causes == Causes::lattice) return budget;
 
-  std::vector<Probe> places = probes;  // for the steps: also the sample where there is density
-  for (std::size_t i = 0; i < sample.points.size() && places.size() < 200; i += smooth_paths ? 3 : 1)
-    if (std::abs(rho[i]) > 1e-6 * norm)
+  std::vector<Probe> places;  // for the steps: where there is density
+  for (std::size_t i = 0; i < sample.points.size(); ++i)
+    if (std::abs(density[sample.points[i]]) > 1e-6 * norm)
       places.push_back({sample.points[i], grid_point(scene.evaluation, sample.points[i]), exact[i]});
   budget.time_stepping = predict_time_stepping(description, scene, seeded, places, norm, paths);
   if (std::isnan(budget.time_stepping)) {
-    budget.not_covered = "the paths of some particles could not be followed";
+    budget.not_covered = lost_paths;
     return budget;
   }
   budget.transform = description.evaluate.tolerance;
   budget.total = worst + budget.time_stepping + budget.transform;
   find_dominating(budget);
+  Better better;
+  for (const std::string& name : higher_cutoffs(description)) {
+    const Cutoff cutoff = make_cutoff(name, seeded.dimension, scene.core_radius, description.particles.width_ratio);
+    const std::vector<double> sharper = summed(carried, cutoff);
+    better.emplace_back(name, farthest([&](std::size_t i) { return sharper[i]; }) / norm);
+  }
   give_advice(description, scene, seeded, better, budget);
   return budget;
 }
@@ -462,9 +569,7 @@ Budget measure_budget(const Case& description, const Scene& scene, const LastFra
   if (budget.known() && !last.any) budget.not_covered = "there was no output";
   if (budget.known() && last.particles.size() == 0) budget.not_covered = "no particle carries weight";
   if (!budget.known()) return budget;
-  const bool smooth_paths = scene.velocity->is_smooth();
-  const ExactPathsOptions paths{
-      .tolerance = smooth_paths ? 3e-14 : 1e-8, .length = extent(description), .threads = threads};
+  const bool smooth_paths = has_smooth_paths(scene);
   const std::vector<double>& rho = last.density.rho;
 
   std::vector<std::size_t> points;
@@ -491,41 +596,36 @@ Budget measure_budget(const Case& description, const Scene& scene, const LastFra
   }
   budget.total = last.numbers.error ? last.numbers.error->linf : worst / norm;
 
-  std::vector<Probe> probes =
-      choose_probes(scene.evaluation, points, values, exact, 3 * scene.core_radius, smooth_paths ? 6 : 1);
-  const double reach = reach_of(scene.cutoff);
-  std::vector<std::size_t> around = near(probes, last.particles, reach);
-  if (effort == Effort::share_of_run) {
-    // What is followed: the particles around a probe, and 2^d times as many between them.
-    const double allowed = rates_allowed(description, scene, last.particles.size()) /
-                           rates_of_a_path(scene, last.particles, last.time, paths) /
-                           (1 + (1 << last.particles.dimension));
-    while (static_cast<double>(around.size()) > allowed && !probes.empty()) {
-      probes.pop_back();
-      around = near(probes, last.particles, reach);
-    }
-    if (probes.empty()) {
-      budget.not_covered = "it would cost more than a fifth of the run; accuracy.budget = \"measured\" measures it";
-      return budget;
-    }
-  }
-  budget.probes = probes.size();
-  const Particles start = at_start(last.particles, around, scene);
-  Particles followed = start, ran;
-  ran.dimension = start.dimension;
-  for (const std::size_t j : around) {
-    for (int k = 0; k < ran.dimension; ++k) ran.position[k].push_back(last.particles.position[k][j]);
-    ran.alpha.push_back(last.particles.alpha[j]);
-  }
-  if (carry_exactly(*scene.velocity, scene.reaction_rate.get(), followed, 0, last.time, paths).lost > 0) {
-    budget.not_covered = "the paths of some particles could not be followed";
+  const std::vector<Probe> places = choose_probes(scene.evaluation, points, values, exact, 3 * scene.core_radius, 6);
+  const ExactPathsOptions paths{.length = extent(description), .threads = threads};
+  const std::optional<Telling> chosen = choose_telling(description, scene, last.particles, places, effort, paths);
+  if (!chosen) {
+    budget.not_covered = "it would cost more than a tenth of the run; accuracy.budget = \"measured\" measures it";
     return budget;
   }
-  const std::vector<double> exactly = sums_at(probes, followed, scene.cutoff, threads);
-  budget.time_stepping =
-      std::max(rounding, largest_difference(sums_at(probes, ran, scene.cutoff, threads), exactly) / norm);
-  std::vector<std::pair<std::string, double>> better;
-  tell_smoothing_and_quadrature(description, scene, probes, start, exactly, last.time, norm, paths, budget, better);
+  const std::vector<Probe>& probes = chosen->probes;
+  budget.probes = probes.size();
+  const Particles ran = picked(last.particles, chosen->around);
+  const std::vector<double> by_steps = sums_at(probes, ran, scene.cutoff, threads);
+  const Particles ran_thin = chosen->stride > 1 ? thinned(ran, scene.seeding, chosen->stride) : ran;
+  std::vector<std::size_t> all(ran_thin.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  Particles followed = at_start(ran_thin, all, scene);
+  const double cells = std::pow(static_cast<double>(chosen->stride), followed.dimension);
+  for (double& alpha : followed.alpha) alpha *= cells;
+  if (!carry(description, scene, chosen->sharp, followed)) {
+    budget.not_covered = lost_paths;
+    return budget;
+  }
+  std::vector<double> exactly = sums_at(probes, followed, scene.cutoff, threads);
+  const std::vector<double> stepped = sums_at(probes, ran_thin, scene.cutoff, threads);
+  budget.time_stepping = largest_difference(exactly, stepped) / norm;
+  if (!chosen->sharp.exactly) budget.time_stepping *= of_halved_steps(description, scene);
+  budget.time_stepping = std::max(rounding, budget.time_stepping);
+  for (std::size_t i = 0; i < exactly.size(); ++i) exactly[i] += by_steps[i] - stepped[i];
+  Better better;
+  tell_smoothing_and_quadrature(description, scene, probes, at_start(last.particles, chosen->around, scene),
+                                chosen->moved.exactly ? exactly : by_steps, norm, chosen->moved, budget, better);
   if (!budget.known()) return budget;
   budget.transform = last.numbers.transform_error;
   find_dominating(budget);

@@ -96,11 +96,11 @@ double time_steps(const Case& description, Carrier& carrier, const Particles& pa
 }
 
 // Seconds of the reference of all outputs, from tracing some points spread over the grid to the last one.
-double time_reference(const Case& description, const Scene& scene, int threads) {
+double time_reference(const Case& description, const Scene& scene, std::size_t all, int threads) {
   if (description.reference.kind == ReferenceSpec::Kind::none) return 0;
   const auto reference = make_reference(description, scene, threads);
   const auto& times = description.output.times;
-  const std::size_t all = most_compared(description, scene), most = scene.velocity->is_smooth() ? 2048 : 24;
+  const std::size_t most = has_smooth_paths(scene) ? 2048 : 24;
   std::vector<std::size_t> points;
   for (std::size_t i = 0; i < std::min(all, most); ++i)
     points.push_back(
@@ -201,7 +201,10 @@ Description describe(const Case& description, int threads) {
     predict_chosen_steps(description, scene, particles, threads, result);
   else
     result.step_seconds = time_steps(description, carrier, particles);
-  result.reference_seconds = time_reference(description, scene, threads);
+  const std::size_t compared_points = description.reference.kind == ReferenceSpec::Kind::none
+                                          ? 0
+                                          : points_compared(description, scene, particles.size(), threads);
+  result.reference_seconds = time_reference(description, scene, compared_points, threads);
   result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
 
   const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
@@ -217,8 +220,7 @@ Description describe(const Case& description, int threads) {
   // Numbers are written as base64, four letters for three bytes; with the error beside rho, three arrays instead of
   // one.
   constexpr double base64 = 4. / 3;
-  const bool compared = description.reference.kind != ReferenceSpec::Kind::none &&
-                        most_compared(description, scene) >= result.grid_points;
+  const bool compared = compared_points >= result.grid_points;
   if (wants(description, OutputSpec::Vtk::density))
     result.disk_bytes += frames * (base64 * 8 * m * (compared ? 3 : 1) + 1500);
   if (wants(description, OutputSpec::Vtk::particles)) result.disk_bytes += frames * (base64 * 8 * n * 9 + 2500);

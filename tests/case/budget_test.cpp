@@ -101,6 +101,7 @@ TEST(Budget, IsPredictedWithinAFactorOfThreeForSmoothCases) {
     EXPECT_GT(largest(before), largest(after.budget) / 3) << smooth.name;
     // Upper bounds, but for what is found at other points of the grid.
     EXPECT_GT(before.time_stepping, after.budget.time_stepping / 3) << smooth.name;
+    EXPECT_GT(before.quadrature, 0.9 * after.budget.quadrature) << smooth.name;
     EXPECT_GT(before.transform, after.budget.transform) << smooth.name;
   }
 }
@@ -113,6 +114,34 @@ TEST(Budget, IsTheSameForAnyThreads) {
   EXPECT_EQ(one.quadrature, two.quadrature);
   EXPECT_EQ(one.time_stepping, two.time_stepping);
   EXPECT_EQ(one.probes, two.probes);
+}
+
+// Paths through kinks are not followed exactly, but by the run's own method with half the step.
+TEST(Budget, IsToldWhereARateJumps) {
+  const Case scene = built_in("stiff_reaction", {"evaluate.per_axis=61"});
+  const Budget before = predicted(scene);
+  const Ran after = measured(scene, Effort::share_of_run);
+  ASSERT_TRUE(before.known()) << before.not_covered;
+  ASSERT_TRUE(after.budget.known()) << after.budget.not_covered;
+  EXPECT_EQ(before.dominates, "smoothing");
+  EXPECT_EQ(after.budget.dominates, "smoothing");
+  EXPECT_GT(before.total, after.linf / 3);
+  EXPECT_LT(before.total, after.linf * 3);
+}
+
+// What is compared follows from counted work, so from the case alone.
+TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
+  const auto compared = [](const std::string& name, const std::vector<std::string>& overrides) {
+    const Case scene = built_in(name, overrides);
+    const Scene parts = make_scene(scene);
+    return static_cast<double>(points_compared(scene, parts, seed_scene(parts, 0).size(), 0)) /
+           static_cast<double>(parts.evaluation.size());
+  };
+  EXPECT_EQ(compared("rotating_cone", {}), 1);
+  EXPECT_EQ(compared("zalesak", {}), 1);
+  EXPECT_EQ(compared("swirl", {"particles.per_axis=300"}), 1);      // has a picture of the error
+  EXPECT_LT(compared("enright", {"particles.per_axis=100"}), 0.1);  // long paths, few steps
+  EXPECT_LT(compared("rotating_cone", {"reference.points=100"}), 0.01);
 }
 
 TEST(Budget, SaysWhatItDoesNotCover) {

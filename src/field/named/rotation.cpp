@@ -20,6 +20,7 @@ class Rotation : public SolenoidalField {
       uy[i] += rate * dx;
     }
   }
+  double cost() const override { return 0.1; }
   bool is_steady() const override { return true; }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
     const double angle = rate_ * (to - from), c = std::cos(angle), s = std::sin(angle);

@@ -13,6 +13,7 @@ class Shear : public SolenoidalField {
   void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
     for (std::size_t i = 0; i < x.count; ++i) u.axis[0][i] += rate_ * (x.axis[1][i] - middle_);
   }
+  double cost() const override { return 0.1; }
   bool is_steady() const override { return true; }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
     return Vector{x[0] + rate_ * (x[1] - middle_) * (to - from), x[1], x[2]};

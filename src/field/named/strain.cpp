@@ -17,6 +17,7 @@ class Strain : public NamedVelocityField {
   void add_divergence(double /*t*/, const PointsView& x, double* values) const override {
     for (std::size_t i = 0; i < x.count; ++i) values[i] += divergence();
   }
+  double cost() const override { return 0.1; }
   bool is_solenoidal() const override { return divergence() == 0; }
   bool is_steady() const override { return true; }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
