@@ -116,6 +116,8 @@ ExitCode dispatch(int argc, char** argv) {
       ->type_name("S");
   study_verb->add_option("--out", study_options.folder, "folder for tables and charts; output/study_<case> by default")
       ->type_name("DIR");
+  study_verb->add_option("--csv", study_options.csv, "also write all results as one table")->type_name("FILE");
+  study_verb->add_flag("--force", study_options.force, "replace an earlier study in that folder");
 
   ReportOptions report_options;
   CLI::App* report_verb =

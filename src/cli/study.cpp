@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "base/error.hpp"
 #include "cli/progress.hpp"
 #include "cli/verbs.hpp"
 #include "render/picture.hpp"
@@ -23,12 +24,15 @@ ExitCode study(const StudyVerbOptions& options) {
   for (const std::string& text : options.vary) wanted.vary.push_back(study::parse_variation(text));
   const fs::path folder =
       options.folder.empty() ? fs::path("output") / ("study_" + options.scene.file.stem().string()) : options.folder;
+  if (!options.force && fs::exists(folder / "study.json"))
+    throw FileError(
+        fmt::format("{} holds an earlier study; --force replaces it, --out DIR writes elsewhere", folder.string()));
   study::Study result;
   {
     ProgressLine line;
     wanted.progress = [&](const std::string& what) { line.show(what); };
-    // Written anew after every sample, so that an interrupted study leaves what it has.
-    wanted.sample_done = [&](const study::Experiment& experiment, const study::Sample&) {
+    // Written anew whenever a table grows, so that an interrupted study leaves what it has.
+    wanted.table_grew = [&](const study::Experiment& experiment) {
       write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment));
     };
     result = study::run_study(wanted);
@@ -38,6 +42,9 @@ ExitCode study(const StudyVerbOptions& options) {
   const std::string json = study::to_json(result);
   write::write_text(folder / "study.json", json);
   write::write_text(folder / "study.md", study::to_markdown(result));
+  if (!options.csv.empty())
+    write::write_text(options.csv, result.experiments.size() == 1 ? study::to_csv(result.experiments.front())
+                                                                  : study::to_csv(result));
   study::draw_charts(result, folder);
   if (const std::string reason = render::unavailable_reason(); !reason.empty())
     fmt::print(stderr, "warning: no charts are drawn: {}\n", reason);

@@ -31,6 +31,8 @@ struct StudyVerbOptions {
   int repeats = 3;
   double seconds = 90;
   std::filesystem::path folder;  // --out; empty: output/study_<case name>
+  std::filesystem::path csv;     // --csv; empty: the tables in the folder alone
+  bool force = false;
 };
 
 struct SumOptions {

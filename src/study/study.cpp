@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
@@ -19,6 +20,8 @@ namespace gaussdrift::study {
 namespace {
 
 constexpr std::size_t most_combinations = 2000;
+constexpr const char* no_exact_density =
+    "the case has no exact density to compare with; reference.kind = \"exact\" with a formula gives it one";
 
 std::optional<double> number_of(const std::string& text) {
   try {
@@ -109,19 +112,22 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
   try {
     std::vector<double> seconds;
     for (int repeat = 0; repeat <= options.repeats; ++repeat) {
-      const base::Stopwatch watch;
       Simulation simulation(bare, options.threads);
       const RunSummary summary = simulation.run();
       if (repeat == 0) {
         sample.particles = summary.particles;
         sample.steps = summary.steps;
         const FrameNumbers& last = summary.frames.back().second;
-        if (last.error) sample.error = last.error->linf;
+        if (last.error) {
+          sample.error = last.error->linf;
+          sample.l1 = last.error->l1;
+          sample.l2 = last.error->l2;
+        }
         if (last.untraced > 0) sample.failure = "the exact density is not known at some grid points";
         bare.reference = {};  // repeats are for the time alone
       }
       seconds.push_back(seconds_of_run(summary));
-      if (watch.seconds() > 1) break;  // dear runs are their own warm-up
+      if (seconds.back() > 1) break;  // dear runs are their own warm-up
       if (repeat == 0 && options.repeats > 0) seconds.clear();
     }
     sample.seconds = median(seconds);
@@ -135,7 +141,7 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
 std::optional<double> expected_order(const std::string& key, const Case& scene) {
   if (key == "time.step") return time::find_tableau(scene.time.method).time_order;
   if (key == "particles.overlap") return cutoff_order(scene.particles.cutoff);
-  if (key == "particles.per_axis") return -cutoff_order(scene.particles.cutoff);
+  if (key == "particles.per_axis") return cutoff_order(scene.particles.cutoff);
   return std::nullopt;
 }
 
@@ -150,6 +156,7 @@ void finish(Experiment& experiment, const Case& scene) {
   }
   if (experiment.keys.empty() || !expected_order(experiment.keys.back(), scene)) return;
   const std::size_t last = experiment.keys.size() - 1;
+  const bool finer_if_larger = experiment.keys.back() == "particles.per_axis";
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const Sample &before = samples[i - 1], &now = samples[i];
     if (!before.failure.empty() || !now.failure.empty() ||
@@ -157,7 +164,7 @@ void finish(Experiment& experiment, const Case& scene) {
       continue;
     const auto a = number_of(before.values[last]), b = number_of(now.values[last]);
     if (a && b && *a > 0 && *b > 0 && *a != *b && before.error > 0 && now.error > 0)
-      samples[i].order = std::log(now.error / before.error) / std::log(*b / *a);
+      samples[i].order = std::log(now.error / before.error) / std::log(*b / *a) * (finer_if_larger ? -1 : 1);
   }
 }
 
@@ -169,14 +176,23 @@ Study run_study(const StudyOptions& options) {
     const auto tell = [&](const std::string& what) {
       if (options.progress) options.progress(what);
     };
+    const auto add = [&](Experiment experiment) {
+      study.experiments.push_back(std::move(experiment));
+      if (options.table_grew) options.table_grew(study.experiments.back());
+    };
     tell("the Gauss transform");
-    study.experiments.push_back(study_transform(scene, options.threads, 0.1 * options.seconds));
+    add(study_transform(scene, options.threads, 0.1 * options.seconds));
     tell("steps");
-    study.experiments.push_back(study_steps(scene, options.threads, 0.15 * options.seconds));
-    tell("lattice and cutoff");
-    study.experiments.push_back(study_lattice(scene, options, 0.4 * options.seconds));
-    tell("whole runs");
-    study.experiments.push_back(study_whole(scene, options, 0.35 * options.seconds));
+    add(study_steps(scene, options.threads, 0.15 * options.seconds));
+    if (scene.reference.kind != ReferenceSpec::Kind::none) {
+      tell("lattice and cutoff");
+      add(study_lattice(scene, options, 0.4 * options.seconds));
+      tell("whole runs");
+      add(study_whole(scene, options, 0.35 * options.seconds));
+    } else {
+      study.experiments.back().notes.push_back(std::string("lattices and whole runs are not studied: ") +
+                                               no_exact_density);
+    }
     study.seconds = watch.seconds();
     return study;
   }
@@ -196,12 +212,17 @@ Study run_study(const StudyOptions& options) {
       if (variation.key.substr(0, variation.key.find('.')) == fixed)
         throw CommandLineError(fmt::format("--vary {}: what is in [{}] does not change a run's error or its seconds",
                                            variation.key, fixed));
+    if (std::find(experiment.keys.begin(), experiment.keys.end(), variation.key) != experiment.keys.end())
+      throw CommandLineError(fmt::format("--vary {}: it is given twice; all values go into one, --vary {}=a,b,c",
+                                         variation.key, variation.key));
     experiment.keys.push_back(variation.key);
     combinations *= variation.values.size();
     if (combinations > most_combinations)
       throw CommandLineError(fmt::format("the study has more than {} combinations; vary less", most_combinations));
   }
+  if (scene.reference.kind == ReferenceSpec::Kind::none) throw InputError(std::string("study: ") + no_exact_density);
   std::optional<Case> varied;  // the last one that could be read
+  std::vector<std::string> orders;
   for (std::size_t i = 0; i < combinations; ++i) {
     std::vector<std::string> overrides = options.overrides, values;
     for (std::size_t rest = i, k = options.vary.size(); k-- > 0; rest /= options.vary[k].values.size())
@@ -220,14 +241,24 @@ Study run_study(const StudyOptions& options) {
     }
     sample.values = values;
     experiment.samples.push_back(sample);
-    if (options.sample_done) options.sample_done(experiment, sample);
-    if (i + 1 == combinations) {
-      finish(experiment, *varied);
-      if (const auto order = expected_order(experiment.keys.back(), *varied))
-        experiment.notes.push_back(
-            fmt::format("where {} decides, the error is its power {:g}", experiment.keys.back(), *order));
+    if (const auto order = sample.failure.empty() ? expected_order(experiment.keys.back(), *varied) : std::nullopt) {
+      const std::string told =
+          values.size() > 1 ? fmt::format("{:g} with {}", *order, fmt::join(values.begin(), values.end() - 1, ", "))
+                            : fmt::format("{:g}", *order);
+      if (std::find(orders.begin(), orders.end(), told) == orders.end()) orders.push_back(told);
     }
+    if (options.table_grew) options.table_grew(experiment);
   }
+  finish(experiment, *varied);
+  if (!orders.empty())
+    experiment.notes.push_back(
+        fmt::format("orders expected where {} decides: {}", experiment.keys.back(), fmt::join(orders, "; ")));
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Sample& sample : experiment.samples)
+    if (sample.failure.empty()) smallest = std::min(smallest, sample.error);
+  if (std::isfinite(smallest) && smallest > 0.3)
+    experiment.notes.push_back(
+        "Linf is large in every run, as at a jump of the density, where it stays at any resolution: compare L1 and L2");
   experiment.conclusion = conclusion_of(experiment);
   study.experiments.push_back(std::move(experiment));
   study.seconds = watch.seconds();

@@ -28,6 +28,7 @@ struct Sample {
   std::vector<std::string> values;  // one a key of the experiment
   double seconds = std::numeric_limits<double>::quiet_NaN();
   double error = std::numeric_limits<double>::quiet_NaN();
+  double l1 = std::numeric_limits<double>::quiet_NaN(), l2 = l1;  // of whole runs: beside Linf, which `error` is there
   std::size_t particles = 0, steps = 0;
   double order = std::numeric_limits<double>::quiet_NaN();  // observed, against the sample before of the same series
   bool on_front = false;                                    // no other sample is both faster and more accurate
@@ -55,7 +56,8 @@ struct StudyOptions {
   double seconds = 90;          // about what the standard studies may take
   int threads = 0;
   std::function<void(const std::string&)> progress{};
-  std::function<void(const Experiment&, const Sample&)> sample_done{};  // for tables that survive an interruption
+  std::function<void(const Experiment&)>
+      table_grew{};  // by a sample, or several; for tables that survive an interruption
 };
 
 struct Study {
@@ -65,19 +67,22 @@ struct Study {
   double seconds = 0;
 };
 
-/// Throws what reading the case throws; CommandLineError for more than 2000 combinations or a key that cannot be
-/// varied. A combination that cannot run is a sample that says why.
+/// Throws what reading the case throws; CommandLineError for more than 2000 combinations, a key that cannot be
+/// varied or is given twice; InputError where keys are varied and the case has no exact density. A combination that
+/// cannot run is a sample that says why.
 Study run_study(const StudyOptions& options);
 
 /// Marks the front and fills in observed orders along the last key, where it is a number that errors are powers of.
 void finish(Experiment& experiment, const Case& scene);
 
-/// The error's expected power of a key: cutoff order for particles.overlap, minus that for particles.per_axis, the
-/// method's order for time.step; nothing for others.
+/// The order that is expected along a key, the error's power of a length or of a step: that of the cutoff for
+/// particles.overlap and for 1/particles.per_axis, that of the method for time.step; nothing for others.
 std::optional<double> expected_order(const std::string& key, const Case& scene);
 
 std::string to_text(const Study& study);
 std::string to_csv(const Experiment& experiment);
+/// All experiments in one table, with a column for the experiment and one for the settings, "key=value key=value".
+std::string to_csv(const Study& study);
 std::string to_json(const Study& study);
 /// A page for people: charts, tables, conclusions. The charts are the files <name>.png beside it.
 std::string to_markdown(const Study& study);

@@ -9,6 +9,7 @@
 #include "render/chart.hpp"
 #include "render/picture.hpp"
 #include "study/study.hpp"
+#include "write/provenance.hpp"
 
 namespace gaussdrift::study {
 
@@ -22,7 +23,12 @@ std::string short_number(double value, const char* missing = "") {
 std::string table_of(const Experiment& experiment) {
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> header = experiment.keys;
-  for (const char* name : {"error", "seconds", "order", "particles", "steps", ""}) header.push_back(name);
+  const bool norms = std::any_of(experiment.samples.begin(), experiment.samples.end(),
+                                 [](const Sample& sample) { return std::isfinite(sample.l1); });
+  header.push_back("error");
+  if (norms)
+    for (const char* name : {"L1", "L2"}) header.push_back(name);
+  for (const char* name : {"seconds", "order", "particles", "steps", ""}) header.push_back(name);
   rows.push_back(header);
   for (const Sample& sample : experiment.samples) {
     std::vector<std::string> row = sample.values;
@@ -30,6 +36,8 @@ std::string table_of(const Experiment& experiment) {
       row.push_back("-- " + sample.failure.substr(0, sample.failure.find('\n')));
     } else {
       row.push_back(short_number(sample.error));
+      if (norms)
+        for (const double norm : {sample.l1, sample.l2}) row.push_back(short_number(norm));
       row.push_back(short_number(sample.seconds));
       row.push_back(std::isfinite(sample.order) ? fmt::format("{:.1f}", sample.order) : "");
       row.push_back(sample.particles ? std::to_string(sample.particles) : "");
@@ -60,6 +68,15 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
+constexpr const char* csv_header = "error,L1,L2,seconds,order,particles,steps,front,failure\n";
+
+std::string csv_numbers(const Sample& sample) {
+  const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.6e}", value) : ""; };
+  return fmt::format("{},{},{},{},{},{},{},{},{}\n", number(sample.error), number(sample.l1), number(sample.l2),
+                     number(sample.seconds), number(sample.order), sample.particles, sample.steps,
+                     sample.on_front ? 1 : 0, csv_field(sample.failure));
+}
+
 }  // namespace
 
 std::string to_text(const Study& study) {
@@ -76,13 +93,23 @@ std::string to_text(const Study& study) {
 std::string to_csv(const Experiment& experiment) {
   std::string text;
   for (const std::string& key : experiment.keys) text += csv_field(key) + ",";
-  text += "error,seconds,order,particles,steps,front,failure\n";
-  const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.6e}", value) : ""; };
+  text += csv_header;
   for (const Sample& sample : experiment.samples) {
     for (const std::string& value : sample.values) text += csv_field(value) + ",";
-    text += fmt::format("{},{},{},{},{},{},{}\n", number(sample.error), number(sample.seconds), number(sample.order),
-                        sample.particles, sample.steps, sample.on_front ? 1 : 0, csv_field(sample.failure));
+    text += csv_numbers(sample);
   }
+  return text;
+}
+
+std::string to_csv(const Study& study) {
+  std::string text = std::string("experiment,settings,") + csv_header;
+  for (const Experiment& experiment : study.experiments)
+    for (const Sample& sample : experiment.samples) {
+      std::string settings;
+      for (std::size_t k = 0; k < experiment.keys.size(); ++k)
+        settings += (k ? " " : "") + experiment.keys[k] + "=" + sample.values[k];
+      text += csv_field(experiment.name) + "," + csv_field(settings) + "," + csv_numbers(sample);
+    }
   return text;
 }
 
@@ -96,6 +123,10 @@ std::string to_json(const Study& study) {
       json row;
       for (std::size_t k = 0; k < experiment.keys.size(); ++k) row[experiment.keys[k]] = sample.values[k];
       row["error"] = number(sample.error);
+      if (std::isfinite(sample.l1)) {
+        row["L1"] = sample.l1;
+        row["L2"] = number(sample.l2);
+      }
       row["seconds"] = number(sample.seconds);
       row["order"] = number(sample.order);
       row["particles"] = sample.particles;
@@ -114,6 +145,7 @@ std::string to_json(const Study& study) {
   }
   return json{{"case", study.case_name},
               {"threads", study.threads},
+              {"made_by", write::made_by()},
               {"seconds", study.seconds},
               {"experiments", experiments}}
              .dump(2, ' ', false, json::error_handler_t::replace) +
@@ -130,8 +162,8 @@ std::string to_markdown(const Study& study) {
     for (const std::string& note : experiment.notes) text += fmt::format("* {}\n", note);
     text += "\n";
   }
-  text += fmt::format("{} threads, {:.0f} s in all; tables as CSV and JSON beside this page.\n", study.threads,
-                      study.seconds);
+  text += fmt::format("{}; {} threads, {:.0f} s in all; tables as CSV and JSON beside this page.\n", write::made_by(),
+                      study.threads, study.seconds);
   return text;
 }
 
@@ -164,7 +196,8 @@ void draw_charts(const Study& study, const std::filesystem::path& folder) {
                                                .look = render::ChartSeries::Look::dashed,
                                                .quiet = true});
     chart.conclusion = experiment.conclusion;
-    chart.footer = fmt::format("{}; {} threads", study.title.empty() ? study.case_name : study.title, study.threads);
+    chart.footer = fmt::format("{}; {}; {} threads", study.title.empty() ? study.case_name : study.title,
+                               write::made_by(), study.threads);
     render::draw_chart(chart, folder / (experiment.name + ".png"));
   }
 }

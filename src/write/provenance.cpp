@@ -68,6 +68,10 @@ std::string hash_of_file(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::string made_by() {
+  return fmt::format("gaussdrift {}, {}, {}", GAUSSDRIFT_VERSION, GAUSSDRIFT_COMPILER, processor());
+}
+
 std::string hash_of(const std::string& text) {
   Hash hash;
   hash.add(text);

@@ -21,6 +21,9 @@ struct DataFile {
 std::string provenance_json(const Case& scene, const std::string& resolved, const std::vector<DataFile>& data,
                             const std::string& command, int threads);
 
+/// "gaussdrift VERSION, COMPILER, PROCESSOR": for the foot of charts and tables of seconds.
+std::string made_by();
+
 /// "fnv1a64:..." of a text.
 std::string hash_of(const std::string& text);
 

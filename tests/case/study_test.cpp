@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -51,21 +53,32 @@ TEST(Study, VariesKeysAndKeepsWhatCannotRun) {
                   parse_variation("particles.per_axis=50,100,0.5*300")};
   options.repeats = 1;
   std::size_t told = 0;
-  options.sample_done = [&](const Experiment&, const Sample&) { ++told; };
+  options.table_grew = [&](const Experiment& experiment) {
+    ++told;
+    EXPECT_EQ(experiment.samples.size(), told);
+  };
   const Study study = run_study(options);
   ASSERT_EQ(study.experiments.size(), 1u);
   const Experiment& experiment = study.experiments[0];
   ASSERT_EQ(experiment.samples.size(), 6u);
   EXPECT_EQ(told, 6u);
+  options.table_grew = {};
   for (const Sample& sample : experiment.samples) {
     EXPECT_EQ(sample.failure, "");
     EXPECT_GT(sample.seconds, 0);
+    EXPECT_GT(sample.l1, 0);
+    EXPECT_GT(sample.l2, 0);
   }
+  EXPECT_GT(experiment.samples[1].order, 1) << "positive where a finer lattice is better";
+  ASSERT_EQ(experiment.notes.size(), 1u);
+  EXPECT_NE(experiment.notes[0].find("2 with gauss2; 4 with gauss4"), std::string::npos) << experiment.notes[0];
   EXPECT_LT(experiment.samples[4].error, experiment.samples[1].error) << "gauss4 at the same lattice";
   EXPECT_FALSE(experiment.conclusion.empty());
   const auto json = nlohmann::json::parse(to_json(study));
   EXPECT_EQ(json["experiments"][0]["samples"].size(), 6u);
   EXPECT_EQ(json["experiments"][0]["samples"][0]["particles.cutoff"], "gauss2");
+  EXPECT_GT(json["experiments"][0]["samples"][0]["L1"], 0);
+  EXPECT_NE(to_csv(study).find("study,particles.cutoff=gauss2 particles.per_axis=50,"), std::string::npos);
   const std::string csv = to_csv(experiment);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
 
@@ -88,6 +101,41 @@ TEST(Study, RefusesWhatItCannotVary) {
   options.file = cases + "decay.toml";
   options.vary = {parse_variation("output.times=[1],[2]")};
   EXPECT_THROW(run_study(options), CommandLineError);
+  options.vary = {parse_variation("time.step=0.1"), parse_variation("time.step=0.2")};
+  EXPECT_THROW(run_study(options), CommandLineError);
+  const std::filesystem::path alone = std::filesystem::path(testing::TempDir()) / "nothing_to_compare.toml";
+  std::ofstream(alone) << R"(
+gaussdrift = 1
+[domain]
+min = [-1, -1]
+max = [1, 1]
+[velocity]
+field = "rotation"
+[density]
+shape = "gaussian"
+center = [0, 0]
+radius = 0.2
+[particles]
+per_axis = 20
+[time]
+end = 1
+step = 0.1
+[output]
+times = [1]
+[reference]
+kind = "none"
+)";
+  options.file = alone;
+  options.overrides = {};
+  options.vary = {parse_variation("time.step=0.1")};
+  try {
+    run_study(options);
+    FAIL() << "nothing to compare with";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("no exact density"), std::string::npos) << error.what();
+  }
+  options.file = cases + "decay.toml";
+  options.overrides = {};
   options.vary = {parse_variation("particles.per_axes=10,20")};
   EXPECT_THROW(run_study(options), InputError);
 }
@@ -114,7 +162,7 @@ TEST(StandardStudies, SeeTheOrdersOfTheCutoffs) {
     options.vary = {parse_variation("particles.per_axis=121,241")};
     options.repeats = 0;
     const Study study = run_study(options);
-    EXPECT_NEAR(-study.experiments[0].samples[1].order, order, 0.5) << cutoff;  // the next term: k (eps/R)^2 = 0.4
+    EXPECT_NEAR(study.experiments[0].samples[1].order, order, 0.5) << cutoff;  // the next term: k (eps/R)^2 = 0.4
   }
 }
 

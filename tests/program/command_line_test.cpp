@@ -113,7 +113,13 @@ TEST(Study, LeavesATableAndChartsAndAPage) {
   const Outcome out = gaussdrift_in(folder, "study small.toml --vary time.step=0.2,0.1 --repeats 1 --out st");
   ASSERT_EQ(out.exit_code, 0) << out.err;
   EXPECT_NE(out.out.find("=> "), std::string::npos) << out.out;
-  for (const char* file : {"st/study.csv", "st/study.json", "st/study.md"}) EXPECT_TRUE(fs::exists(folder / file)) << file;
+  for (const char* file : {"st/study.csv", "st/study.json", "st/study.md"})
+    EXPECT_TRUE(fs::exists(folder / file)) << file;
+  EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step=0.2 --repeats 1 --out st").exit_code, 6);
+  EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step=0.2 --repeats 1 --out st --force --csv all.csv")
+                .exit_code,
+            0);
+  EXPECT_TRUE(fs::exists(folder / "all.csv"));
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step").exit_code, 2);
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.stop=1,2").exit_code, 3);
 }
