@@ -1,4 +1,4 @@
-# Uses fgtd as a stranger would, and runs what was built:
+# Uses fgtd and farfield as a stranger would, and runs what was built:
 #   MODE=package   installs the built tree into a scratch prefix, moves that prefix, configures tests/install/consumer against it
 #   MODE=refuse    the same with the consumer alone compiled for AVX: must not link
 #   MODE=folder    the consumer adds the source folder with add_subdirectory
@@ -27,8 +27,10 @@ function(configure_and_build project)
 endfunction()
 
 # The installed copy has to work wherever it is, so it is moved before it is used.
-function(install_fgtd)
-  call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --component fgtd --prefix ${SCRATCH}/first)
+function(install_libraries)
+  foreach(library fgtd farfield)
+    call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --component ${library} --prefix ${SCRATCH}/first)
+  endforeach()
   file(RENAME ${SCRATCH}/first ${SCRATCH}/prefix)
   file(GLOB_RECURSE files ${SCRATCH}/prefix/*.cmake)
   foreach(file ${files})
@@ -73,11 +75,11 @@ elseif(MODE STREQUAL "folder")
   configure_and_build(${consumer} -D FGTD_FOLDER=${SOURCE} -D GAUSSDRIFT_BUILD_SIMULATOR=OFF)
   call(${SCRATCH}/build/consumer)
 elseif(MODE STREQUAL "package")
-  install_fgtd()
+  install_libraries()
   configure_and_build(${consumer} -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
   call(${SCRATCH}/build/consumer)
 elseif(MODE STREQUAL "refuse")
-  install_fgtd()
+  install_libraries()
   string(APPEND FLAGS " -mavx")
   configure(${consumer} -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
   execute_process(COMMAND ${CMAKE_COMMAND} --build ${SCRATCH}/build --config ${CONFIG}
@@ -87,7 +89,7 @@ elseif(MODE STREQUAL "refuse")
   endif()
   set(said "refused, as it should be")
 elseif(MODE STREQUAL "page")
-  install_fgtd()
+  install_libraries()
   extract_block(${SOURCE}/docs/fgtd.md "## Interface" cpp program)
   extract_block(${SOURCE}/docs/fgtd.md "## Using it in your project" cmake lists)
   file(WRITE ${SCRATCH}/page/main.cpp "${program}")

@@ -1,6 +1,7 @@
 // Sums with known values, by all that the header declares. Exits with 1 and says why if one is wrong.
 #include <cmath>
 #include <cstdio>
+#include <farfield/farfield.hpp>
 #include <fgtd/fgtd.hpp>
 #include <sstream>
 
@@ -50,6 +51,23 @@ void check_a_lattice() {
   }
 }
 
+// Charges on a sphere: outside they act as if all were in its centre.
+void check_a_charged_sphere() {
+  const int n = 6000;
+  farfield::Points<3> sources(3, n), targets(3, 1);
+  for (int i = 0; i < n; ++i) {
+    const double z = (2 * i + 1.0) / n - 1, angle = 2.399963229728653 * i, radius = std::sqrt(1 - z * z);
+    sources.col(i) << radius * std::cos(angle), radius * std::sin(angle), z;
+  }
+  targets << 3, 0, 0;
+  for (const farfield::Method method : farfield::methods()) {
+    const farfield::Plan<3> plan(farfield::Kernel::coulomb, sources, targets, {.tolerance = 1e-5, .method = method});
+    const farfield::Values<3> values = plan.evaluate(Eigen::VectorXd::Constant(n, 1.0 / n));
+    expect("the potential of a sphere", values.potential[0], 1.0 / 3, 1e-5);
+    expect("the field of a sphere", values.field(0, 0), 1.0 / 9, 1e-5);
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -58,6 +76,7 @@ int main() {
   check_one_gaussian<3>();
   check_one_gaussian<4>();
   check_a_lattice();
+  check_a_charged_sphere();
   try {
     fgtd::Plan<1>(fgtd::Points<1>::Zero(1, 1), Eigen::MatrixXd::Ones(1, 1), -1.0);
     std::puts("a negative sigma was taken");

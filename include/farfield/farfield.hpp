@@ -1,0 +1,172 @@
+// farfield: sums over all pairs of points for kernels that do not decay: Coulomb in 2D and 3D, the logarithm in 1D and
+// 2D, and vortex blobs in 2D, directly or to a promised accuracy in linear time. docs/farfield.md explains methods,
+// promise and costs.
+//
+//   const farfield::Plan<3> plan(farfield::Kernel::coulomb, points, {.tolerance = 1e-6});
+//   const farfield::Values<3> values = plan.evaluate(charges);   // values.potential, values.field
+//
+// Everything throws farfield::Error (below) on bad input, prints nothing and keeps no global state. Evaluation is const
+// and safe to call from several threads. Results do not depend on the number of threads.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <iosfwd>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace farfield {
+
+// ---------------------------------------------------------------------------------------------------------------
+// Errors
+
+/// Base of all exceptions of this library.
+class Error : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+/// An argument breaks a rule; the message names the argument, its value (and index) and the rule.
+class InvalidArgument : public Error {
+  using Error::Error;
+};
+/// The tolerance cannot be promised (below smallest_tolerance, or not reachable by the chosen method).
+class ToleranceError : public Error {
+  using Error::Error;
+};
+/// The work would need more memory than Options::memory_limit; thrown before it is allocated.
+class MemoryLimitError : public Error {
+  using Error::Error;
+};
+/// A sum exceeds the range of double: charges too large, or points too close to each other.
+class RangeError : public Error {
+  using Error::Error;
+};
+
+// ---------------------------------------------------------------------------------------------------------------
+// Arguments
+
+/// Points as columns: d x m, so that a point's coordinates are contiguous.
+template <int d>
+using Points = Eigen::Matrix<double, d, Eigen::Dynamic>;
+
+/// With r = |x_i - y_j|; pairs at distance 0 are left out.
+enum class Kernel {
+  coulomb,     // 3D: potential sum_j q_j / r,     field  sum_j q_j (x_i - y_j) / r^3
+               // 2D: potential -sum_j q_j ln r,   field  sum_j q_j (x_i - y_j) / r^2
+  log,         // 1D, 2D: potential sum_j q_j ln r, field (its gradient)  sum_j q_j (x_i - y_j) / r^2
+  vortex_blob  // 2D: field (velocity) sum_j q_j (1 - exp(-r^2/eps^2)) / (2 pi r^2) (-dy, dx), (dx, dy) = x_i - y_j,
+               // with circulations q_j and eps = Options::core_radius; no potential
+};
+
+/// `automatic` takes the smallest predicted time.
+enum class Method {
+  automatic,
+  direct,    // every pair
+  tree,      // groups of sources are replaced by substitute charges, which act on every target
+  symmetric  // groups of targets are replaced as well: linear time
+};
+
+/// Every kernel.
+const std::vector<Kernel>& kernels();
+/// Every method, `automatic` first.
+const std::vector<Method>& methods();
+
+/// The names as they are written in files: "coulomb", "log", "vortex-blob"; "auto", "direct", "tree", "symmetric".
+std::string to_string(Kernel kernel);
+std::string to_string(Method method);
+
+struct Options {
+  double tolerance = 1e-6;  // see Plan; smallest_tolerance <= tolerance < 1
+  Method method = Method::automatic;
+  int threads = 0;                                  // 0: all
+  double core_radius = 0;                           // eps of vortex_blob; > 0 there
+  bool potential = true;                            // false: the field alone; spares the logarithms in 1D and 2D
+  std::size_t memory_limit = std::size_t{8} << 30;  // bytes that plan and evaluation may hold together
+  std::size_t leaf_size = 0;  // clusters of more points are divided; 0: chosen by the predicted time
+};
+
+/// Tolerances below are not promised by `tree` and `symmetric`; `direct` is then taken by `automatic`.
+constexpr double smallest_tolerance = 1e-11;
+
+// ---------------------------------------------------------------------------------------------------------------
+// Results
+
+template <int d>
+struct Values {
+  Eigen::VectorXd potential;  // of every target; empty for vortex_blob and without Options::potential
+  Points<d> field;            // d x targets
+};
+
+struct Choice {
+  Kernel kernel = Kernel::coulomb;
+  Method method = Method::direct;
+  double tolerance = 0;  // what was asked for
+  double bound = 0;      // of what is promised, <= tolerance unless `direct`
+  double seconds = 0;    // predicted for one evaluation and its share of the plan, one thread
+  std::size_t sources = 0;
+  std::size_t targets = 0;
+  // tree and symmetric only
+  int degree = 0;  // highest degree of the interpolating polynomials
+  std::size_t leaf_size = 0;
+  std::size_t clusters = 0;
+  int levels = 0;
+};
+
+std::ostream& operator<<(std::ostream& out, const Choice& choice);
+
+// ---------------------------------------------------------------------------------------------------------------
+// The plan
+
+namespace detail {
+template <int d>
+class Engine;
+}
+
+/// Sums for fixed points and any charges. What is promised, for every target set and all charges, with f~ the computed
+/// and f the exact field, phi the potential, norms over all targets i and sums over all sources j at r_ij > 0:
+///   ||f - f~||_2      <= tolerance || (sum_j |q_j| / r_ij^(d-1))_i ||_2        (vortex_blob: 1 / (2 pi) of that)
+///   ||phi - phi~||_2  <= tolerance || (sum_j |q_j| / r_ij)_i ||_2              in 3D
+///   ||phi - phi~||_2  <= tolerance || (sum_j |q_j| (1 + |ln r_ij|))_i ||_2     in 1D and 2D
+/// where d - 1 is 1 in 1D too. It holds target by target and charge by charge, so cancellation does not weaken it.
+/// Rounding adds about 1e-15 times the same sums.
+template <int d>
+class Plan {
+  static_assert(1 <= d && d <= 3, "farfield: dimensions 1 to 3");
+
+ public:
+  /// sources  d x N, targets d x M   any N, M >= 0, finite. Coulomb: d = 2, 3; log: d = 1, 2; vortex_blob: d = 2
+  /// Throws InvalidArgument, ToleranceError, MemoryLimitError.
+  Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Points<d>>& targets,
+       const Options& options = {});
+  /// The sources are the targets.
+  Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& points, const Options& options = {});
+  ~Plan();
+  Plan(Plan&&) noexcept;
+  Plan& operator=(Plan&&) noexcept;
+
+  /// charges  N, finite. Throws InvalidArgument, RangeError.
+  Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges) const;
+
+  const Choice& choice() const;
+
+ private:
+  std::unique_ptr<detail::Engine<d>> engine_;
+};
+
+namespace detail {
+/// As in fgtd: Eigen's way of allocating follows from the flags a file is compiled with; a program compiled in another
+/// way than the library does not link, where it would corrupt the heap.
+template <int alignment, int by_malloc>
+void compile_with_the_same_march_and_sanitizer_flags_as_farfield();
+namespace {
+[[maybe_unused, gnu::used]] void (*const same_flags)() = &compile_with_the_same_march_and_sanitizer_flags_as_farfield<
+    EIGEN_DEFAULT_ALIGN_BYTES, EIGEN_MALLOC_ALREADY_ALIGNED>;
+}  // namespace
+}  // namespace detail
+
+extern template class Plan<1>;
+extern template class Plan<2>;
+extern template class Plan<3>;
+
+}  // namespace farfield

@@ -1,0 +1,94 @@
+// Refuses bad arguments; see check.hpp.
+#include "farfield/check.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace farfield::detail {
+
+std::string text(double value) {
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return std::string(buffer, end);
+}
+
+namespace {
+
+/// x - x is 0 for finite x and else not a number, which no sum loses again.
+bool row_is_finite(const double* row, std::size_t count) {
+  double sum[8] = {};
+  std::size_t i = 0;
+  for (; i + 8 <= count; i += 8)
+    for (std::size_t k = 0; k < 8; ++k) sum[k] += row[i + k] - row[i + k];
+  for (; i < count; ++i) sum[0] += row[i] - row[i];
+  double all = 0;
+  for (const double part : sum) all += part;
+  return all == 0;
+}
+
+}  // namespace
+
+void check_options(Kernel kernel, const Options& options, int dimension) {
+  const auto refuse = [](const std::string& what) { throw InvalidArgument("farfield: " + what); };
+  if (kernel == Kernel::coulomb && dimension == 1) refuse("the kernel coulomb exists in 2 and 3 dimensions, not in 1");
+  if (kernel == Kernel::log && dimension == 3) refuse("the kernel log exists in 1 and 2 dimensions, not in 3");
+  if (kernel == Kernel::vortex_blob && dimension != 2)
+    refuse("the kernel vortex-blob exists in 2 dimensions, not in " + std::to_string(dimension));
+  if (kernel == Kernel::vortex_blob && (!(options.core_radius > 0) || !std::isfinite(options.core_radius)))
+    refuse("Options::core_radius = " + text(options.core_radius) + ", must be positive and finite for vortex-blob");
+  if (kernel != Kernel::vortex_blob && options.core_radius != 0)
+    refuse("Options::core_radius = " + text(options.core_radius) + ", must be 0 for every kernel but vortex-blob");
+  if (!(options.tolerance > 0) || !(options.tolerance < 1))
+    refuse("Options::tolerance = " + text(options.tolerance) + ", must lie in (0, 1)");
+  const bool approximates = options.method == Method::tree || options.method == Method::symmetric;
+  if (approximates && options.tolerance < smallest_tolerance)
+    throw ToleranceError("farfield: Options::tolerance = " + text(options.tolerance) + " cannot be promised by " +
+                         to_string(options.method) + ", must be at least " + text(smallest_tolerance) +
+                         "; leave the method to auto or direct");
+  if (options.threads < 0)
+    refuse("Options::threads = " + std::to_string(options.threads) + ", must be positive, or 0 for all");
+}
+
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count,
+                  std::size_t stride) {
+  if (stride == dimension && row_is_finite(points, dimension * count)) return;
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t l = 0; l < dimension; ++l) {
+      const double value = points[j * stride + l];
+      if (!std::isfinite(value))
+        throw InvalidArgument("farfield: " + std::string(kind) + " " + std::to_string(j) + ", coordinate " +
+                              std::to_string(l) + " is " + text(value) + "; " + kind + "s must be finite");
+    }
+}
+
+void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t sources) {
+  const std::size_t count = static_cast<std::size_t>(charges.size());
+  if (count != sources)
+    throw InvalidArgument("farfield: there are " + std::to_string(count) + " charges for " + std::to_string(sources) +
+                          " sources; there must be one for every source");
+  if (row_is_finite(charges.data(), count)) return;
+  for (std::size_t j = 0; j < count; ++j) {
+    const double value = charges.data()[j];
+    if (!std::isfinite(value))
+      throw InvalidArgument("farfield: charge " + std::to_string(j) + " is " + text(value) +
+                            "; charges must be finite");
+  }
+}
+
+void check_memory(const char* what, double bytes, std::size_t limit) {
+  if (bytes <= static_cast<double>(limit)) return;
+  throw MemoryLimitError("farfield: " + std::string(what) + " would need " + text(std::ceil(bytes / 1e6)) +
+                         " MB, Options::memory_limit allows " + text(std::floor(static_cast<double>(limit) / 1e6)) +
+                         " MB; raise it, or give fewer points");
+}
+
+void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target) {
+  if (row_is_finite(values, count * numbers_a_target)) return;
+  for (std::size_t i = 0; i < count * numbers_a_target; ++i)
+    if (!std::isfinite(values[i]))
+      throw RangeError("farfield: the " + std::string(what) + " at target " + std::to_string(i / numbers_a_target) +
+                       " exceeds the range of double precision; scale the charges down, or join points that are "
+                       "nearly equal");
+}
+
+}  // namespace farfield::detail

@@ -1,0 +1,29 @@
+// Refuses bad arguments with a sentence that names the argument, its value and the rule.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "farfield/farfield.hpp"
+
+namespace farfield::detail {
+
+/// Shortest decimal text that names the number: "2", "0.1", "nan", "1e-15".
+std::string text(double value);
+
+/// The kernel exists in that dimension, and the options suit it.
+void check_options(Kernel kernel, const Options& options, int dimension);
+
+/// Every entry of `points` (dimension x count) is finite; `kind` is "source" or "target".
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride);
+
+/// Finite, and one for every source.
+void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t sources);
+
+/// Throws MemoryLimitError if `bytes` for `what` exceed the limit.
+void check_memory(const char* what, double bytes, std::size_t limit);
+
+/// Throws RangeError naming the first target whose value is not finite.
+void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target);
+
+}  // namespace farfield::detail

@@ -1,0 +1,111 @@
+#include "farfield/choose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "farfield/check.hpp"
+#include "farfield/clustered.hpp"
+#include "farfield/cost.hpp"
+#include "farfield/direct.hpp"
+
+namespace farfield::detail {
+namespace {
+
+/// The promise is about the root of the sum of squares over all targets. The error of one charge at one target is as
+/// large as the table says at the corners of clusters that face each other only, and where the sources are the targets
+/// a charge's neighbours see it exactly: the whole is smaller by more than this factor, 140 in 3D and 20 in 2D in the
+/// worst of the cases that the tests try (docs/farfield.md). Targets elsewhere may all lie in such corners.
+template <int d>
+constexpr double of_the_whole = d == 3 ? 16 : 4;
+
+/// exp(-r^2/eps^2) is below a tenth of the tolerance at the smallest distance of clusters that are coupled.
+double smallest_side(const Problem& problem, double tolerance) {
+  if (problem.interaction != Interaction::blob) return 0;
+  return std::sqrt(std::log(10 / tolerance) / problem.inverse_squared_core);
+}
+
+template <int d>
+double clusters_bytes(const Problem& problem, std::size_t leaf_size) {
+  const double points = static_cast<double>(problem.sources + (problem.self ? 0 : problem.targets));
+  return points * (2 * (8.0 * d + 4) + 1) + 2 * points / static_cast<double>(leaf_size) * 1.2 * sizeof(Cluster);
+}
+
+}  // namespace
+
+template <int d>
+std::unique_ptr<Summation> choose_summation(const Problem& problem, const Options& options, Choice& choice) {
+  const double pairs = static_cast<double>(problem.sources) * static_cast<double>(problem.targets);
+  const double direct_seconds = pairs * pair_seconds(problem, Precision::full);
+  const auto direct = [&] {
+    choice.method = Method::direct;
+    choice.bound = error_of(Precision::full);
+    choice.seconds = direct_seconds;
+    return std::make_unique<Direct>(problem, options.threads);
+  };
+  const bool any = options.method == Method::automatic;
+  if (options.method == Method::direct) return direct();
+
+  const double gain = problem.self ? of_the_whole<d> : 1, smallest = Degrees<d>::smallest_error() / gain;
+  if (options.tolerance < smallest) {
+    if (any) return direct();
+    throw ToleranceError("farfield: Options::tolerance = " + text(options.tolerance) + " cannot be promised by " +
+                         to_string(options.method) + " here, must be at least " + text(smallest) +
+                         "; leave the method to auto or direct");
+  }
+  const Degrees<d> degrees(options.tolerance * gain);
+  const Precisions precisions = precisions_for(options.tolerance, problem.interaction);
+  const Costs<d> costs(problem, degrees, precisions);
+  if (any && problem.sources + problem.targets < 1000) return direct();  // nothing to be gained, not even by floats
+
+  const double good = costs.good_leaf_size();
+  const std::size_t fine_leaf_size =
+      options.leaf_size > 0 ? options.leaf_size : static_cast<std::size_t>(std::clamp(good / 6, 8.0, 1024.0));
+  const double points_bytes = 8.0 * d * static_cast<double>(problem.sources + problem.targets);
+  check_memory("the tree", points_bytes + clusters_bytes<d>(problem, fine_leaf_size), options.memory_limit);
+  Tree<d> tree(problem, fine_leaf_size, smallest_side(problem, options.tolerance), options.threads);
+
+  std::optional<Prediction> prediction;
+  for (const Method method : {Method::symmetric, Method::tree}) {
+    if (!any && options.method != method) continue;
+    const bool couple = method == Method::symmetric;
+    const Prediction found = predict<d>(tree, fine_leaf_size, costs, couple);
+    if (prediction && prediction->seconds <= found.seconds) continue;
+    prediction = found;
+    choice.method = method;
+  }
+  if (any && direct_seconds < prediction->seconds) return direct();
+
+  if (options.leaf_size == 0) tree.prune(prediction->leaf_size);
+  const bool couple = choice.method == Method::symmetric;
+  choice.seconds = prediction->seconds;
+  choice.degree = degrees.highest;
+  choice.bound = std::max({degrees.error / gain, error_of(precisions.points), 10 * error_of(precisions.substitutes)});
+  choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction->leaf_size;
+  choice.clusters = tree.clusters().size();
+  choice.levels = static_cast<int>(tree.levels());
+  // Of couplings there are at most as many for a cluster as offsets that its place in the parent allows.
+  const double clusters = static_cast<double>(choice.clusters), offsets = d == 3 ? 189 : 27;
+  check_memory("the block partition and the coefficients",
+               points_bytes + clusters_bytes<d>(problem, fine_leaf_size) +
+                   clusters * (couple ? offsets * sizeof(CouplingChunk::Pair) : 64) +
+                   clusters * 8.0 * static_cast<double>(functions<d>(degrees.highest)) * (couple ? 2 : 1),
+               options.memory_limit);
+  std::shared_ptr<const Operators<d>> operators;  // a single cluster needs none
+  if (choice.clusters > 1) operators = Operators<d>::get(degrees, couple, options.threads);
+  Partition partition = make_partition<d>(tree, costs.nodes(), couple, options.threads);
+  typename Clustered<d>::Parts parts{std::move(tree), std::move(partition), std::move(operators), precisions,
+                                     options.threads};
+  std::unique_ptr<Clustered<d>> clustered;
+  if (couple) {
+    clustered = std::make_unique<SymmetricMethod<d>>(problem, std::move(parts));
+  } else {
+    clustered = std::make_unique<TreeMethod<d>>(problem, std::move(parts));
+  }
+  return clustered;
+}
+
+template std::unique_ptr<Summation> choose_summation<2>(const Problem&, const Options&, Choice&);
+template std::unique_ptr<Summation> choose_summation<3>(const Problem&, const Options&, Choice&);
+
+}  // namespace farfield::detail

@@ -1,0 +1,191 @@
+#include "farfield/cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farfield::detail {
+namespace {
+
+// Measured by tools/bench/bench_farfield on 3 GHz with AVX2.
+constexpr double multiplication = 0.13e-9;    // within a product of matrices
+constexpr double moved_number = 1.6e-9;       // gathered, scattered
+constexpr double function_at_point = 0.9e-9;  // moments; expansion of potential and field twice as much
+constexpr double sorted_point = 40e-9;        // on every level of the tree
+constexpr double listed_coupling = 60e-9;
+constexpr double fitted_number = 1.2e-9;
+constexpr double table_entry = 12e-9;  // of the kernel at two nodes, with its share of the products
+
+constexpr std::size_t samples_a_level = 200;
+
+/// Sizes of leaves to choose from.
+constexpr std::size_t sizes[] = {8,   11,  16,  23,  32,   45,   64,   90,   128, 181,
+                                 256, 362, 512, 724, 1024, 1448, 2048, 2896, 4096};
+constexpr std::size_t size_count = std::size(sizes);
+
+/// Seconds by leaf size, from events that happen for all sizes of an interval.
+class BySize {
+ public:
+  /// For leaf sizes s with low <= s < high.
+  void add(std::size_t low, std::size_t high, double seconds) {
+    const auto place = [](std::size_t s) { return std::lower_bound(sizes, sizes + size_count, s) - sizes; };
+    if (low >= high) return;
+    change_[place(low)] += seconds;
+    change_[place(high)] -= seconds;
+  }
+  Prediction best(std::size_t smallest) const {
+    Prediction best;
+    double sum = 0;
+    for (std::size_t i = 0; i < size_count; ++i) {
+      sum += change_[i];
+      if (sizes[i] < smallest) continue;
+      if (best.leaf_size == 0 || sum < best.seconds) best = {sizes[i], sum};
+    }
+    return best;
+  }
+
+ private:
+  double change_[size_count + 1] = {};
+};
+
+std::size_t larger_count(const Cluster& cluster) { return std::max(cluster.source_count(), cluster.target_count()); }
+
+/// Clusters of sources that touch a cluster: of its level, or larger leaves.
+template <int d>
+void next_colleagues(const Tree<d>& tree, const Cluster& target, const std::vector<Index>& of_parent,
+                     std::vector<Index>& touching, std::vector<Index>& apart) {
+  touching.clear();
+  apart.clear();
+  const auto visit = [&](Index s) {
+    if (tree.clusters()[s].source_count() > 0) (touch<d>(target, tree.clusters()[s]) ? touching : apart).push_back(s);
+  };
+  for (const Index c : of_parent) {
+    const Cluster& cluster = tree.clusters()[c];
+    if (cluster.leaf()) {
+      visit(c);
+    } else {
+      for (Index s = cluster.first_child; s < cluster.first_child + cluster.children; ++s) visit(s);
+    }
+  }
+}
+
+}  // namespace
+
+double pair_seconds(const Problem& problem, Precision precision) {
+  switch (problem.interaction) {
+    case Interaction::inverse:
+      return precision == Precision::six_digits ? 0.5e-9 : precision == Precision::ten_digits ? 1.3e-9 : 1.55e-9;
+    case Interaction::logarithm:
+      return problem.potential ? 2.4e-9 : 0.8e-9;
+    default:
+      return 3.5e-9;
+  }
+}
+
+template <int d>
+Costs<d>::Costs(const Problem& problem, const Degrees<d>& degrees, Precisions precisions)
+    : nodes_(nodes_of_degree<d>(degrees.one_sided)) {
+  const double functions = static_cast<double>(detail::functions<d>(degrees.highest));
+  transfer_ = functions * functions * multiplication + 3 * functions * moved_number;
+  moments_ = functions * function_at_point;
+  expansion_ = 2 * functions * function_at_point;
+  pair_ = pair_seconds(problem, precisions.points);
+  Problem far;
+  far.interaction = d == 3 ? Interaction::inverse : Interaction::logarithm;
+  far.potential = problem.potential;
+  substitute_pair_ = pair_seconds(far, precisions.substitutes);
+  setup_ = functions * functions * static_cast<double>(nodes_) * fitted_number;
+  double all = 0;
+  for (std::size_t number = 0; number < octant_offsets<d>; ++number) {
+    const int degree = degrees.at_offset[number];
+    if (degree == 0) continue;
+    const double nodes = static_cast<double>(nodes_of_degree<d>(degree));
+    couplings_setup_ += nodes * nodes * table_entry;
+    unsigned coupled = 0;
+    std::size_t rest = number, reflections = 1;
+    for (unsigned l = 0; l < d; ++l) {
+      if (rest % (farthest + 1) != 0) {
+        coupled |= 1U << l;
+        reflections *= 2;
+      }
+      rest /= farthest + 1;
+    }
+    double size[std::size_t{1} << d] = {};
+    for (std::size_t k = 0; k < detail::functions<d>(degree); ++k) ++size[parity<d>(k) & ~coupled];
+    for (const double s : size) coupling_[number] += s * s * multiplication + 2 * s * moved_number;
+    all += coupling_[number] * static_cast<double>(reflections);
+  }
+  // Points that fill a cube: 3^d leaves pair by pair, and of the 7^d - 3^d offsets those that the place in the parent
+  // allows, 6^d - 3^d; both cost the same at the best size.
+  const double near = d == 3 ? 27 : 9, far_clusters = d == 3 ? 189 : 27, offsets = d == 3 ? 316 : 40;
+  good_leaf_size_ = std::sqrt(all * far_clusters / offsets / (near * pair_));
+}
+
+template <int d>
+Prediction predict(const Tree<d>& fine, std::size_t fine_leaf_size, const Costs<d>& costs, bool couple) {
+  constexpr std::size_t any = ~std::size_t{0};
+  BySize seconds;
+  seconds.add(0, larger_count(fine.clusters()[0]), costs.setup(couple));
+  std::vector<Index> chain, colleagues, touching, apart;
+  for (std::size_t level = 0; level < fine.levels(); ++level) {
+    const std::size_t begin = fine.level_begin(level), end = fine.level_begin(level + 1);
+    const std::size_t step = (end - begin + samples_a_level - 1) / samples_a_level;
+    for (std::size_t i = begin; i < end; i += step) {
+      const Cluster& cluster = fine.clusters()[i];
+      const double weight = static_cast<double>(std::min(step, end - i));
+      const std::size_t own = larger_count(cluster),
+                        above = level == 0 ? any : larger_count(fine.clusters()[cluster.parent]);
+      const std::size_t leaf_from = cluster.leaf() ? 0 : own;  // is a leaf for sizes leaf_from <= s < above
+      const double sources = static_cast<double>(cluster.source_count()),
+                   targets = static_cast<double>(cluster.target_count());
+      if (level > 0) {
+        seconds.add(0, above, weight * (sources + (fine.self() ? 0 : targets)) * sorted_point);
+        seconds.add(0, above, weight * costs.transfer() * ((sources > 0) + (couple && targets > 0)));
+      }
+      seconds.add(leaf_from, above,
+                  weight * (sources * costs.moments_of_point() + (couple ? targets : 0) * costs.expansion_at_point()));
+      if (cluster.target_count() == 0) continue;
+
+      // Down from the root to this cluster, with what touches on the way.
+      chain.assign(1, static_cast<Index>(i));
+      while (fine.clusters()[chain.back()].level > 0) chain.push_back(fine.clusters()[chain.back()].parent);
+      colleagues.clear();
+      if (fine.clusters()[0].source_count() > 0) colleagues.push_back(0);
+      apart.clear();
+      for (std::size_t n = chain.size() - 1; n-- > 0;) {
+        next_colleagues<d>(fine, fine.clusters()[chain[n]], colleagues, touching, apart);
+        colleagues.swap(touching);
+      }
+      for (const Index s : colleagues)
+        seconds.add(leaf_from, above,
+                    weight * targets * static_cast<double>(fine.clusters()[s].source_count()) * costs.pair());
+      for (const Index s : apart) {
+        const Cluster& other = fine.clusters()[s];
+        const double count = static_cast<double>(other.source_count());
+        const std::size_t divided = other.level == 0 ? any : larger_count(fine.clusters()[other.parent]);
+        const double pairs = weight * targets * count * costs.pair();
+        if (other.level != cluster.level) {  // a larger leaf
+          seconds.add(0, above, pairs);
+          continue;
+        }
+        const bool replaced = other.source_count() > costs.nodes();
+        double event =
+            replaced ? weight * targets * static_cast<double>(costs.nodes()) * costs.substitute_pair() : pairs;
+        if (couple) {
+          int k[3] = {};
+          for (std::size_t l = 0; l < d; ++l) k[l] = static_cast<int>(std::abs(cluster.cell[l] - other.cell[l]));
+          event = weight * (costs.coupling(k) + listed_coupling);
+        }
+        seconds.add(0, std::min(above, divided), event);
+        seconds.add(divided, above, pairs);  // the other is not divided down to here
+      }
+    }
+  }
+  return seconds.best(fine_leaf_size);
+}
+
+template class Costs<2>;
+template class Costs<3>;
+template Prediction predict<2>(const Tree<2>&, std::size_t, const Costs<2>&, bool);
+template Prediction predict<3>(const Tree<3>&, std::size_t, const Costs<3>&, bool);
+
+}  // namespace farfield::detail

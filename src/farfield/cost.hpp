@@ -1,0 +1,54 @@
+// Predicted times, one thread: events counted on a sample of the clusters of a fine tree, for every size that a leaf
+// may have at most, times what an event costs. The constants are those of a processor with AVX2; only ratios matter for
+// the choice.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "farfield/near_field.hpp"
+#include "farfield/operators.hpp"
+#include "farfield/tree.hpp"
+
+namespace farfield::detail {
+
+/// Seconds of one pair.
+double pair_seconds(const Problem& problem, Precision precision);
+
+/// Seconds of what depends on the degrees alone.
+template <int d>
+class Costs {
+ public:
+  Costs(const Problem& problem, const Degrees<d>& degrees, Precisions precisions);
+
+  /// Tables for the degrees, if they are not at hand.
+  double setup(bool couple) const { return setup_ + (couple ? couplings_setup_ : 0); }
+  double pair() const { return pair_; }
+  double substitute_pair() const { return substitute_pair_; }
+  double coupling(const int* k) const { return coupling_[octant_number<d>(k)]; }
+  /// From or to the parent.
+  double transfer() const { return transfer_; }
+  double moments_of_point() const { return moments_; }
+  double expansion_at_point() const { return expansion_; }
+  /// Nodes that stand for a cluster of sources.
+  std::size_t nodes() const { return nodes_; }
+  /// Leaves of that size are about the best for points that fill a cube.
+  double good_leaf_size() const { return good_leaf_size_; }
+
+ private:
+  double setup_ = 0, couplings_setup_ = 0, pair_ = 0, substitute_pair_ = 0, transfer_ = 0, moments_ = 0, expansion_ = 0,
+         good_leaf_size_ = 0;
+  std::size_t nodes_ = 0;
+  double coupling_[octant_offsets<d>] = {};
+};
+
+struct Prediction {
+  std::size_t leaf_size = 0;
+  double seconds = 0;
+};
+
+/// The best leaf size, at least that of the tree, and the time of one plan and one evaluation with it.
+template <int d>
+Prediction predict(const Tree<d>& fine, std::size_t fine_leaf_size, const Costs<d>& costs, bool couple);
+
+}  // namespace farfield::detail

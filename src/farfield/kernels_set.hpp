@@ -1,0 +1,16 @@
+// The kernels of the instruction set FARFIELD_ISA, each defined in the source of its method; kernels_table.cpp lists
+// them.
+#pragma once
+
+#include "farfield/kernels.hpp"
+
+namespace farfield::detail::FARFIELD_ISA {
+
+void pairs(const PairsJob& job);
+void product(const ProductJob& job);
+void moments(const MomentsJob& job);
+void expansion(const ExpansionJob& job);
+
+extern const Kernels kernels;
+
+}  // namespace farfield::detail::FARFIELD_ISA

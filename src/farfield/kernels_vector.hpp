@@ -1,0 +1,122 @@
+// Vectors of FARFIELD_LANES doubles in namespace FARFIELD_ISA. Included only by *_kernels.cpp, which are compiled once
+// for every instruction set: an inline function that others include too would be compiled with instructions that the
+// processor may lack, and the linker could take that copy for everybody. For the same reason kernels use raw pointers
+// and loops and nothing of the standard library, and their helpers have internal linkage.
+#pragma once
+
+#include <cstddef>
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+namespace farfield::detail::FARFIELD_ISA {
+namespace {
+
+constexpr std::size_t lanes = FARFIELD_LANES;
+
+using Vector = double __attribute__((vector_size(8 * FARFIELD_LANES)));
+using Bits = unsigned long long __attribute__((vector_size(8 * FARFIELD_LANES)));
+using Signed = long long __attribute__((vector_size(8 * FARFIELD_LANES)));
+using Unaligned = double __attribute__((vector_size(8 * FARFIELD_LANES), aligned(8), may_alias));
+
+#define FARFIELD_INLINE inline __attribute__((always_inline))
+
+FARFIELD_INLINE Vector load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
+FARFIELD_INLINE void store(double* to, Vector x) { *reinterpret_cast<Unaligned*>(to) = x; }
+FARFIELD_INLINE Vector broadcast(double x) { return Vector{} + x; }
+FARFIELD_INLINE Vector select(Bits mask, Vector x) {
+  return reinterpret_cast<Vector>(mask & reinterpret_cast<Bits>(x));
+}
+template <class Mask>
+FARFIELD_INLINE bool any(Mask mask) {
+  unsigned long long words[sizeof(Mask) / 8], all = 0;
+  __builtin_memcpy(words, &mask, sizeof mask);
+  for (const unsigned long long word : words) all |= word;
+  return all != 0;
+}
+
+/// 1/sqrt(x) to at least 11 bits for 1e-37 < x < 1e37.
+FARFIELD_INLINE Vector rsqrt_estimate(Vector x) {
+#if FARFIELD_LANES == 8 && defined(__AVX512F__)
+  return reinterpret_cast<Vector>(_mm512_maskz_rsqrt14_pd(0xff, reinterpret_cast<__m512d>(x)));
+#elif FARFIELD_LANES == 4 && defined(__AVX2__)
+  return reinterpret_cast<Vector>(_mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(reinterpret_cast<__m256d>(x)))));
+#elif FARFIELD_LANES == 2 && defined(__SSE2__)
+  return reinterpret_cast<Vector>(_mm_cvtps_pd(_mm_rsqrt_ps(_mm_cvtpd_ps(reinterpret_cast<__m128d>(x)))));
+#else
+  Vector y;
+  for (std::size_t i = 0; i < lanes; ++i) y[i] = 1 / __builtin_sqrt(x[i]);
+  return y;
+#endif
+}
+
+/// 1/sqrt(x) from an estimate y with h = 1 - x y^2: y (1 - h)^(-1/2), the series to h^4 (full) or h^2 (ten digits).
+template <bool full>
+FARFIELD_INLINE Vector rsqrt(Vector x) {
+  const Vector y = rsqrt_estimate(x);
+  const Vector h = 1.0 - (x * y) * y;
+  Vector p;
+  if constexpr (full) {
+    p = h * (35.0 / 128) + 5.0 / 16;
+    p = h * p + 3.0 / 8;
+    p = h * p + 0.5;
+  } else {
+    p = h * (3.0 / 8) + 0.5;
+  }
+  return y * (h * p) + y;
+}
+
+/// The same by square root and division, which occupy other parts of the processor.
+FARFIELD_INLINE Vector divided_rsqrt(Vector x) {
+#if FARFIELD_LANES == 8 && defined(__AVX512F__)
+  const Vector root = reinterpret_cast<Vector>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(x)));
+#elif FARFIELD_LANES == 4 && defined(__AVX2__)
+  const Vector root = reinterpret_cast<Vector>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(x)));
+#elif FARFIELD_LANES == 2 && defined(__SSE2__)
+  const Vector root = reinterpret_cast<Vector>(_mm_sqrt_pd(reinterpret_cast<__m128d>(x)));
+#else
+  Vector root;
+  for (std::size_t i = 0; i < lanes; ++i) root[i] = __builtin_sqrt(x[i]);
+#endif
+  return 1.0 / root;
+}
+
+/// exp(x) for x <= 0 to about one unit in the last place; 0 for x < -708.
+///   x = k ln 2 + r, |r| <= ln 2 / 2 (Cody and Waite: ln 2 in two parts),  exp(x) = 2^k sum_n r^n / n!
+FARFIELD_INLINE Vector exp_nonpositive(Vector x) {
+  constexpr double shift = 0x1.8p52;  // adding it rounds to an integer that then stands in the low bits
+  Vector k = x * 0x1.71547652b82fep+0 + shift;
+  const Bits exponent = reinterpret_cast<Bits>(k) << 52;
+  k -= shift;
+  const Vector r = (x - k * 0x1.62e42fefa0000p-1) - k * 0x1.cf79abc9e3b3ap-40;
+  Vector sum = broadcast(1.0 / 6227020800.0);  // 1/13!; r^14/14! < 5e-18
+  constexpr double factorials[] = {479001600., 39916800., 3628800., 362880., 40320., 5040.,
+                                   720.,       120.,      24.,      6.,      2.,     1.};
+  for (const double factorial : factorials) sum = sum * r + 1 / factorial;
+  sum = sum * r + 1.0;
+  const Vector value = reinterpret_cast<Vector>(reinterpret_cast<Bits>(sum) + exponent);
+  return select(reinterpret_cast<Bits>(x >= -708.0), value);
+}
+
+/// ln(x) for normal x > 0 to about 2e-16 (1 + |ln x|).
+///   x = 2^k m, sqrt(1/2) <= m < sqrt(2),  ln m = 2 atanh(f) = 2 f (1 + f^2/3 + f^4/5 + ...),  f = (m-1)/(m+1), |f| <
+///   0.172
+FARFIELD_INLINE Vector log_positive(Vector x) {
+  constexpr unsigned long long root_half = 0x3fe6a09e667f3bcdULL, one = 0x3ff0000000000000ULL;
+  const Bits bits = reinterpret_cast<Bits>(x);
+  const Bits above = bits - root_half + one;  // exponent field: that of x / sqrt(1/2)
+  const Bits exponent = above >> 52;          // k + 1023
+  const Vector m = reinterpret_cast<Vector>(bits - ((exponent - 1023) << 52));
+  constexpr double shift = 0x1.8p52;
+  const Vector k = reinterpret_cast<Vector>((exponent - 1023) + 0x4338000000000000ULL) - shift;
+  const Vector f = (m - 1.0) / (m + 1.0), f2 = f * f;
+  Vector sum = broadcast(1.0 / 19);  // f^20/21 < 3e-17
+  constexpr double odd[] = {17, 15, 13, 11, 9, 7, 5, 3};
+  for (const double n : odd) sum = sum * f2 + 1 / n;
+  const Vector twice = f + f;
+  return k * 0x1.62e42fefa39efp-1 + (twice + twice * (f2 * sum));
+}
+
+}  // namespace
+}  // namespace farfield::detail::FARFIELD_ISA

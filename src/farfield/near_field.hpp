@@ -1,0 +1,59 @@
+// What is summed pair by pair, or by substitute charges in place of points, for the targets of one leaf.
+#pragma once
+
+#include "farfield/interpolation.hpp"
+#include "farfield/tree.hpp"
+
+namespace farfield::detail {
+
+/// Of pairs of points, and of substitute charges with points.
+struct Precisions {
+  Precision points, substitutes;
+};
+
+/// What keeps a tolerance. Substitute charges may be ten times larger in all than the charges they stand for.
+Precisions precisions_for(double tolerance, Interaction interaction);
+/// Largest error of a sum relative to the sum of its terms' sizes.
+double error_of(Precision precision);
+
+/// Everything in the order of the tree.
+template <int d>
+class NearField {
+ public:
+  NearField(const Problem& problem, const Tree<d>& tree, Precisions precisions)
+      : problem_(problem), tree_(tree), precisions_(precisions) {}
+
+  /// Sources of the runs at the targets of a leaf.
+  void add(const Cluster& leaf, const Range* runs, std::size_t count, const Buffer<double>& charges, Sums& sums) const;
+
+  /// Room for substitute charges that are used together.
+  struct Substitutes {
+    Coordinates position;
+    Buffer<double> charge;
+    std::size_t count = 0;
+    double reach = 0;
+    std::vector<double> moments;  // of the cluster to be added
+  };
+  /// Adds the nodes of a cluster of sources with the charges that stand for substitutes.moments; what has gathered acts
+  /// on the leaf before it becomes too much.
+  void add(const Cluster& leaf, const Interpolation<d>& interpolation, const Cluster& sources, Substitutes& substitutes,
+           Sums& sums) const;
+  /// What has gathered acts on the leaf.
+  void act(const Cluster& leaf, Substitutes& substitutes, Sums& sums) const;
+
+  /// Potential of the sources in `range` at the nodes of a cluster, overwritten.
+  void at_nodes(const Cluster& cluster, const Interpolation<d>& interpolation, Range range,
+                const Buffer<double>& charges, double* values) const;
+
+ private:
+  PairsJob job_for(const Cluster& leaf, Sums& sums) const;
+  static void set_reach(double reach, PairsJob& job);
+  void nodes_of(const Cluster& cluster, const Interpolation<d>& interpolation, Coordinates& to,
+                std::size_t first) const;
+
+  const Problem& problem_;
+  const Tree<d>& tree_;
+  Precisions precisions_;
+};
+
+}  // namespace farfield::detail

@@ -1,0 +1,234 @@
+#include "farfield/partition.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "base/parallel.hpp"
+
+namespace farfield::detail {
+namespace {
+
+constexpr std::size_t piece = 64;  // clusters handled together
+
+template <class Entry>
+double bytes_of(const Lists<Entry>& lists) {
+  return static_cast<double>(lists.begin.size() * sizeof(std::size_t) + lists.entries.size() * sizeof(Entry));
+}
+
+/// Lists of the clusters begin .. end appended; make(i, list) fills that of cluster i.
+template <class Entry, class Make>
+void append_lists(Lists<Entry>& lists, std::size_t begin, std::size_t end, int threads, const Make& make) {
+  const std::size_t pieces = (end - begin + piece - 1) / piece;
+  std::vector<std::vector<Entry>> entries(pieces);
+  std::vector<std::size_t> count(end - begin);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
+    for (std::size_t i = begin + p * piece; i < std::min(end, begin + (p + 1) * piece); ++i) {
+      const std::size_t before = entries[p].size();
+      make(i, entries[p]);
+      count[i - begin] = entries[p].size() - before;
+    }
+  });
+  if (lists.begin.empty()) lists.begin.push_back(0);
+  for (const std::size_t c : count) lists.begin.push_back(lists.begin.back() + c);
+  for (const auto& part : entries) lists.entries.insert(lists.entries.end(), part.begin(), part.end());
+}
+
+template <int d>
+class Maker {
+ public:
+  Maker(const Tree<d>& tree, std::size_t enough, bool couple, int threads)
+      : tree_(tree), clusters_(tree.clusters()), enough_(enough), couple_(couple), threads_(threads) {}
+
+  Partition make() {
+    for (std::size_t level = 0; level < tree_.levels(); ++level) {
+      const std::size_t begin = tree_.level_begin(level), end = tree_.level_begin(level + 1);
+      append_lists(colleagues_, begin, end, threads_, [&](std::size_t i, auto& list) { find_colleagues(i, list); });
+      append_lists(coarse_, begin, end, threads_, [&](std::size_t i, auto& list) { find_coarse(i, list, nullptr); });
+      append_lists(partition_.from_points, begin, end, threads_,
+                   [&](std::size_t i, auto& list) { find_coarse(i, unused(), &list); });
+      if (couple_) find_couplings(level);
+    }
+    append_lists(partition_.runs, 0, clusters_.size(), threads_,
+                 [&](std::size_t i, auto& list) { find_near(i, &list, nullptr); });
+    append_lists(partition_.from_clusters, 0, clusters_.size(), threads_,
+                 [&](std::size_t i, auto& list) { find_near(i, nullptr, &list); });
+    return std::move(partition_);
+  }
+
+ private:
+  using List = std::vector<Index>;
+
+  static List& unused() {
+    thread_local List list;
+    list.clear();
+    return list;
+  }
+
+  /// Clusters of its level with sources that it touches or, if nothing is to be coupled, all of them that are children
+  /// of the parent's colleagues.
+  void find_colleagues(std::size_t i, List& list) const {
+    const Cluster& target = clusters_[i];
+    if (target.target_count() == 0) return;
+    if (target.level == 0) {
+      if (target.source_count() > 0) list.push_back(0);
+      return;
+    }
+    for_each_candidate(target, [&](Index s) {
+      if (touch<d>(target, clusters_[s])) list.push_back(s);
+    });
+  }
+
+  template <class Use>
+  void for_each_candidate(const Cluster& target, const Use& use) const {
+    const Index* const near = colleagues_.first(target.parent);
+    for (std::size_t n = 0; n < colleagues_.count(target.parent); ++n) {
+      const Cluster& cluster = clusters_[near[n]];
+      for (Index s = cluster.first_child; s < cluster.first_child + cluster.children; ++s)
+        if (clusters_[s].source_count() > 0) use(s);
+    }
+  }
+
+  /// Larger leaves of sources that it touches, or has too few targets for; the others go to `from_points`.
+  void find_coarse(std::size_t i, List& list, List* from_points) const {
+    const Cluster& target = clusters_[i];
+    if (target.level == 0 || target.target_count() == 0) return;
+    const auto add = [&](Index s) {
+      const bool apart = couple_ && target.target_count() > enough_ && !touch<d>(target, clusters_[s]);
+      if (!apart) list.push_back(s);
+      if (apart && from_points) from_points->push_back(s);
+    };
+    const Index* const coarse = coarse_.first(target.parent);
+    for (std::size_t n = 0; n < coarse_.count(target.parent); ++n) add(coarse[n]);
+    const Index* const near = colleagues_.first(target.parent);
+    for (std::size_t n = 0; n < colleagues_.count(target.parent); ++n)
+      if (clusters_[near[n]].leaf()) add(near[n]);
+  }
+
+  void find_couplings(std::size_t level) {
+    const std::size_t begin = tree_.level_begin(level), end = tree_.level_begin(level + 1);
+    const std::size_t chunks = (end - begin + CouplingChunk::size - 1) / CouplingChunk::size;
+    std::vector<CouplingChunk> made(chunks);
+    gaussdrift::base::parallel_for(chunks, threads_, [&](std::size_t c) {
+      constexpr int span = 7;  // offsets -3 .. 3 an axis
+      std::array<std::size_t, span * span * span + 1> first{};
+      struct Found {
+        std::size_t number;
+        CouplingChunk::Pair pair;
+      };
+      std::vector<Found> found;
+      for (std::size_t t = begin + c * CouplingChunk::size; t < std::min(end, begin + (c + 1) * CouplingChunk::size);
+           ++t) {
+        const Cluster& target = clusters_[t];
+        if (target.level == 0 || target.target_count() == 0) continue;
+        for_each_candidate(target, [&](Index s) {
+          if (touch<d>(target, clusters_[s])) return;
+          std::size_t number = 0;
+          for (std::size_t l = 0; l < d; ++l)
+            number = number * span + static_cast<std::size_t>(target.cell[l] - clusters_[s].cell[l] + 3);
+          found.push_back({number, {static_cast<Index>(t), s}});
+          ++first[number + 1];
+        });
+      }
+      CouplingChunk& chunk = made[c];
+      chunk.level = static_cast<int>(level);
+      for (std::size_t n = 0; n + 1 < first.size(); ++n) {
+        if (first[n + 1] > 0) {
+          CouplingChunk::Group group{{}, first[n] + first[n + 1]};
+          std::size_t rest = n;
+          for (std::size_t l = d; l-- > 0;) {
+            group.k[l] = static_cast<int>(rest % span) - 3;
+            rest /= span;
+          }
+          chunk.groups.push_back(group);
+        }
+        first[n + 1] += first[n];
+      }
+      chunk.pairs.resize(found.size());
+      for (const Found& f : found) chunk.pairs[first[f.number]++] = f.pair;
+    });
+    for (CouplingChunk& chunk : made)
+      if (!chunk.pairs.empty()) partition_.couplings.push_back(std::move(chunk));
+  }
+
+  /// For a leaf of targets: sources pair by pair, and smaller clusters that are far enough.
+  void find_near(std::size_t i, std::vector<Range>* runs, List* from_clusters) const {
+    const Cluster& target = clusters_[i];
+    if (!target.leaf() || target.target_count() == 0) return;
+    std::vector<Range> ranges;
+    const auto add_run = [&](const Cluster& cluster) {
+      // Points that all are one: every distance is 0.
+      if (cluster.one_point && &cluster == &target) return;
+      if (runs) ranges.push_back(cluster.sources);
+    };
+    const Index* const coarse = coarse_.first(i);
+    for (std::size_t n = 0; n < coarse_.count(i); ++n) add_run(clusters_[coarse[n]]);
+    std::vector<Index> open;
+    const auto visit = [&](Index s, bool touches) {
+      const Cluster& cluster = clusters_[s];
+      if (cluster.source_count() == 0) return;
+      if (!touches && cluster.source_count() > enough_) {
+        if (from_clusters) from_clusters->push_back(s);
+      } else if (!touches || cluster.leaf()) {
+        add_run(cluster);
+      } else {
+        open.push_back(s);
+      }
+    };
+    const auto close = [&] {
+      while (!open.empty()) {
+        const Cluster& cluster = clusters_[open.back()];
+        open.pop_back();
+        for (Index s = cluster.first_child; s < cluster.first_child + cluster.children; ++s)
+          visit(s, touch<d>(target, clusters_[s]));
+      }
+    };
+    const Index* const near = colleagues_.first(i);
+    for (std::size_t n = 0; n < colleagues_.count(i); ++n) visit(near[n], true);
+    close();
+    if (!couple_) {
+      // Nothing was coupled on the way down: for every ancestor the clusters that it would have been coupled with.
+      for (std::size_t t = i; clusters_[t].level > 0; t = clusters_[t].parent)
+        for_each_candidate(clusters_[t], [&](Index s) {
+          if (!touch<d>(clusters_[t], clusters_[s])) visit(s, false);
+        });
+    }
+    if (!runs) return;
+    std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+    const std::size_t first = runs->size();
+    for (const Range& range : ranges) {
+      if (runs->size() > first && runs->back().end == range.begin) {
+        runs->back().end = range.end;
+      } else {
+        runs->push_back(range);
+      }
+    }
+  }
+
+  const Tree<d>& tree_;
+  const std::vector<Cluster>& clusters_;
+  std::size_t enough_;
+  bool couple_;
+  int threads_;
+  Lists<Index> colleagues_, coarse_;
+  Partition partition_;
+};
+
+}  // namespace
+
+double Partition::bytes() const {
+  double sum = bytes_of(from_points) + bytes_of(runs) + bytes_of(from_clusters);
+  for (const CouplingChunk& chunk : couplings)
+    sum += static_cast<double>(chunk.pairs.size() * sizeof(CouplingChunk::Pair) +
+                               chunk.groups.size() * sizeof(CouplingChunk::Group));
+  return sum;
+}
+
+template <int d>
+Partition make_partition(const Tree<d>& tree, std::size_t enough, bool couple, int threads) {
+  return Maker<d>(tree, enough, couple, threads).make();
+}
+
+template Partition make_partition<2>(const Tree<2>&, std::size_t, bool, int);
+template Partition make_partition<3>(const Tree<3>&, std::size_t, bool, int);
+
+}  // namespace farfield::detail

@@ -1,0 +1,37 @@
+// The public class: forwards to its engine.
+#include "farfield/engine.hpp"
+#include "farfield/farfield.hpp"
+
+namespace farfield {
+
+template <int d>
+Plan<d>::Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Points<d>>& targets,
+              const Options& options)
+    : engine_(std::make_unique<detail::Engine<d>>(kernel, sources, &targets, options)) {}
+
+template <int d>
+Plan<d>::Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& points, const Options& options)
+    : engine_(std::make_unique<detail::Engine<d>>(kernel, points, nullptr, options)) {}
+
+template <int d>
+Plan<d>::~Plan() = default;
+template <int d>
+Plan<d>::Plan(Plan&&) noexcept = default;
+template <int d>
+Plan<d>& Plan<d>::operator=(Plan&&) noexcept = default;
+
+template <int d>
+Values<d> Plan<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges) const {
+  return engine_->evaluate(charges);
+}
+
+template <int d>
+const Choice& Plan<d>::choice() const {
+  return engine_->choice();
+}
+
+template class Plan<1>;
+template class Plan<2>;
+template class Plan<3>;
+
+}  // namespace farfield

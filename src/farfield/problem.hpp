@@ -1,0 +1,43 @@
+// The sum as the methods see it: points by axis, in units in which they extend over about 1, charges up to 1, and one
+// of three interactions. What distinguishes the kernels of the interface is undone afterwards by the engine.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "farfield/buffer.hpp"
+#include "farfield/kernels.hpp"
+
+namespace farfield::detail {
+
+/// Coordinates by axis, each readable `padding` numbers past its end.
+using Coordinates = std::array<Buffer<double>, 3>;
+
+struct Problem {
+  Interaction interaction = Interaction::inverse;
+  bool potential = true;
+  double inverse_squared_core = 0;  // 1/eps^2, of blob
+  double log_shift = 0;             // ln of the unit of length
+  bool self = true;                 // the sources are the targets
+  std::size_t sources = 0, targets = 0;
+  Coordinates source, target;  // target is empty if self
+
+  int dimension() const { return interaction == Interaction::inverse ? 3 : 2; }
+  const Coordinates& target_points() const { return self ? source : target; }
+};
+
+/// Arrays of results, by target, zero at first, padded like coordinates.
+struct Sums {
+  Buffer<double> potential;
+  Coordinates field;
+};
+
+/// Sums for charges (padded, by source); what a method has prepared.
+class Summation {
+ public:
+  virtual ~Summation() = default;
+  virtual void evaluate(const Buffer<double>& charges, Sums& sums) const = 0;
+  virtual double evaluation_bytes() const = 0;
+};
+
+}  // namespace farfield::detail
