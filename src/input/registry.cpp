@@ -404,7 +404,7 @@ std::vector<Key> written_keys() {
        .choices = {"auto", "measured", "none"},
        .meaning =
            "whether a run with a reference measures what time stepping, smoothing, quadrature and Gauss transform each "
-           "add to its error; `auto`: where that costs less than a fifth of the run"},
+           "add to its error; `auto`: where that costs about a tenth of the run at most"},
 
       {.table = "check",
        .name = "what",

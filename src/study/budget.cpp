@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "base/error.hpp"
 #include "sim/exact_paths.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
@@ -110,19 +111,22 @@ Particles at_start(const Particles& particles, const std::vector<std::size_t>& c
 }
 
 /// The same blobs half a spacing aside on every axis: one in each cell of the lattice that has one of `start` at a
-/// corner.
+/// corner. Outside the lattice neither density nor velocity need be defined.
 Particles between(const Particles& start, const Scene& scene) {
   const Lattice& lattice = scene.seeding;
   std::vector<std::size_t> cells;  // cell i of an axis is left of lattice point i; there is one more than points
   for (const auto id : start.id)
     for (int corner = 0; corner < (1 << start.dimension); ++corner) {
       std::size_t rest = static_cast<std::size_t>(id), cell = 0, stride = 1;
+      bool inside = true;
       for (int k = 0; k < start.dimension; ++k) {
-        cell += stride * (rest % lattice.points[k] + static_cast<std::size_t>(corner >> k & 1));
+        const std::size_t i = rest % lattice.points[k] + static_cast<std::size_t>(corner >> k & 1);
+        inside = inside && 0 < i && i < lattice.points[k];
+        cell += stride * i;
         rest /= lattice.points[k];
         stride *= lattice.points[k] + 1;
       }
-      cells.push_back(cell);
+      if (inside) cells.push_back(cell);
     }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -142,10 +146,26 @@ Particles between(const Particles& start, const Scene& scene) {
   return moved;
 }
 
+/// Not a number if some difference is none.
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = std::abs(a[i] - b[i]);
+    if (!(difference <= largest)) largest = difference;
+    if (std::isnan(largest)) break;
+  }
   return largest;
+}
+
+/// At least `rounding`; what is not a number stays so.
+double told(double error) { return error < rounding ? rounding : error; }
+
+/// No number of a budget is one that could not be computed.
+Budget checked(Budget budget) {
+  for (const double error : {budget.time_stepping, budget.smoothing, budget.quadrature, budget.total})
+    if (budget.known() && !std::isfinite(error))
+      budget.not_covered = "density or velocity are not finite somewhere between the lattice points";
+  return budget;
 }
 
 std::vector<double> exact_of(const std::vector<Probe>& probes) {
@@ -278,6 +298,7 @@ void carry_by_steps(const Case& description, const Scene& scene, Particles& part
 
 /// False if some path could not be followed.
 bool carry(const Case& description, const Scene& scene, const Carrying& how, Particles& particles) {
+  if (particles.size() == 0) return true;
   if (how.exactly)
     return carry_exactly(*scene.velocity, scene.reaction_rate.get(), particles, 0, description.output.times.back(),
                          how.paths)
@@ -319,9 +340,9 @@ void tell_smoothing_and_quadrature(const Case& description, const Scene& scene, 
     return;
   }
   const std::vector<double> other = sums_at(probes, aside, scene.cutoff, how.paths.threads);
-  budget.quadrature = std::max(rounding, largest_difference(sums, other) / 2 / norm);
+  budget.quadrature = told(largest_difference(sums, other) / 2 / norm);
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = (sums[i] + other[i]) / 2;
-  budget.smoothing = std::max(rounding, largest_difference(sums, exact_of(probes)) / norm);
+  budget.smoothing = told(largest_difference(sums, exact_of(probes)) / norm);
   better = smoothing_of_others(description, scene, probes, aside, norm, how.paths.threads);
 }
 
@@ -385,7 +406,7 @@ double predict_time_stepping(const Case& description, const Scene& scene, const 
   double changed = largest_difference(sums_at(places, stepped, scene.cutoff, paths.threads),
                                       sums_at(places, followed, scene.cutoff, paths.threads));
   if (!smooth_paths) changed *= of_halved_steps(description, scene);
-  return std::max(rounding, changed / norm * std::pow(factor, -tableau.time_order));
+  return told(changed / norm * std::pow(factor, -tableau.time_order));
 }
 
 /// Evaluations of the velocity of one particle in all steps.
@@ -470,6 +491,21 @@ std::unique_ptr<Reference> exact_density(const Case& description, const Scene& s
   return make_reference(traced, scene, threads);
 }
 
+/// What fails here has not failed in the run, whose results must not be lost for it.
+template <class Tell>
+Budget covered_or_why(const Tell& tell) {
+  try {
+    return checked(tell());
+  } catch (const NumericalError& error) {
+    Budget budget;
+    budget.not_covered = error.what();
+    return budget;
+  }
+}
+
+Budget predict(const Case& description, const Scene& scene, Effort effort, int threads, Causes causes);
+Budget measure(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads);
+
 }  // namespace
 
 std::string budget_not_covered(const Case& description) {
@@ -482,6 +518,17 @@ std::string budget_not_covered(const Case& description) {
 }
 
 Budget predict_budget(const Case& description, const Scene& scene, Effort effort, int threads, Causes causes) {
+  return covered_or_why([&] { return predict(description, scene, effort, threads, causes); });
+}
+
+Budget measure_budget(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort,
+                      int threads) {
+  return covered_or_why([&] { return measure(description, scene, last, effort, threads); });
+}
+
+namespace {
+
+Budget predict(const Case& description, const Scene& scene, Effort effort, int threads, Causes causes) {
   Budget budget;
   budget.not_covered = budget_not_covered(description);
   if (!budget.known()) return budget;
@@ -513,10 +560,13 @@ Budget predict_budget(const Case& description, const Scene& scene, Effort effort
   std::vector<double> exact;
   exact_density(description, scene, threads)->evaluate_at(time, sample.points, exact);
   const auto farthest = [&](const auto& value) {  // from the exact density, over the sample
-    double worst = 0;
+    std::vector<double> values, known;
     for (std::size_t i = 0; i < exact.size(); ++i)
-      if (std::isfinite(exact[i])) worst = std::max(worst, std::abs(value(sample.points[i]) - exact[i]));
-    return worst;
+      if (std::isfinite(exact[i])) {
+        values.push_back(value(sample.points[i]));
+        known.push_back(exact[i]);
+      }
+    return largest_difference(values, known);
   };
   const double norm = farthest([](std::size_t) { return 0.0; });
   if (!(norm > 0)) {
@@ -524,8 +574,8 @@ Budget predict_budget(const Case& description, const Scene& scene, Effort effort
     return budget;
   }
   budget.probes = sample.points.size();
-  budget.quadrature = std::max(rounding, largest_difference(density, other) / 2 / norm);
-  budget.smoothing = std::max(rounding, farthest([&](std::size_t i) { return (density[i] + other[i]) / 2; }) / norm);
+  budget.quadrature = told(largest_difference(density, other) / 2 / norm);
+  budget.smoothing = told(farthest([&](std::size_t i) { return (density[i] + other[i]) / 2; }) / norm);
   const double worst = farthest([&](std::size_t i) { return density[i]; }) / norm;
   budget.total = worst;
   if (causes == Causes::lattice) return budget;
@@ -552,6 +602,8 @@ Budget predict_budget(const Case& description, const Scene& scene, Effort effort
   return budget;
 }
 
+}  // namespace
+
 void LastFrame::frame(const Frame& frame) {
   if (frame.time != last_) return;
   kept_.any = true;
@@ -562,8 +614,9 @@ void LastFrame::frame(const Frame& frame) {
   kept_.numbers = frame.numbers;
 }
 
-Budget measure_budget(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort,
-                      int threads) {
+namespace {
+
+Budget measure(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads) {
   Budget budget;
   budget.not_covered = budget_not_covered(description);
   if (budget.known() && !last.any) budget.not_covered = "there was no output";
@@ -607,11 +660,15 @@ Budget measure_budget(const Case& description, const Scene& scene, const LastFra
   budget.probes = probes.size();
   const Particles ran = picked(last.particles, chosen->around);
   const std::vector<double> by_steps = sums_at(probes, ran, scene.cutoff, threads);
-  const Particles ran_thin = chosen->stride > 1 ? thinned(ran, scene.seeding, chosen->stride) : ran;
+  Particles ran_thin = chosen->stride > 1 ? thinned(ran, scene.seeding, chosen->stride) : ran;
+  double cells = std::pow(static_cast<double>(chosen->stride), ran.dimension);
+  if (ran_thin.size() == 0) {  // all of few particles lie between those that would stay
+    ran_thin = ran;
+    cells = 1;
+  }
   std::vector<std::size_t> all(ran_thin.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   Particles followed = at_start(ran_thin, all, scene);
-  const double cells = std::pow(static_cast<double>(chosen->stride), followed.dimension);
   for (double& alpha : followed.alpha) alpha *= cells;
   if (!carry(description, scene, chosen->sharp, followed)) {
     budget.not_covered = lost_paths;
@@ -621,7 +678,7 @@ Budget measure_budget(const Case& description, const Scene& scene, const LastFra
   const std::vector<double> stepped = sums_at(probes, ran_thin, scene.cutoff, threads);
   budget.time_stepping = largest_difference(exactly, stepped) / norm;
   if (!chosen->sharp.exactly) budget.time_stepping *= of_halved_steps(description, scene);
-  budget.time_stepping = std::max(rounding, budget.time_stepping);
+  budget.time_stepping = told(budget.time_stepping);
   for (std::size_t i = 0; i < exactly.size(); ++i) exactly[i] += by_steps[i] - stepped[i];
   Better better;
   tell_smoothing_and_quadrature(description, scene, probes, at_start(last.particles, chosen->around, scene),
@@ -632,6 +689,8 @@ Budget measure_budget(const Case& description, const Scene& scene, const LastFra
   give_advice(description, scene, last.particles, better, budget);
   return budget;
 }
+
+}  // namespace
 
 std::string to_text(const Budget& budget) {
   std::string text;

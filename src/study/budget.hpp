@@ -35,7 +35,7 @@ std::string budget_not_covered(const Case& description);
 /// What may be spent on it.
 enum class Effort {
   whatever,      // it takes
-  share_of_run,  // a twentieth of the work of the run, or a tenth of a second; else not covered
+  share_of_run,  // measured: 9 % of the work of the run, predicted: 5 %, or a tenth of a second; else not covered
 };
 
 /// Which causes: those of the lattice and the blobs alone, or the steps as well.
