@@ -52,14 +52,19 @@ void add_sum_options(CLI::App& verb, SumOptions& options) {
   verb.add_option("--grid", options.grid, "a grid instead, as in --grid=-1:1:200,0:1:100; its first axis runs fastest")
       ->type_name("LOW:HIGH:COUNT,...")
       ->excludes(targets);
-  verb.add_option("--sigma", options.sigma, "the Gaussian is exp(-sigma r^2)")->required()->type_name("X");
+  verb.add_option("--sigma", options.sigma, "kernel gauss: exp(-sigma r^2)")->type_name("X");
   verb.add_option("--derivative", options.derivatives,
                   "a derivative, as in --derivative 0,1,2; repeatable; the plain sum by default")
       ->type_name("A1,A2,...")
       ->allow_extra_args(false);
-  verb.add_option("--tolerance", options.tolerance, "of every term, see docs/fgtd.md; 1e-6 by default")->type_name("X");
-  verb.add_option("--method", options.method, "auto (the default) or one of those in docs/fgtd.md")->type_name("NAME");
-  verb.add_option("--kernel", options.kernel, "gauss, the default")->type_name("NAME");
+  verb.add_option("--tolerance", options.tolerance, "see docs/fgtd.md and docs/farfield.md; 1e-6 by default")
+      ->type_name("X");
+  verb.add_option("--method", options.method,
+                  "auto (the default), or a method of the kernel's library; a wrong name lists them")
+      ->type_name("NAME");
+  verb.add_option("--kernel", options.kernel,
+                  "gauss (the default), or potential and field of coulomb (2D, 3D) or log (1D, 2D)")
+      ->type_name("NAME");
   verb.add_option("--out", options.out, "file for the values; standard output by default, also as -")
       ->type_name("FILE");
   verb.add_option("--threads", options.threads, "threads to use; all by default")
@@ -156,7 +161,8 @@ ExitCode dispatch(int argc, char** argv) {
   doctor_verb->add_flag("--json", doctor_options.json, "results as JSON on standard output");
 
   SumOptions sum_options;
-  CLI::App* sum_verb = app.add_subcommand("sum", "sums of Gaussians and their derivatives over a table of points");
+  CLI::App* sum_verb =
+      app.add_subcommand("sum", "sums of Gaussians, Coulomb charges or logarithms over a table of points");
   add_sum_options(*sum_verb, sum_options);
 
   ReproduceOptions reproduce_options;

@@ -14,6 +14,7 @@
 #include "base/suggest.hpp"
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
+#include "study/sum_pairs.hpp"
 #include "study/sum_points.hpp"
 #include "write/atomic_file.hpp"
 
@@ -23,16 +24,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fgtd::Method method_of(const std::string& name) {
+/// The one of that name; to_string() of the library that `all` comes from.
+template <class Choice>
+Choice named(const char* option, const std::string& name, const std::vector<Choice>& all) {
   std::vector<std::string> names;
-  for (const fgtd::Method method : fgtd::methods()) {
-    names.push_back(fgtd::to_string(method));
-    if (names.back() == name) return method;
+  for (const Choice choice : all) {
+    names.push_back(to_string(choice));
+    if (names.back() == name) return choice;
   }
   const auto meant = base::suggest(name, names);
-  throw CommandLineError(fmt::format("--method: there is no \"{}\"{}; there are {}", name,
+  throw CommandLineError(fmt::format("{}: there is no \"{}\"{}; there are {}", option, name,
                                      meant ? fmt::format(", is \"{}\" meant?", *meant) : "", fmt::join(names, ", ")));
 }
+
+bool of_pairs(const SumOptions& options) { return options.kernel == "coulomb" || options.kernel == "log"; }
 
 bool to_standard_output(const SumOptions& options) { return options.out.empty() || options.out == "-"; }
 
@@ -42,13 +47,24 @@ bool same_file(const fs::path& a, const fs::path& b) {
 }
 
 void check_options(const SumOptions& options) {
-  if (options.kernel != "gauss")
-    throw CommandLineError(fmt::format("--kernel: there is no \"{}\"; there is gauss", options.kernel));
-  if (!(options.sigma > 0) || !std::isfinite(options.sigma))
-    throw CommandLineError(fmt::format("--sigma {}: must be positive and finite", options.sigma));
-  if (!(options.tolerance > 0) || !(options.tolerance < 1))
-    throw CommandLineError(
-        fmt::format("--tolerance {}: must lie in [{}, 1)", options.tolerance, fgtd::smallest_tolerance));
+  if (of_pairs(options)) {
+    if (options.sigma)
+      throw CommandLineError(fmt::format("--sigma belongs to the kernel gauss, not to {}", options.kernel));
+    if (!options.derivatives.empty())
+      throw CommandLineError(
+          fmt::format("--derivative belongs to the kernel gauss; {} gives potential and field", options.kernel));
+    if (!(options.tolerance > 0) || !(options.tolerance < 1))
+      throw CommandLineError(fmt::format("--tolerance {}: must lie in (0, 1)", options.tolerance));
+  } else if (options.kernel == "gauss") {
+    if (!options.sigma) throw CommandLineError("--sigma is missing: the Gaussian is exp(-sigma r^2)");
+    if (!(*options.sigma > 0) || !std::isfinite(*options.sigma))
+      throw CommandLineError(fmt::format("--sigma {}: must be positive and finite", *options.sigma));
+    if (!(options.tolerance > 0) || !(options.tolerance < 1))
+      throw CommandLineError(
+          fmt::format("--tolerance {}: must lie in [{}, 1)", options.tolerance, fgtd::smallest_tolerance));
+  } else {
+    throw CommandLineError(fmt::format("--kernel: there is no \"{}\"; there are gauss, coulomb, log", options.kernel));
+  }
   if (to_standard_output(options)) {
     if (options.json)
       throw CommandLineError("--json writes to standard output, so the values need a file; add --out FILE");
@@ -82,22 +98,22 @@ class Output {
   std::FILE* stream_;
 };
 
-void write_file(const study::PointSums& sums, const fs::path& file) {
+void write_file(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, const fs::path& file) {
   Output out(file);
-  study::write_table(sums, out.stream());
+  study::write_table(columns, values, out.stream());
   out.close();
 }
 
-void write_values(const study::PointSums& sums, const SumOptions& options) {
+void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, const SumOptions& options) {
   std::error_code ignored;
   const bool special = fs::exists(options.out, ignored) && !fs::is_regular_file(options.out, ignored);
   try {
     if (to_standard_output(options))
-      study::write_table(sums, stdout);
+      study::write_table(columns, values, stdout);
     else if (special)  // a pipe or a device is written to; a rename would replace it
-      write_file(sums, options.out);
+      write_file(columns, values, options.out);
     else
-      write::write_atomically(options.out, [&](const fs::path& part) { write_file(sums, part); });
+      write::write_atomically(options.out, [&](const fs::path& part) { write_file(columns, values, part); });
   } catch (const std::system_error& error) {
     throw FileError(fmt::format("cannot write {}: {}",
                                 to_standard_output(options) ? "to standard output" : options.out.string(),
@@ -105,36 +121,60 @@ void write_values(const study::PointSums& sums, const SumOptions& options) {
   }
 }
 
+/// What is the same for every kernel; returns the seconds of reading.
+double read_points(const SumOptions& options, study::PointsRequest& request) {
+  request.tolerance = options.tolerance;
+  request.threads = options.threads;
+  if (!options.grid.empty()) request.grid = study::parse_grid(options.grid);
+  const base::Stopwatch reading;
+  request.sources = input::read_points_table(options.sources, input::PointsRole::sources, request.memory_limit);
+  if (!options.targets.empty())
+    request.targets = input::read_points_table(options.targets, input::PointsRole::targets, request.memory_limit);
+  return reading.seconds();
+}
+
+/// Writes the values and tells about them; Sums is that of one library.
+template <class Sums>
+void write(Sums& sums, const SumOptions& options) {
+  if (options.method != "auto" && sums.asked != sums.choice.method)
+    fmt::print(stderr, "warning: {} is not possible for these points, targets and tolerance; {} did the sum\n",
+               options.method, to_string(sums.choice.method));
+  const base::Stopwatch writing;
+  write_values(sums.columns, sums.values, options);
+  sums.write_seconds = writing.seconds();
+  if (options.json)
+    fmt::print("{}", study::to_json(sums));
+  else if (!to_standard_output(options))
+    fmt::print("{}open   {}\n", study::to_text(sums), options.out.string());
+}
+
+void sum_gaussians(const SumOptions& options) {
+  study::SumRequest request;
+  request.sigma = *options.sigma;
+  request.method = named("--method", options.method, fgtd::methods());
+  for (const std::string& text : options.derivatives) request.derivatives.push_back(study::parse_derivative(text));
+  const double read_seconds = read_points(options, request);
+  study::PointSums sums = study::sum_points(request);
+  sums.read_seconds = read_seconds;
+  write(sums, options);
+}
+
+void sum_pairs(const SumOptions& options) {
+  study::PairSumRequest request;
+  request.kernel = named("--kernel", options.kernel, farfield::kernels());
+  request.method = named("--method", options.method, farfield::methods());
+  const double read_seconds = read_points(options, request);
+  study::PairSums sums = study::sum_pairs(request);
+  sums.read_seconds = read_seconds;
+  write(sums, options);
+}
+
 }  // namespace
 
 ExitCode sum(const SumOptions& options) {
   check_options(options);
-  study::SumRequest request;
-  request.sigma = options.sigma;
-  request.tolerance = options.tolerance;
-  request.threads = options.threads;
-  request.method = method_of(options.method);
-  if (!options.grid.empty()) request.grid = study::parse_grid(options.grid);
-  for (const std::string& text : options.derivatives) request.derivatives.push_back(study::parse_derivative(text));
   try {
-    const base::Stopwatch reading;
-    request.sources = input::read_points_table(options.sources, input::PointsRole::sources, request.memory_limit);
-    if (!options.targets.empty())
-      request.targets = input::read_points_table(options.targets, input::PointsRole::targets, request.memory_limit);
-    const double read_seconds = reading.seconds();
-
-    study::PointSums sums = study::sum_points(request);
-    sums.read_seconds = read_seconds;
-    if (sums.asked != fgtd::Method::automatic && sums.asked != sums.choice.method)
-      fmt::print(stderr, "warning: {} is not possible for these points, targets and tolerance; {} did the sum\n",
-                 options.method, fgtd::to_string(sums.choice.method));
-    const base::Stopwatch writing;
-    write_values(sums, options);
-    sums.write_seconds = writing.seconds();
-    if (options.json)
-      fmt::print("{}", study::to_json(sums));
-    else if (!to_standard_output(options))
-      fmt::print("{}open   {}\n", study::to_text(sums), options.out.string());
+    of_pairs(options) ? sum_pairs(options) : sum_gaussians(options);
   } catch (const std::bad_alloc&) {
     throw InputError("out of memory; ask for fewer targets at a time, or give fewer sources");
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct SumOptions {
   std::string kernel = "gauss";
   std::filesystem::path sources, targets;  // targets empty: --grid, or the sources
   std::string grid;                        // "-1:1:200,-1:1:200"
-  double sigma = 0;
+  std::optional<double> sigma;
   std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum
   double tolerance = 1e-6;
   std::string method = "auto";

@@ -12,6 +12,7 @@ constexpr double moved_number = 1.6e-9;       // gathered, scattered
 constexpr double function_at_point = 0.9e-9;  // moments; expansion of potential and field twice as much
 constexpr double sorted_point = 40e-9;        // on every level of the tree
 constexpr double listed_coupling = 60e-9;
+constexpr double small_things = 1.5e-3;
 constexpr double fitted_number = 1.2e-9;
 constexpr double table_entry = 12e-9;  // of the kernel at two nodes, with its share of the products
 
@@ -93,7 +94,7 @@ Costs<d>::Costs(const Problem& problem, const Degrees<d>& degrees, Precisions pr
   far.interaction = d == 3 ? Interaction::inverse : Interaction::logarithm;
   far.potential = problem.potential;
   substitute_pair_ = pair_seconds(far, precisions.substitutes);
-  setup_ = functions * functions * static_cast<double>(nodes_) * fitted_number;
+  setup_ = small_things + functions * functions * static_cast<double>(nodes_) * fitted_number;
   double all = 0;
   for (std::size_t number = 0; number < octant_offsets<d>; ++number) {
     const int degree = degrees.at_offset[number];

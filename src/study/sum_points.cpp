@@ -23,99 +23,20 @@ namespace {
 
 constexpr double rounding = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && rest == end;
-}
-
-double node(const GridAxis& axis, std::size_t i) {
-  if (i == 0) return axis.lower;
-  if (i + 1 == axis.count) return axis.upper;
-  return axis.lower + (axis.upper - axis.lower) * static_cast<double>(i) / static_cast<double>(axis.count - 1);
-}
-
-std::string column_name(const std::vector<int>& derivative) { return fmt::format("d_{}", fmt::join(derivative, "_")); }
-
-void refuse_other_dimension(const std::string& what, std::size_t given, const input::PointsTable& sources) {
-  if (given == sources.coordinates.size()) return;
-  throw CommandLineError(fmt::format("{}, but the sources have {} ({})", what, sources.coordinates.size(),
-                                     fmt::join(sources.coordinates, ", ")));
-}
-
-void check_together(const SumRequest& request) {
+void check_derivatives(const SumRequest& request) {
   const input::PointsTable& sources = request.sources;
-  if (!request.grid.empty())
-    refuse_other_dimension(
-        fmt::format("--grid has {} {}", request.grid.size(), request.grid.size() == 1 ? "axis" : "axes"),
-        request.grid.size(), sources);
   for (const auto& derivative : request.derivatives) {
-    refuse_other_dimension(fmt::format("--derivative {} has {} {}", fmt::join(derivative, ","), derivative.size(),
-                                       derivative.size() == 1 ? "number" : "numbers"),
-                           derivative.size(), sources);
+    if (derivative.size() != sources.coordinates.size())
+      throw CommandLineError(fmt::format("--derivative {} has {} {}, but the sources have {} ({})",
+                                         fmt::join(derivative, ","), derivative.size(),
+                                         derivative.size() == 1 ? "number" : "numbers", sources.coordinates.size(),
+                                         fmt::join(sources.coordinates, ", ")));
     if (std::count(request.derivatives.begin(), request.derivatives.end(), derivative) > 1)
       throw CommandLineError(fmt::format("--derivative {} is there twice", fmt::join(derivative, ",")));
   }
-  if (!request.targets) return;
-  // Columns belong together by their place; the same names in another order are a mistake.
-  const auto &from = sources.coordinates, &to = request.targets->coordinates;
-  if (from.size() != to.size())
-    throw InputError(fmt::format("targets have {} coordinates ({}), sources have {} ({}); both need the same",
-                                 to.size(), fmt::join(to, ", "), from.size(), fmt::join(from, ", ")));
-  if (from != to && std::is_permutation(from.begin(), from.end(), to.begin()))
-    throw InputError(fmt::format(
-        "the coordinates of the targets come in the order {}, those of the sources in the order {}; use one order",
-        fmt::join(to, ", "), fmt::join(from, ", ")));
 }
 
-// As doubles: a product of counts may exceed an integer.
-double targets_of(const SumRequest& request) {
-  if (request.targets) return static_cast<double>(request.targets->size());
-  if (request.grid.empty()) return static_cast<double>(request.sources.size());
-  double product = 1;
-  for (const GridAxis& axis : request.grid) product *= static_cast<double>(axis.count);
-  return product;
-}
-
-// What is left for the plan when the points, the nodes and the values have their memory.
-std::size_t memory_for_plan(const SumRequest& request) {
-  const auto numbers = [](const input::PointsTable& table) { return table.positions.size() + table.weights.size(); };
-  const double targets = targets_of(request);
-  const double columns = static_cast<double>(std::max<std::size_t>(1, request.derivatives.size()));
-  double doubles = static_cast<double>(numbers(request.sources)) + targets * columns;
-  if (request.targets) doubles += static_cast<double>(numbers(*request.targets));
-  for (const GridAxis& axis : request.grid) doubles += static_cast<double>(axis.count);
-  const double bytes = sizeof(double) * doubles, limit = static_cast<double>(request.memory_limit);
-  if (bytes < limit) return request.memory_limit - static_cast<std::size_t>(bytes);
-  throw InputError(
-      fmt::format("{:.4g} targets with {} {} would take {:.4g} GB with the points; at most {:.4g} GB are used; ask for "
-                  "fewer targets "
-                  "at a time",
-                  targets, columns, columns == 1 ? "value" : "values", bytes / 1e9, limit / 1e9));
-}
-
-fgtd::TensorGrid nodes_of(const std::vector<GridAxis>& grid) {
-  fgtd::TensorGrid result;
-  for (const GridAxis& axis : grid) {
-    std::vector<double>& nodes = result.axes.emplace_back(axis.count);
-    for (std::size_t i = 0; i < axis.count; ++i) nodes[i] = node(axis, i);
-    if (std::adjacent_find(nodes.begin(), nodes.end(), [](double a, double b) { return !(a < b); }) != nodes.end())
-      throw CommandLineError(fmt::format("--grid: {} nodes from {} to {} cannot be told apart in double precision",
-                                         axis.count, axis.lower, axis.upper));
-  }
-  return result;
-}
+std::string column_name(const std::vector<int>& derivative) { return fmt::format("d_{}", fmt::join(derivative, "_")); }
 
 void check_values(const PointSums& sums) {
   for (Eigen::Index k = 0; k < sums.values.cols(); ++k)
@@ -137,7 +58,7 @@ void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
     std::copy(derivative.begin(), derivative.end(), term.derivative.begin());
     combinations.push_back({term});
   }
-  if (!request.grid.empty()) options.expected_grid = nodes_of(request.grid);
+  if (!request.grid.empty()) options.expected_grid = fgtd::TensorGrid{nodes_of(request.grid)};
 
   const base::Stopwatch preparing;
   const auto weights = Eigen::Map<const Eigen::VectorXd>(request.sources.weights.data(),
@@ -183,28 +104,6 @@ nlohmann::ordered_json number(std::optional<double> value) {
 
 }  // namespace
 
-std::vector<GridAxis> parse_grid(const std::string& text) {
-  std::vector<GridAxis> grid;
-  for (const std::string_view part : split(text, ',')) {
-    const auto refuse = [&](const char* why) {
-      throw CommandLineError(fmt::format(
-          "--grid: \"{}\" {}; write lowest:highest:count for every axis, as in --grid=-1:1:200,0:1:100", part, why));
-    };
-    const auto numbers = split(part, ':');
-    GridAxis axis;
-    if (numbers.size() != 3 || !read_number(numbers[0], axis.lower) || !read_number(numbers[1], axis.upper))
-      refuse("is not an axis");
-    if (!read_number(numbers[2], axis.count) || axis.count < 1) refuse("has no positive count");
-    if (!std::isfinite(axis.lower) || !std::isfinite(axis.upper) || !std::isfinite(axis.upper - axis.lower))
-      refuse("is not finite");
-    if (axis.count == 1 && axis.lower != axis.upper) refuse("has one node between two ends");
-    if (axis.count > 1 && !(axis.lower < axis.upper)) refuse("does not ascend");
-    grid.push_back(axis);
-  }
-  if (grid.size() > 4) throw CommandLineError(fmt::format("--grid has {} axes, at most 4 are possible", grid.size()));
-  return grid;
-}
-
 std::vector<int> parse_derivative(const std::string& text) {
   std::vector<int> derivative;
   for (const std::string_view part : split(text, ',')) {
@@ -221,6 +120,7 @@ std::vector<int> parse_derivative(const std::string& text) {
 
 PointSums sum_points(const SumRequest& request) {
   check_together(request);
+  check_derivatives(request);
   PointSums result;
   result.dimension = request.sources.dimension();
   result.sigma = request.sigma;
@@ -234,7 +134,7 @@ PointSums sum_points(const SumRequest& request) {
   options.tolerance = request.tolerance;
   options.method = request.method;
   options.threads = request.threads;
-  options.memory_limit = memory_for_plan(request);
+  options.memory_limit = memory_for_plan(request, std::max<std::size_t>(1, request.derivatives.size()));
   options.expected_targets = request.targets ? request.targets->size() : request.sources.size();
   for (const auto& derivative : result.derivatives) {
     result.columns.push_back(column_name(derivative));
@@ -256,33 +156,6 @@ PointSums sum_points(const SumRequest& request) {
   });
   check_values(result);
   return result;
-}
-
-void write_table(const PointSums& sums, std::FILE* out) {
-  constexpr int digits = 17;                  // enough to read the same double again
-  constexpr std::size_t longest_number = 32;  // "-1.2345678901234567e-308," and room
-  constexpr std::size_t block = std::size_t{1} << 16;
-  const auto columns = static_cast<std::size_t>(sums.values.cols());
-  const auto flush = [out](std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), out) != text.size())
-      throw std::system_error(errno, std::generic_category());
-    text.clear();
-  };
-  std::string text = fmt::format("{}\n", fmt::join(sums.columns, ","));
-  text.reserve(block + longest_number * columns);
-  for (Eigen::Index i = 0; i < sums.values.rows(); ++i) {
-    for (Eigen::Index k = 0; k < sums.values.cols(); ++k) {
-      std::array<char, longest_number> buffer;
-      const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), sums.values(i, k),
-                                     std::chars_format::general, digits)
-                           .ptr;
-      text.append(buffer.data(), end);
-      text += k + 1 < sums.values.cols() ? ',' : '\n';
-    }
-    if (text.size() >= block) flush(text);
-  }
-  flush(text);
-  if (std::fflush(out) != 0) throw std::system_error(errno, std::generic_category());
 }
 
 std::string to_text(const PointSums& sums) {

@@ -4,32 +4,19 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "fgtd/fgtd.hpp"
-#include "input/points_table.hpp"
+#include "study/points_request.hpp"
 
 namespace gaussdrift::study {
 
-/// `count` nodes at equal distances, both ends among them.
-struct GridAxis {
-  double lower = 0, upper = 0;
-  std::size_t count = 0;
-};
-
-struct SumRequest {
-  input::PointsTable sources;
-  std::optional<input::PointsTable> targets;  // neither targets nor grid: the sources are the targets
-  std::vector<GridAxis> grid;                 // one for every coordinate
+struct SumRequest : PointsRequest {
   double sigma = 0;                           // the Gaussian is exp(-sigma r^2)
   std::vector<std::vector<int>> derivatives;  // none: the plain sum
-  double tolerance = 1e-6;
   fgtd::Method method = fgtd::Method::automatic;
-  int threads = 0;                                  // 0: all
-  std::size_t memory_limit = std::size_t{8} << 30;  // bytes of points, values and plan together
 };
 
 struct PointSums {
@@ -46,8 +33,6 @@ struct PointSums {
   double read_seconds = 0, prepare_seconds = 0, evaluate_seconds = 0, write_seconds = 0;
 };
 
-/// "-1:1:200,-1:1:200". Throws CommandLineError, also for nodes that a double cannot tell apart.
-std::vector<GridAxis> parse_grid(const std::string& text);
 /// "0,1,2". Throws CommandLineError.
 std::vector<int> parse_derivative(const std::string& text);
 
@@ -55,9 +40,6 @@ std::vector<int> parse_derivative(const std::string& text);
 /// together, a tolerance that cannot be promised and sizes beyond the limit, NumericalError for values that are not
 /// finite.
 PointSums sum_points(const SumRequest& request);
-
-/// A header line, then a line for every target with 17 significant digits. Throws std::system_error.
-void write_table(const PointSums& sums, std::FILE* out);
 
 /// What was chosen and what it cost, for people and as JSON.
 std::string to_text(const PointSums& sums);

@@ -258,8 +258,12 @@ TEST(Sum, RefusesAWrongCommandLine) {
       {"--sources S.csv --sigma 0", "--sigma 0: must be positive"},
       {"--sources S.csv --sigma nan", "--sigma nan: must be positive"},
       {"--sources S.csv --sigma two", "--sigma"},
-      {"--sources S.csv --sigma 2 --kernel coulomb", "there is gauss"},
-      {"--sources S.csv --sigma 2 --kernel log", "there is gauss"},
+      {"--sources S.csv --sigma 2 --kernel coulomb", "--sigma belongs to the kernel gauss"},
+      {"--sources S.csv --kernel log --derivative 1,0", "gives potential and field"},
+      {"--sources S.csv --kernel log --method hermite", "there are auto, direct, tree, symmetric"},
+      {"--sources S.csv --kernel vortex", "there are gauss, coulomb, log"},
+      {"--sources S.csv --kernel log --tolerance 1", "must lie in (0, 1)"},
+      {"--sources S.csv", "--sigma is missing"},
       {"--sources S.csv --sigma 2 --method hermit", "is \"hermite\" meant?"},
       {"--sources S.csv --sigma 2 --tolerance 1", "--tolerance 1: must lie in"},
       {"--sources S.csv --sigma 2 --tolerance -1e-3", "--tolerance -0.001: must lie in"},
@@ -328,6 +332,61 @@ TEST(Sum, RefusesWrongTablesAndWritesNothing) {
     EXPECT_EQ(refused.out, "") << arguments;
     EXPECT_FALSE(fs::exists(folder / "V.csv")) << arguments;
     EXPECT_FALSE(fs::exists(folder / "V.csv.part")) << arguments;
+  }
+}
+
+// Two charges: the kernels by their formulas.
+TEST(Sum, OfChargesIsPotentialAndField) {
+  const ScratchFolder folder;
+  write_file(folder / "S3.csv", "x,y,z,weight\n0,0,0,2\n0,3,4,-1\n");
+  const Table space = table_of(gaussdrift_in(folder, "sum --kernel coulomb --sources S3.csv").out);
+  EXPECT_EQ(space.header, "potential,fx,fy,fz");
+  EXPECT_NEAR(space.rows[0][0], -1.0 / 5, 1e-15);
+  EXPECT_NEAR(space.rows[0][2], -1.0 * -3 / 125, 1e-15);
+  EXPECT_NEAR(space.rows[1][3], 2.0 * 4 / 125, 1e-15);
+  write_file(folder / "S2.csv", "x,y,weight\n0,0,2\n3,4,-1\n");
+  const Table plane = table_of(gaussdrift_in(folder, "sum --kernel coulomb --sources S2.csv --grid=3:3:1,4:4:1").out);
+  EXPECT_EQ(plane.header, "potential,fx,fy");
+  EXPECT_NEAR(plane.rows[0][0], -2 * std::log(5.0), 1e-14);
+  EXPECT_NEAR(plane.rows[0][1], 2.0 * 3 / 25, 1e-15);
+  const Table log = table_of(gaussdrift_in(folder, "sum --kernel log --sources S2.csv").out);
+  EXPECT_EQ(log.header, "potential,gx,gy");
+  EXPECT_NEAR(log.rows[1][0], 2 * std::log(5.0), 1e-14);
+  EXPECT_NEAR(log.rows[1][2], 2.0 * 4 / 25, 1e-15);
+}
+
+TEST(Sum, OfManyChargesByTreeAndSymmetricIsRightToTheTolerance) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", csv("x,y,z,weight", points(1500, 4)));
+  const Table exact = table_of(gaussdrift_in(folder, "sum --kernel coulomb --sources S.csv --method direct").out);
+  for (const std::string method : {"tree", "symmetric"}) {
+    const Outcome done = gaussdrift_in(
+        folder, "sum --kernel coulomb --sources S.csv --tolerance 1e-4 --out V.csv --json --method " + method);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const auto json = nlohmann::json::parse(done.out);
+    EXPECT_EQ(json["method"], method);
+    EXPECT_LE(json["bound"], 1e-4);
+    const Table found = table_of(read_file(folder / "V.csv"));
+    double error = 0, size = 0;
+    for (std::size_t i = 0; i < exact.rows.size(); ++i)
+      for (int k = 1; k < 4; ++k) {
+        error += std::pow(found.rows[i][k] - exact.rows[i][k], 2);
+        size += std::pow(exact.rows[i][k], 2);
+      }
+    EXPECT_LE(std::sqrt(error / size), 1e-4) << method;  // charges of one sign: the field is not far below sum |q|/r^2
+    EXPECT_LE(json["measured"]["field_error"], 1e-4) << method;
+  }
+}
+
+TEST(Sum, RefusesChargesInTheWrongDimension) {
+  const ScratchFolder folder;
+  write_file(folder / "S1.csv", "x,weight\n0,1\n");
+  write_file(folder / "S3.csv", "x,y,z,weight\n0,0,0,2\n");
+  for (const char* arguments : {"coulomb --sources S1.csv", "log --sources S3.csv"}) {
+    const Outcome refused = gaussdrift_in(folder, std::string("sum --out V.csv --kernel ") + arguments);
+    EXPECT_EQ(refused.exit_code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("dimensions, the sources have"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(folder / "V.csv"));
   }
 }
 

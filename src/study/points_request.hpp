@@ -1,0 +1,60 @@
+// What every sum over a table of points is asked for: sources, and targets as a table, as a grid, or the sources
+// themselves (docs/usage.md, "Sums over a table of points"); and its values as a table.
+#pragma once
+
+#include <Eigen/Core>
+#include <charconv>
+#include <cstddef>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "input/points_table.hpp"
+
+namespace gaussdrift::study {
+
+/// `count` nodes at equal distances, both ends among them.
+struct GridAxis {
+  double lower = 0, upper = 0;
+  std::size_t count = 0;
+};
+
+struct PointsRequest {
+  input::PointsTable sources;
+  std::optional<input::PointsTable> targets;  // neither targets nor grid: the sources are the targets
+  std::vector<GridAxis> grid;                 // one for every coordinate
+  double tolerance = 1e-6;
+  int threads = 0;                                  // 0: all
+  std::size_t memory_limit = std::size_t{8} << 30;  // bytes of points, values and plan together
+};
+
+/// "-1:1:200,-1:1:200". Throws CommandLineError.
+std::vector<GridAxis> parse_grid(const std::string& text);
+
+/// The nodes of every axis. Throws CommandLineError for nodes that a double cannot tell apart.
+std::vector<std::vector<double>> nodes_of(const std::vector<GridAxis>& grid);
+
+/// Throws CommandLineError for a grid, InputError for targets that do not belong to the sources.
+void check_together(const PointsRequest& request);
+
+/// Bytes that are left for the plan when the points, the nodes and `columns` values a target have their memory.
+/// Throws InputError if nothing is.
+std::size_t memory_for_plan(const PointsRequest& request, std::size_t columns);
+
+/// A header line, then a line for every row of `values` with 17 significant digits. Throws std::system_error.
+void write_table(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, std::FILE* out);
+
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// False if the text is anything but one number.
+template <class Number>
+bool read_number(std::string_view text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end;
+}
+
+}  // namespace gaussdrift::study
