@@ -177,7 +177,7 @@ ExitCode dispatch(int argc, char** argv) {
       ->add_option("--out", reproduce_options.folder, "figures: folder for the pictures; output/figures by default")
       ->type_name("DIR");
   reproduce_verb->add_flag("--full", reproduce_options.full,
-                           "fgtd, divergence: also the largest rows, and every target compared; figures: 5.3 with the "
+                           "fgtd, divergence, coulomb: also the largest rows, and every target compared; figures: 5.3 with the "
                            "thesis's steps");
   reproduce_verb->add_option("--threads", reproduce_options.threads, "threads to use; all by default")
       ->check(CLI::Range(1, 1024))

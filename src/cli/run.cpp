@@ -18,6 +18,7 @@
 #include "study/describe.hpp"
 #include "study/report.hpp"
 #include "study/reproduce_cone.hpp"
+#include "study/reproduce_coulomb.hpp"
 #include "study/reproduce_fgtd.hpp"
 #include "study/reproduce_figures.hpp"
 #include "write/atomic_file.hpp"
@@ -370,6 +371,24 @@ ExitCode reproduce_cone(const ReproduceOptions& options) {
   return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;
 }
 
+ExitCode reproduce_coulomb(const ReproduceOptions& options) {
+  if (!options.table.empty()) throw CommandLineError("coulomb is one table; leave the number away");
+  study::CoulombOptions coulomb;
+  if (options.threads > 0) coulomb.threads = options.threads;
+  if (options.full) {
+    coulomb.most_particles = 6'400'000;
+    coulomb.most_by_pairs = 100'000;
+  }
+  study::CoulombReproduction result;
+  {
+    ProgressLine line;
+    result = study::reproduce_coulomb(
+        coulomb, [&](std::size_t particles) { line.show(fmt::format("{} particles", particles)); });
+  }
+  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
+}
+
 ExitCode reproduce_tables(study::TableSet set, const ReproduceOptions& options) {
   study::FgtdOptions fgtd = options.full ? study::FgtdOptions::everything() : study::FgtdOptions{};
   fgtd.set = set;
@@ -405,18 +424,20 @@ ExitCode reproduce(const ReproduceOptions& options) {
   if (!options.folder.empty() && options.what != "figures")
     throw CommandLineError("--out goes with: reproduce figures");
   if (options.what == "figures") return reproduce_figures(options);
+  if (options.what == "coulomb") return reproduce_coulomb(options);
   if (options.what == "cone") return reproduce_cone(options);
   if (options.what == "fgtd") return reproduce_tables(study::TableSet::fgtd, options);
   if (options.what == "divergence") return reproduce_tables(study::TableSet::divergence, options);
   if (!options.what.empty())
     throw CommandLineError(fmt::format(
-        "nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures", options.what));
+        "nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, coulomb", options.what));
   fmt::print(
       "tables that can be reproduced:\n"
       "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
       "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
       "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"
-      "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n",
+      "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n"
+      "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n",
       fmt::join(study::table_numbers(study::TableSet::fgtd), ", "),
       fmt::join(study::table_numbers(study::TableSet::divergence), " and "), fmt::join(study::figure_numbers(), ", "));
   return ExitCode::ok;
