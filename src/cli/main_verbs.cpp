@@ -174,11 +174,13 @@ ExitCode dispatch(int argc, char** argv) {
                    "one table of fgtd or divergence, or a figure, as in 4.6; all by default")
       ->type_name("TABLE");
   reproduce_verb
-      ->add_option("--out", reproduce_options.folder, "figures: folder for the pictures; output/figures by default")
+      ->add_option("--out", reproduce_options.folder,
+                   "figures, logkernel: folder for what is written; output/figures or output/logkernel by default")
       ->type_name("DIR");
-  reproduce_verb->add_flag("--full", reproduce_options.full,
-                           "fgtd, divergence, coulomb: also the largest rows, and every target compared; figures: 5.3 with the "
-                           "thesis's steps");
+  reproduce_verb->add_flag(
+      "--full", reproduce_options.full,
+      "fgtd, divergence, coulomb: also the largest rows, and every target compared; figures: 5.3 with the "
+      "thesis's steps");
   reproduce_verb->add_option("--threads", reproduce_options.threads, "threads to use; all by default")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");

@@ -21,6 +21,7 @@
 #include "study/reproduce_coulomb.hpp"
 #include "study/reproduce_fgtd.hpp"
 #include "study/reproduce_figures.hpp"
+#include "study/reproduce_logkernel.hpp"
 #include "write/atomic_file.hpp"
 #include "write/observers.hpp"
 #include "write/provenance.hpp"
@@ -389,6 +390,20 @@ ExitCode reproduce_coulomb(const ReproduceOptions& options) {
   return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
 }
 
+ExitCode reproduce_logkernel(const ReproduceOptions& options) {
+  if (!options.table.empty()) throw CommandLineError("logkernel has no tables to choose from; leave the number away");
+  study::LogKernelOptions logkernel;
+  logkernel.folder = options.folder.empty() ? fs::path("output") / "logkernel" : options.folder;
+  if (options.full) logkernel.largest_dense = 14;
+  study::LogKernelReproduction result;
+  {
+    ProgressLine line;
+    result = study::reproduce_logkernel(logkernel, [&](const std::string& what) { line.show(what); });
+  }
+  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  return ExitCode::ok;
+}
+
 ExitCode reproduce_tables(study::TableSet set, const ReproduceOptions& options) {
   study::FgtdOptions fgtd = options.full ? study::FgtdOptions::everything() : study::FgtdOptions{};
   fgtd.set = set;
@@ -421,23 +436,26 @@ ExitCode reproduce_figures(const ReproduceOptions& options) {
 }  // namespace
 
 ExitCode reproduce(const ReproduceOptions& options) {
-  if (!options.folder.empty() && options.what != "figures")
-    throw CommandLineError("--out goes with: reproduce figures");
+  if (!options.folder.empty() && options.what != "figures" && options.what != "logkernel")
+    throw CommandLineError("--out goes with: reproduce figures, logkernel");
   if (options.what == "figures") return reproduce_figures(options);
   if (options.what == "coulomb") return reproduce_coulomb(options);
+  if (options.what == "logkernel") return reproduce_logkernel(options);
   if (options.what == "cone") return reproduce_cone(options);
   if (options.what == "fgtd") return reproduce_tables(study::TableSet::fgtd, options);
   if (options.what == "divergence") return reproduce_tables(study::TableSet::divergence, options);
   if (!options.what.empty())
     throw CommandLineError(fmt::format(
-        "nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, coulomb", options.what));
+        "nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, coulomb, logkernel",
+        options.what));
   fmt::print(
       "tables that can be reproduced:\n"
       "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
       "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
       "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"
       "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n"
-      "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n",
+      "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n"
+      "  logkernel   ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project 6\n",
       fmt::join(study::table_numbers(study::TableSet::fgtd), ", "),
       fmt::join(study::table_numbers(study::TableSet::divergence), " and "), fmt::join(study::figure_numbers(), ", "));
   return ExitCode::ok;

@@ -1,0 +1,40 @@
+// The tables of the logarithmic kernel, for few points.
+#include "study/reproduce_logkernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace gaussdrift::study {
+namespace {
+
+TEST(ReproduceLogkernel, WritesItsTablesAndPlots) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "logkernel";
+  const LogKernelReproduction result = reproduce_logkernel(
+      {.folder = folder, .largest_storage = 7, .largest_error = 7, .largest_product = 10, .largest_dense = 10});
+  ASSERT_EQ(result.storage.size(), 6u * 6u);
+  EXPECT_EQ(result.storage.front().doubles, 16u);  // 4 points: all single entries
+  for (const LogKernelStorage& row : result.storage) {
+    EXPECT_LE(row.shared, row.doubles);
+    EXPECT_LE(row.leaf, row.points * row.points);
+  }
+  ASSERT_EQ(result.errors.size(), 2u * 6u);
+  for (std::size_t i = 0; i < result.errors.size(); ++i)
+    EXPECT_TRUE(result.errors[i].degree == 0 || result.errors[i].squared < result.errors[i - 1].squared / 16);
+  ASSERT_EQ(result.times.size(), 1u);
+  EXPECT_LT(result.times[0].difference, 1e-4);  // blocks of degree 3 against the exact product by FFT
+  ASSERT_EQ(result.files.size(), 5u);
+  for (const auto& file : result.files) EXPECT_GT(std::filesystem::file_size(file), 50u) << file;
+  std::ifstream storage(folder / "storage.csv");
+  std::string line;
+  std::getline(storage, line);
+  EXPECT_EQ(line, "N,n,blocks,low_rank_blocks,doubles,doubles_shared_bases,doubles_leaf_16,doubles_both");
+  std::getline(storage, line);
+  EXPECT_EQ(line, "4,0,16,0,16,16,16,16");
+  EXPECT_EQ(nlohmann::json::parse(to_json(result))["errors"].size(), 12u);
+}
+
+}  // namespace
+}  // namespace gaussdrift::study
