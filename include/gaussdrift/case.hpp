@@ -153,11 +153,28 @@ struct RemeshSpec {
   double tolerance = 1e-9;  // part of the largest weight below which a node is left out
 };
 
+/// X' += mobility E(X), E the field of all particles.
+struct ChargeSpec {
+  double mobility = 1;
+  std::string density{};    // of charge at the start, an expression in x, y, z and the params; empty: the weights
+  double tolerance = 1e-6;  // of E, relative to the sum of all fields' sizes
+};
+
+/// X' += the velocity of all particles as vortex blobs.
+struct VortexSpec {
+  double tolerance = 1e-6;  // of the velocity, relative to the sum of all velocities' sizes
+};
+
 /// The effects that a case names; what is absent is not constructed.
 struct EffectsSpec {
   std::optional<ReactionSpec> reaction;
   std::optional<DiffusionSpec> diffusion;
+  std::optional<ChargeSpec> charge;
+  std::optional<VortexSpec> vortex;
   std::optional<RemeshSpec> remesh;
+
+  /// Particles move each other.
+  bool drifts() const { return charge || vortex; }
 };
 
 /// How accurate it has to be, and whether a run tells its errors apart by cause.

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
 #include "particle/particles.hpp"
 
@@ -50,6 +51,8 @@ class Effect {
 
   virtual void begin(Particles& /*particles*/, double /*time*/) {}
 
+  /// The velocity that it adds to the flow; null: none.
+  virtual const Drift* drift() const { return nullptr; }
   /// What it wants integrated along the paths; null: nothing.
   virtual const PathIntegral* path_integral() const { return nullptr; }
   /// Applies integral[j], gathered since the last call; the caller sets it back to 0 afterwards.

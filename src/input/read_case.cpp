@@ -992,15 +992,22 @@ class Reader {
     const Key& key = find_key("reference", "kind");
     const Entry *kind = find("reference", "kind"), *rho = find("reference", "rho");
     std::string chosen = choice("reference", "kind");
-    const bool diffuses = scene.effects.diffusion.has_value();  // then no path knows the density
-    if (diffuses && kind && chosen == "characteristics")
-      diagnostics_.error(kind->value.place, "the density does not follow characteristics with [effects.diffusion]",
+    // With these no path knows the density.
+    std::string without;
+    for (const auto& [name, present] :
+         {std::pair{"diffusion", scene.effects.diffusion.has_value()},
+          std::pair{"charge", scene.effects.charge.has_value()}, std::pair{"vortex", scene.effects.vortex.has_value()}})
+      if (present && without.empty()) without = name;
+    if (!without.empty() && kind && chosen == "characteristics")
+      diagnostics_.error(kind->value.place,
+                         fmt::format("the density does not follow known characteristics with [effects.{}]", without),
                          "kind = \"exact\" and a formula as rho, or kind = \"none\"");
-    if (diffuses && !kind && !rho) {
+    if (!without.empty() && !kind && !rho) {
       chosen = "none";
       diagnostics_.warning(
-          table("effects.diffusion")->place,
-          "with diffusion there is no exact density to compare with, so no errors are measured",
+          table("effects." + without)->place,
+          fmt::format("with [effects.{}] there is no exact density to compare with, so no errors are measured",
+                      without),
           "[reference] kind = \"exact\" compares with a formula, kind = \"none\" says that this is meant");
     }
     const auto index = std::find(key.choices.begin(), key.choices.end(), chosen) - key.choices.begin();
@@ -1032,11 +1039,16 @@ class Reader {
     const auto target = number("accuracy", "target");
     if (!target) return;
     scene.accuracy.target = target->number;
-    if (const Entry* written = find("accuracy", "target"); written && (scene.effects.diffusion || scene.effects.remesh))
-      diagnostics_.error(written->value.place,
-                         fmt::format("no settings can be chosen for a target with [effects.{}]",
-                                     scene.effects.diffusion ? "diffusion" : "remesh"),
-                         "the error is predicted for transport and reaction; leave out accuracy.target");
+    const EffectsSpec& effects = scene.effects;
+    if (const Entry* written = find("accuracy", "target");
+        written && (effects.diffusion || effects.remesh || effects.drifts()))
+      diagnostics_.error(
+          written->value.place,
+          fmt::format("no settings can be chosen for a target with [effects.{}]", effects.diffusion ? "diffusion"
+                                                                                  : effects.charge  ? "charge"
+                                                                                  : effects.vortex  ? "vortex"
+                                                                                                    : "remesh"),
+          "the error is predicted for transport and reaction; leave out accuracy.target");
   }
 
   void read_checks(Case& scene) {
@@ -1150,6 +1162,46 @@ class Reader {
       effects.diffusion = diffusion;
     }
     if (table("effects.remesh")) effects.remesh = remesh_spec();
+    read_drifts(effects, scene.particles);
+  }
+
+  /// [effects.charge] and [effects.vortex], and what does not go with them.
+  void read_drifts(EffectsSpec& effects, const ParticleSpec& particles) {
+    const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
+      diagnostics_.error(table("effects." + name)->place, fmt::format("[effects.{}] {}", name, what), remedy);
+    };
+    if (table("effects.charge")) {
+      ChargeSpec charge;
+      if (const auto mobility = number("effects.charge", "mobility")) charge.mobility = mobility->number;
+      if (const Entry* density = find("effects.charge", "density"))
+        charge.density = field_expression(density->value, "effects.charge.density", false);
+      if (const auto tolerance = number("effects.charge", "tolerance")) charge.tolerance = tolerance->number;
+      effects.charge = charge;
+      if (effects.remesh && !charge.density.empty())
+        refuse("charge", "with a density of its own does not go with [effects.remesh]",
+               "remeshing makes new particles, which have weights but no such charge; leave out one of them");
+    }
+    if (table("effects.vortex")) {
+      VortexSpec vortex;
+      if (const auto tolerance = number("effects.vortex", "tolerance")) vortex.tolerance = tolerance->number;
+      effects.vortex = vortex;
+      if (dimension_ == 3) refuse("vortex", "is for two dimensions, the domain has three", "");
+      if (particles.cutoff != "gauss2")
+        refuse("vortex", fmt::format("needs particles.cutoff = \"gauss2\", found \"{}\"", particles.cutoff),
+               "the velocity of a blob is known for the Gaussian alone");
+    }
+    for (const auto& [name, present] :
+         {std::pair{"charge", effects.charge.has_value()}, std::pair{"vortex", effects.vortex.has_value()}}) {
+      if (!present) continue;
+      if (effects.diffusion && effects.diffusion->method == DiffusionSpec::Method::particle_exchange)
+        refuse(name, "does not go with [effects.diffusion] method = \"particle-exchange\"",
+               "particles of its halo come later and cannot be carried from the start; method = \"core-spreading\"");
+      const bool own = effects.charge && !effects.charge->density.empty() && std::string(name) == "charge";
+      if (effects.reaction && !own)
+        refuse(name, "does not go with [effects.reaction], which changes the weights that move the particles",
+               std::string(name) == "charge" ? "give the charge a density of its own: effects.charge.density"
+                                             : "leave out one of them");
+    }
   }
 
   RemeshSpec remesh_spec() {

@@ -9,13 +9,14 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "sim/stepper.hpp"
 #include "time/runge_kutta.hpp"
 
 namespace gaussdrift {
 
 namespace {
 
-constexpr std::size_t block_length = 256;  // as in stepper.cpp
+constexpr std::size_t usual_block = 256;  // as in stepper.cpp
 
 // The usual controller: the error of a step goes like its length to the power of the order, aimed at 0.9 of what is
 // allowed; lengths change by bounded factors, so that one lucky or unlucky estimate does no harm.
@@ -29,9 +30,9 @@ double factor_for(double error, int order) {
 }  // namespace
 
 AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, double time, double step,
-                                                  std::vector<std::vector<double>>& results) const {
+                                                  std::vector<std::vector<double>>& results) {
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
-  const std::size_t blocks = results.size();
+  const std::size_t blocks = results.size(), block_length = drifts_.empty() ? usual_block : particles.size();
   std::vector<Largest> largest(blocks);
   base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
     const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
@@ -46,7 +47,10 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
       VectorsView vectors{particles.dimension, length, {}};
       for (std::size_t k = 0; k < dimension; ++k) points.axis[k] = x + k * length, vectors.axis[k] = u + k * length;
       std::fill_n(u, length * rows, 0.0);
-      velocity_.add(t, points, vectors);
+      if (drifts_.empty())
+        velocity_.add(t, points, vectors);
+      else
+        drift_seconds_ += add_flow_and_drifts(velocity_, drifts_, t, particles, points, vectors, options_.threads);
       for (std::size_t q = 0; q < integrals_.size(); ++q)
         integrals_[q]->add_rate(t, points, u + (dimension + q) * length);
     };
@@ -73,6 +77,8 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
   const double most = options_.largest_step > 0 ? options_.largest_step : end - time;
   if (proposal_ <= 0) proposal_ = std::min(most, end - time);
+  // Particles that move each other are one block.
+  const std::size_t block_length = drifts_.empty() ? usual_block : std::max<std::size_t>(1, particles.size());
   std::vector<std::vector<double>> results((particles.size() + block_length - 1) / block_length);
   for (;;) {
     const double left = end - time;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
 #include "field/velocity.hpp"
 #include "particle/particles.hpp"
@@ -24,31 +25,38 @@ class AdaptiveStepper {
     double largest_step = 0;  // 0: none
     int threads = 0;          // 0: all
   };
-  /// The field and the integrals must outlive the stepper.
+  /// The field, the integrals and the drifts must outlive the stepper.
   AdaptiveStepper(const VelocityField& velocity, const time::Tableau& tableau,
-                  std::vector<const PathIntegral*> integrals, const Options& options)
-      : velocity_(velocity), tableau_(tableau), integrals_(std::move(integrals)), options_(options) {}
+                  std::vector<const PathIntegral*> integrals, std::vector<const Drift*> drifts, const Options& options)
+      : velocity_(velocity),
+        tableau_(tableau),
+        integrals_(std::move(integrals)),
+        drifts_(std::move(drifts)),
+        options_(options) {}
 
   /// One step from `time` towards `end`; returns the time reached, exactly `end` if it is reached. Throws
   /// NumericalError naming step, time, particle and place where no step is short enough.
   double advance(Particles& particles, double time, double end, std::size_t steps_before);
 
   std::size_t rejected() const { return rejected_; }
+  /// Seconds that the drifts have taken.
+  double drift_seconds() const { return drift_seconds_; }
 
  private:
   struct Largest {
     double error = 0;          // relative to what is allowed
     std::size_t particle = 0;  // that has it
   };
-  Largest attempt(const Particles& particles, double time, double step,
-                  std::vector<std::vector<double>>& results) const;
+  Largest attempt(const Particles& particles, double time, double step, std::vector<std::vector<double>>& results);
 
   const VelocityField& velocity_;
   const time::Tableau& tableau_;
   std::vector<const PathIntegral*> integrals_;
+  std::vector<const Drift*> drifts_;
   Options options_;
   double proposal_ = 0;  // 0: none yet
   std::size_t rejected_ = 0;
+  double drift_seconds_ = 0;
 };
 
 }  // namespace gaussdrift

@@ -26,6 +26,13 @@ std::vector<const PathIntegral*> integrals_of(const std::vector<Effect*>& effect
   return integrals;
 }
 
+std::vector<const Drift*> drifts_of(const Effects& effects) {
+  std::vector<const Drift*> drifts;
+  for (const auto& effect : effects)
+    if (effect->drift()) drifts.push_back(effect->drift());
+  return drifts;
+}
+
 std::string stage_of(const Effect& effect) { return "effect " + effect.name(); }
 
 }  // namespace
@@ -34,19 +41,20 @@ Carrier::Carrier(const Case& description, const Scene& scene, int threads)
     : effects_(make_effects(
           description, scene, [this](Particles& particles) { follow(particles); }, threads)),
       integrating_(integrating(effects_)),
+      drifts_(drifts_of(effects_)),
       between_steps_(std::any_of(effects_.begin(), effects_.end(),
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
       tableau_(time::find_tableau(description.time.method)),
       case_(description),
       scene_(scene),
-      stepper_(*scene.velocity, tableau_, threads, integrals_of(integrating_)),
+      stepper_(*scene.velocity, tableau_, threads, integrals_of(integrating_), drifts_),
       threads_(base::resolve_threads(threads)) {
   if (!time::is_adaptive(tableau_)) return;
   AdaptiveStepper::Options options{description.time.tolerance, 0, description.time.step, threads};
   for (int k = 0; k < description.domain.dimension; ++k)
     options.length = std::max(options.length, description.domain.max[static_cast<std::size_t>(k)] -
                                                   description.domain.min[static_cast<std::size_t>(k)]);
-  adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), options);
+  adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), drifts_, options);
 }
 
 void Carrier::begin(Particles& particles) {
@@ -74,7 +82,13 @@ std::size_t Carrier::carry(Particles& particles, double from, double to, std::si
   std::size_t steps = 0;
   if (adaptive_) {
     for (double now = from; now < to;) {
-      stages.run("transport", [&] { now = adaptive_->advance(particles, now, to, steps_before + steps); });
+      const base::Stopwatch watch;
+      const double before = adaptive_->drift_seconds();
+      now = adaptive_->advance(particles, now, to, steps_before + steps);
+      const double drifts = adaptive_->drift_seconds() - before;
+      stages.add("transport", watch.seconds() - drifts);
+      for (const auto& effect : effects_)
+        if (effect->drift()) stages.add(stage_of(*effect), drifts / static_cast<double>(drifts_.size()));
       ++steps;
       if (between_steps_) {
         settle(particles, now, stages);
@@ -120,8 +134,12 @@ void Carrier::advance(Particles& particles, const time::Interval& interval, std:
 void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                          std::size_t steps_before, base::StageTimes& stages) const {
   const base::Stopwatch watch;
-  const double integrals = stepper_.advance(particles, interval, first, count, steps_before) / threads_;
-  stages.add("transport", watch.seconds() - integrals);
+  const StepperSeconds spent = stepper_.advance(particles, interval, first, count, steps_before);
+  // With drifts there is one block, on one thread.
+  const double integrals = spent.integrals / (drifts_.empty() ? threads_ : 1);
+  stages.add("transport", watch.seconds() - integrals - spent.drifts);
+  for (const auto& effect : effects_)
+    if (effect->drift()) stages.add(stage_of(*effect), spent.drifts / static_cast<double>(drifts_.size()));
   // The integrals are evaluated together; their time is shared evenly.
   for (const Effect* effect : integrating_)
     stages.add(stage_of(*effect), integrals / static_cast<double>(integrating_.size()));

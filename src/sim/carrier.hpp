@@ -46,6 +46,9 @@ class Carrier {
 
   const Effects& effects() const { return effects_; }
 
+  /// Velocities that particles give each other.
+  const std::vector<const Drift*>& drifts() const { return drifts_; }
+
  private:
   // Brings weights and widths up to `time`, at which the positions are.
   void land(Particles& particles, double time, base::StageTimes& stages) const;
@@ -59,7 +62,8 @@ class Carrier {
 
   Effects effects_;
   std::vector<Effect*> integrating_;  // those with a path integral, in the order of Particles::path
-  bool between_steps_ = false;        // some effect acts between any two steps
+  std::vector<const Drift*> drifts_;
+  bool between_steps_ = false;  // some effect acts between any two steps
   const time::Tableau& tableau_;
   const Case& case_;
   const Scene& scene_;

@@ -1,13 +1,43 @@
 #include "sim/effects.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "effect/charge.hpp"
 #include "effect/core_spreading.hpp"
 #include "effect/particle_exchange.hpp"
 #include "effect/reaction.hpp"
 #include "effect/remesh.hpp"
+#include "effect/vortex.hpp"
 #include "gaussdrift/case.hpp"
 #include "sim/simulation.hpp"
 
 namespace gaussdrift {
+
+namespace {
+
+/// A charge density of its own, times the volume of a particle, at the places of the particles.
+std::function<std::vector<double>(const Particles&)> charges_by(const std::string& density, const Case& description,
+                                                                double cell) {
+  const auto field = std::make_shared<const WrittenScalar>(density, description.domain.dimension, description.params);
+  return [field, cell](const Particles& particles) {
+    std::vector<double> charges(particles.size(), 0.0);
+    field->add(0, particles.view(), charges.data());
+    for (std::size_t j = 0; j < charges.size(); ++j) {
+      charges[j] *= cell;
+      if (!std::isfinite(charges[j]))
+        throw NumericalError(
+            fmt::format("the charge of particle {} is {}; effects.charge.density must be finite wherever "
+                        "there is density at the start",
+                        particles.id[j], charges[j]));
+    }
+    return charges;
+  };
+}
+
+}  // namespace
 
 Effects make_effects(const Case& description, const Scene& scene, Follow follow, int threads) {
   const EffectsSpec& named = description.effects;
@@ -23,6 +53,28 @@ Effects make_effects(const Case& description, const Scene& scene, Follow follow,
           ParticleExchange::Options{
               .coefficient = diffusion->coefficient, .tolerance = diffusion->tolerance, .threads = threads}));
   }
+  const int dimension = description.domain.dimension;
+  const double cell = std::pow(scene.seeding.spacing, dimension);
+  if (const auto& charge = named.charge) {
+    Charge::Options options{.mobility = charge->mobility,
+                            .core_radius = scene.core_radius,
+                            .cell = cell,
+                            .tolerance = charge->tolerance,
+                            .dimension = dimension,
+                            .threads = threads};
+    if (!charge->density.empty()) {
+      options.own = charges_by(charge->density, description, cell);
+      options.written = charge->density;
+    }
+    effects.push_back(std::make_unique<Charge>(std::move(options)));
+  }
+  if (const auto& vortex = named.vortex)
+    effects.push_back(
+        std::make_unique<Vortex>(Vortex::Options{.core_radius = scene.core_radius,
+                                                 .spreading = named.diffusion ? 4 * named.diffusion->coefficient : 0,
+                                                 .cell = cell,
+                                                 .tolerance = vortex->tolerance,
+                                                 .threads = threads}));
   if (const auto& remesh = named.remesh)
     effects.push_back(std::make_unique<Remesh>(scene.seeding, Remesh::Options{.every = remesh->every,
                                                                               .stretch = remesh->stretch,

@@ -11,7 +11,7 @@
 namespace gaussdrift {
 
 ExactPaths carry_exactly(const VelocityField& velocity, const ScalarField* rate, Particles& particles, double from,
-                          double to, const ExactPathsOptions& options) {
+                         double to, const ExactPathsOptions& options) {
   const auto dimension = static_cast<std::size_t>(particles.dimension);
   const std::size_t components = dimension + (rate ? 1 : 0);
   // A field with kinks asks for short steps at each; particles that share steps would all take them.

@@ -24,6 +24,6 @@ struct ExactPaths {
 /// Carries positions from time `from` to `to` by the method of order 8 with steps that follow their error, and
 /// multiplies weights with exp(-int u0 ds) where there is a rate u0.
 ExactPaths carry_exactly(const VelocityField& velocity, const ScalarField* rate, Particles& particles, double from,
-                          double to, const ExactPathsOptions& options);
+                         double to, const ExactPathsOptions& options);
 
 }  // namespace gaussdrift

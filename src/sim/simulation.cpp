@@ -122,6 +122,23 @@ bool has_smooth_paths(const Scene& scene) {
   return scene.velocity->is_smooth() && (!scene.reaction_rate || scene.reaction_rate->is_smooth());
 }
 
+namespace {
+
+/// Of one particle in the sum over all others: every pair, or what farfield takes with its tables. Blobs within 18
+/// widths are summed pair by pair.
+double work_of_drift(const Case& description, const Scene& scene, double particles) {
+  if (description.domain.dimension == 3) return std::min(0.04 * particles, 250.0);
+  const auto& diffusion = description.effects.diffusion;
+  const double spread = description.effects.vortex && diffusion ? 4 * diffusion->coefficient * description.time.end : 0;
+  const double width = std::sqrt(scene.core_radius * scene.core_radius + spread);
+  double area = 1;
+  for (int k = 0; k < 2; ++k)
+    area *= description.domain.max[static_cast<std::size_t>(k)] - description.domain.min[static_cast<std::size_t>(k)];
+  return std::min(0.09 * particles, 60 + 0.09 * particles * std::pow(18 * width, 2) / area);
+}
+
+}  // namespace
+
 Work work_of(const Case& description, const Scene& scene, std::size_t particles) {
   const time::Tableau& tableau = time::find_tableau(description.time.method);
   // Steps that are chosen are not known here; some hundred are usual.
@@ -131,7 +148,8 @@ Work work_of(const Case& description, const Scene& scene, std::size_t particles)
   // picture, 0.4 s for the first.
   const double sum = description.domain.dimension == 2 ? 5 : 25, picture = 5e6, first = 2e7;
   const double pictures = outputs * static_cast<double>(description.output.images.size());
-  return {n * steps * static_cast<double>(tableau.stages) * scene.velocity->cost(),
+  const double drift = description.effects.drifts() ? work_of_drift(description, scene, n) : 0;
+  return {n * steps * static_cast<double>(tableau.stages) * (scene.velocity->cost() + drift),
           outputs * sum * (n + static_cast<double>(scene.evaluation.size())),
           pictures > 0 ? first + picture * pictures : 0};
 }
@@ -216,7 +234,7 @@ std::vector<double> Simulation::velocity_at_particles(double time) const {
   std::vector<double> columns(count * dimension, 0.0), velocity(count * dimension);
   VectorsView u{particles_.dimension, count, {}};
   for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * count;
-  scene_.velocity->add(time, particles_.view(), u);
+  add_flow_and_drifts(*scene_.velocity, carrier_.drifts(), time, particles_, particles_.view(), u, threads_);
   check_velocity(*scene_.velocity, particles_, u, time, steps_done_);
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];

@@ -97,14 +97,31 @@ void check_velocity(const VelocityField& field, const Particles& particles, cons
   check_block(field, particles.view(), u, particles.id.data(), time, step);
 }
 
-double Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-                        std::size_t steps_before) const {
+double add_flow_and_drifts(const VelocityField& velocity, const std::vector<const Drift*>& drifts, double t,
+                           const Particles& particles, const PointsView& x, const VectorsView& u, int threads) {
+  const std::size_t longest = velocity.evaluates_in_blocks() ? block_length : std::max<std::size_t>(1, x.count);
+  base::parallel_for((x.count + longest - 1) / longest, threads, [&](std::size_t b) {
+    const std::size_t begin = b * longest, length = std::min(longest, x.count - begin);
+    PointsView some{x.dimension, length, {}};
+    VectorsView there{x.dimension, length, {}};
+    for (int k = 0; k < x.dimension; ++k) some.axis[k] = x.axis[k] + begin, there.axis[k] = u.axis[k] + begin;
+    velocity.add(t, some, there);
+  });
+  if (drifts.empty()) return 0;
+  const base::Stopwatch watch;
+  for (const Drift* drift : drifts) drift->add(t, particles, x, u);
+  return watch.seconds();
+}
+
+StepperSeconds Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first,
+                                std::size_t count, std::size_t steps_before) const {
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
-  const std::size_t longest =
-      velocity_.evaluates_in_blocks() ? block_length : std::max<std::size_t>(1, particles.size());
+  const bool together = !velocity_.evaluates_in_blocks() || !drifts_.empty();
+  const std::size_t longest = together ? std::max<std::size_t>(1, particles.size()) : block_length;
   const std::size_t blocks = (particles.size() + longest - 1) / longest;
   std::vector<std::vector<double>> results(blocks);
   std::vector<double> seconds(integrals_.empty() ? 0 : blocks, 0.0);
+  double drift_seconds = 0;  // with drifts there is one block
   const auto column = [&](std::size_t row) {
     return row < dimension ? particles.position[row].data() : particles.path[row - dimension].data();
   };
@@ -118,7 +135,12 @@ double Stepper::advance(Particles& particles, const time::Interval& interval, st
     time::Stages work(tableau_, block.state.size());
     const auto rate = [&](double t, const double* x, double* u) {
       std::fill_n(u, block.state.size(), 0.0);
-      velocity_.add(t, block.points(x), block.vectors(u));
+      if (drifts_.empty()) {
+        velocity_.add(t, block.points(x), block.vectors(u));
+      } else {
+        drift_seconds +=
+            add_flow_and_drifts(velocity_, drifts_, t, particles, block.points(x), block.vectors(u), threads_);
+      }
       if (integrals_.empty()) return;
       const base::Stopwatch watch;
       for (std::size_t q = 0; q < integrals_.size(); ++q)
@@ -156,7 +178,7 @@ double Stepper::advance(Particles& particles, const time::Interval& interval, st
     const std::size_t begin = b * longest, length = std::min(longest, particles.size() - begin);
     for (std::size_t k = 0; k < rows; ++k) std::copy_n(results[b].data() + k * length, length, column(k) + begin);
   }
-  return std::accumulate(seconds.begin(), seconds.end(), 0.0);
+  return {std::accumulate(seconds.begin(), seconds.end(), 0.0), drift_seconds};
 }
 
 }  // namespace gaussdrift

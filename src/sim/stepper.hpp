@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
 #include "field/velocity.hpp"
 #include "particle/particles.hpp"
@@ -17,28 +18,44 @@ namespace gaussdrift {
 void check_velocity(const VelocityField& field, const Particles& particles, const VectorsView& u, double time,
                     std::size_t step);
 
+/// u of the flow and of all drifts, for all particles at once; the flow on several threads, in blocks if that is its
+/// way. Returns the seconds that the drifts took.
+double add_flow_and_drifts(const VelocityField& velocity, const std::vector<const Drift*>& drifts, double t,
+                           const Particles& particles, const PointsView& x, const VectorsView& u, int threads);
+
+/// Seconds of one advance() beside those of the flow.
+struct StepperSeconds {
+  double integrals = 0;  // summed over threads
+  double drifts = 0;
+};
+
 /// Particles do not see each other, so each block of them takes many steps at a time while its arrays stay in the
-/// cache; a field that is evaluated best for all at once gets all of them in one block. The result of a particle does
-/// not depend on the blocks or the number of threads.
+/// cache; a field that is evaluated best for all at once gets all of them in one block, and so do particles that move
+/// each other. The result of a particle does not depend on the blocks or the number of threads.
 class Stepper {
  public:
-  /// The field and the integrals must outlive the stepper. threads: 0 for all.
+  /// The field, the integrals and the drifts must outlive the stepper. threads: 0 for all.
   Stepper(const VelocityField& velocity, const time::Tableau& tableau, int threads,
-          std::vector<const PathIntegral*> integrals = {})
-      : velocity_(velocity), tableau_(tableau), threads_(threads), integrals_(std::move(integrals)) {}
+          std::vector<const PathIntegral*> integrals = {}, std::vector<const Drift*> drifts = {})
+      : velocity_(velocity),
+        tableau_(tableau),
+        threads_(threads),
+        integrals_(std::move(integrals)),
+        drifts_(std::move(drifts)) {}
 
   /// Takes steps first .. first + count - 1 of the interval. `steps_before` steps were taken before the interval;
   /// messages count from there. Throws NumericalError naming step, time, particle and place where the field or a
   /// position is not finite; the particles are then as they were before the call. particles.path has an array for each
-  /// integral, which is added to. Returns the seconds spent on the integrals, summed over threads.
-  double advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-                 std::size_t steps_before) const;
+  /// integral, which is added to.
+  StepperSeconds advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+                         std::size_t steps_before) const;
 
  private:
   const VelocityField& velocity_;
   const time::Tableau& tableau_;
   int threads_;
   std::vector<const PathIntegral*> integrals_;
+  std::vector<const Drift*> drifts_;
 };
 
 }  // namespace gaussdrift

@@ -513,6 +513,8 @@ std::string budget_not_covered(const Case& description) {
     return "diffusion moves weight between particles; a budget covers transport and reaction";
   if (description.effects.remesh)
     return "remeshing moves weight between particles; a budget covers transport and reaction";
+  if (description.effects.drifts())
+    return "the paths of particles that move each other are not known; a budget covers transport and reaction";
   if (description.output.times.empty()) return "there is no output";
   return "";
 }

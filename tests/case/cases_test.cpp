@@ -100,6 +100,11 @@ const std::vector<Reduced> reduced_cases = {
      {"particles.per_axis=151", "evaluate.per_axis=61", "time.step=0.1", "output.times=[\"T/2\"]"},
      0.26,
      Reduced::Mass::handed_on},
+    {"charged_cloud", {"particles.per_axis=101", "evaluate.per_axis=61"}, 0.0093},  // (eps/a)^4 at t = 0
+    // eps/sqrt(pi) along the edges.
+    {"charged_ball", {"particles.per_axis=41", "evaluate.per_axis=31"}, 0.32},
+    {"kirchhoff", {"particles.per_axis=81", "evaluate.per_axis=61"}, 0.14},
+    {"lamb_oseen", {"particles.per_axis=49", "evaluate.per_axis=61", "time.step=0.04"}, 0.062},  // (eps/R)^2
 };
 
 std::vector<FrameNumbers> run_reduced(const Reduced& reduced) {

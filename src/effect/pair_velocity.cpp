@@ -1,0 +1,46 @@
+#include "effect/pair_velocity.hpp"
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+template <int d>
+farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const std::vector<double>& weights,
+                             const farfield::Options& options, std::unique_ptr<farfield::Plan<d>>& plan,
+                             farfield::Choice& choice) {
+  farfield::Points<d> points(d, static_cast<Eigen::Index>(x.count));
+  for (std::size_t j = 0; j < x.count; ++j)
+    for (int k = 0; k < d; ++k) points(k, static_cast<Eigen::Index>(j)) = x.axis[k][j];
+  try {
+    auto next = std::make_unique<farfield::Plan<d>>(kernel, points, options);
+    plan = std::move(next);
+    choice = plan->choice();
+    return plan->evaluate(Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())))
+        .field;
+  } catch (const farfield::MemoryLimitError& error) {
+    throw InputError(error.what());
+  } catch (const farfield::Error& error) {  // positions or weights that are not finite, points too close
+    throw NumericalError(fmt::format("the particles' effect on each other cannot be summed: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+farfield::Points<2> PairVelocity::vortices(const PointsView& x, const std::vector<double>& weights, double core) const {
+  ++evaluations_;
+  return field_of<2>(farfield::Kernel::vortex_blob, x, weights,
+                     {.tolerance = tolerance_, .threads = threads_, .core_radius = core, .potential = false}, plane_,
+                     choice_);
+}
+
+farfield::Points<3> PairVelocity::charges(const PointsView& x, const std::vector<double>& weights) const {
+  ++evaluations_;
+  return field_of<3>(farfield::Kernel::coulomb, x, weights,
+                     {.tolerance = tolerance_, .threads = threads_, .potential = false}, space_, choice_);
+}
+
+}  // namespace gaussdrift
