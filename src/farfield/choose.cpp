@@ -14,7 +14,7 @@ namespace {
 
 /// The promise is about the root of the sum of squares over all targets. The error of one charge at one target is as
 /// large as the table says at the corners of clusters that face each other only, and where the sources are the targets
-/// a charge's neighbours see it exactly: the whole is smaller by more than this factor, 140 in 3D and 20 in 2D in the
+/// a charge's neighbours see it exactly: the whole is smaller by more than this factor, 148 in 3D and 46 in 2D in the
 /// worst of the cases that the tests try (docs/farfield.md). Targets elsewhere may all lie in such corners.
 template <int d>
 constexpr double of_the_whole = d == 3 ? 16 : 4;

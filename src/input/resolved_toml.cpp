@@ -112,6 +112,7 @@ Params params_in_use(const Case& scene) {
     if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
   if (scene.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(scene.reference.rho);
   if (scene.effects.reaction) texts.push_back(scene.effects.reaction->rate);
+  if (scene.effects.charge && !scene.effects.charge->density.empty()) texts.push_back(scene.effects.charge->density);
   std::set<std::string> mentioned;
   for (const std::string& text : texts) {
     const Expression expression(text, {"x", "y", "z", "t"}, scene.params);
@@ -193,6 +194,16 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
     out.entry("method", written(choice("effects.diffusion", "method", diffusion->method)));
     if (diffusion->method == DiffusionSpec::Method::particle_exchange)
       out.entry("tolerance", written(diffusion->tolerance));
+  }
+  if (const auto& charge = scene.effects.charge) {
+    out.table("effects.charge");
+    out.entry("mobility", written(charge->mobility));
+    if (!charge->density.empty()) out.entry("density", written(charge->density));
+    out.entry("tolerance", written(charge->tolerance));
+  }
+  if (const auto& vortex = scene.effects.vortex) {
+    out.table("effects.vortex");
+    out.entry("tolerance", written(vortex->tolerance));
   }
   if (const auto& remesh = scene.effects.remesh) {
     out.table("effects.remesh");

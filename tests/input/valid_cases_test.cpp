@@ -66,6 +66,16 @@ void expect_same(const Case& a, const Case& b) {
     EXPECT_EQ(a.effects.diffusion->method, b.effects.diffusion->method);
     EXPECT_EQ(a.effects.diffusion->tolerance, b.effects.diffusion->tolerance);
   }
+  ASSERT_EQ(a.effects.charge.has_value(), b.effects.charge.has_value());
+  if (a.effects.charge) {
+    EXPECT_EQ(a.effects.charge->mobility, b.effects.charge->mobility);
+    EXPECT_EQ(a.effects.charge->density, b.effects.charge->density);
+    EXPECT_EQ(a.effects.charge->tolerance, b.effects.charge->tolerance);
+  }
+  ASSERT_EQ(a.effects.vortex.has_value(), b.effects.vortex.has_value());
+  if (a.effects.vortex) {
+    EXPECT_EQ(a.effects.vortex->tolerance, b.effects.vortex->tolerance);
+  }
   ASSERT_EQ(a.effects.remesh.has_value(), b.effects.remesh.has_value());
   if (a.effects.remesh) {
     EXPECT_EQ(a.effects.remesh->every, b.effects.remesh->every);
@@ -278,6 +288,8 @@ TEST(ResolvedCase, IsTheSameCaseAgain) {
           "[effects.diffusion]\nD = 0.01\nmethod = \"particle-exchange\"\ntolerance = 1e-5\n[effects.remesh]\nevery = "
           "7\n"
           "kernel = \"m4prime\"\ntolerance = 0\n",
+      cone + "[effects.charge]\nmobility = \"-R\"\ndensity = \"R*x\"\ntolerance = 1e-5\n",
+      cone + "[effects.charge]\nmobility = 1\n[effects.vortex]\n[effects.diffusion]\nD = 0.01\n",
       with(cone, "method = \"rk4\"", "method = \"dopri5\"\ntolerance = 1e-6"),
       with(cone, "cutoff = \"gauss2\"", "cutoff = \"two-gauss\"\nwidth_ratio = 1.5"),
       cone +

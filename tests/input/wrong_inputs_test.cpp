@@ -140,7 +140,7 @@ const char* const tables_note =
     "check, "
     "effects";
 
-const char* const effects_note = "known effects: reaction, diffusion, remesh";
+const char* const effects_note = "known effects: reaction, diffusion, charge, vortex, remesh";
 
 const std::vector<Wrong> wrongs = {
     // version and structure
@@ -175,7 +175,7 @@ const std::vector<Wrong> wrongs = {
     {"[time]\nend", "[effects.diffusion]\nD = -1\n[time]\nend", 30, "-1",
      "effects.diffusion.D must be greater than 0, found -1", "D: coefficient of diffusion, constant in space and time"},
     {"[time]\nend", "[effects.diffusion]\nD = 1\n[reference]\nkind = \"characteristics\"\n[time]\nend", 32,
-     "\"characteristics\"", "the density does not follow characteristics with [effects.diffusion]",
+     "\"characteristics\"", "the density does not follow known characteristics with [effects.diffusion]",
      "kind = \"exact\" and a formula as rho, or kind = \"none\""},
     {"[time]\nend", "[effects.diffusion]\nD = 1\ntolerance = 0.01\n[time]\nend", 31, "0.01",
      "\"tolerance\" goes with method = \"particle-exchange\""},
