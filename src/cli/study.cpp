@@ -14,6 +14,19 @@ namespace gaussdrift::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// A finished study, or the tables of one that was interrupted.
+bool holds_a_study(const fs::path& folder) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return false;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() == "study.json" || entry.path().extension() == ".csv") return true;
+  return false;
+}
+
+}  // namespace
+
 ExitCode study(const StudyVerbOptions& options) {
   study::StudyOptions wanted;
   wanted.file = options.scene.file;
@@ -24,9 +37,11 @@ ExitCode study(const StudyVerbOptions& options) {
   for (const std::string& text : options.vary) wanted.vary.push_back(study::parse_variation(text));
   const fs::path folder =
       options.folder.empty() ? fs::path("output") / ("study_" + options.scene.file.stem().string()) : options.folder;
-  if (!options.force && fs::exists(folder / "study.json"))
+  if (!options.force && holds_a_study(folder))
     throw FileError(
-        fmt::format("{} holds an earlier study; --force replaces it, --out DIR writes elsewhere", folder.string()));
+        fmt::format("{} holds an earlier study, or what is left of one; --force replaces it, --out DIR writes "
+                    "elsewhere",
+                    folder.string()));
   study::Study result;
   {
     ProgressLine line;
@@ -42,9 +57,6 @@ ExitCode study(const StudyVerbOptions& options) {
   const std::string json = study::to_json(result);
   write::write_text(folder / "study.json", json);
   write::write_text(folder / "study.md", study::to_markdown(result));
-  if (!options.csv.empty())
-    write::write_text(options.csv, result.experiments.size() == 1 ? study::to_csv(result.experiments.front())
-                                                                  : study::to_csv(result));
   study::draw_charts(result, folder);
   if (const std::string reason = render::unavailable_reason(); !reason.empty())
     fmt::print(stderr, "warning: no charts are drawn: {}\n", reason);
@@ -52,6 +64,9 @@ ExitCode study(const StudyVerbOptions& options) {
     fmt::print("{}", json);
   else
     fmt::print("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.md").string());
+  if (!options.csv.empty())  // last: where it cannot be written nothing else is lost
+    write::write_text(options.csv, result.experiments.size() == 1 ? study::to_csv(result.experiments.front())
+                                                                  : study::to_csv(result));
   return ExitCode::ok;
 }
 

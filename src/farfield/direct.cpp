@@ -25,6 +25,7 @@ void Direct::evaluate(const Buffer<double>& charges, Sums& sums) const {
     job.run_count = 1;
     job.log_shift = problem_.log_shift;
     job.inverse_squared_core = problem_.inverse_squared_core;
+    job.point_beyond = 40;  // exp(-40) = 4e-18
     job.potential = problem_.potential ? sums.potential.data() : nullptr;
     fastest_kernels().pairs(job);
   });

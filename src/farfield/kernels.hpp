@@ -37,6 +37,7 @@ struct PairsJob {
   bool same_points;             // source i is target i; six_digits does not take their pair for a close one
   double log_shift;             // added to every ln r
   double inverse_squared_core;  // 1/eps^2, of blob
+  double point_beyond;          // r^2/eps^2 from which a blob is taken for a point: exp(-r^2/eps^2) is negligible
   // six_digits: coordinates are taken relative to `centre` in whole multiples of `quantum`, less than 2^30 of them
   double centre[3];
   double quantum;

@@ -36,6 +36,19 @@ FARFIELD_INLINE bool any(Mask mask) {
   return all != 0;
 }
 
+/// Of a comparison's result.
+FARFIELD_INLINE bool any_true(Signed mask) {
+#if FARFIELD_LANES == 8 && defined(__AVX512F__)
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) != 0;
+#elif FARFIELD_LANES == 4 && defined(__AVX2__)
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#elif FARFIELD_LANES == 2 && defined(__SSE2__)
+  return _mm_movemask_pd(reinterpret_cast<__m128d>(mask)) != 0;
+#else
+  return any(mask);
+#endif
+}
+
 /// 1/sqrt(x) to at least 11 bits for 1e-37 < x < 1e37.
 FARFIELD_INLINE Vector rsqrt_estimate(Vector x) {
 #if FARFIELD_LANES == 8 && defined(__AVX512F__)

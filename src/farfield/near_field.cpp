@@ -39,13 +39,14 @@ double error_of(Precision precision) {
 }
 
 Precisions precisions_for(double tolerance, Interaction interaction) {
-  if (interaction != Interaction::inverse) return {Precision::full, Precision::full};
+  const double point_beyond = std::min(40.0, std::log(10 / tolerance));
+  if (interaction != Interaction::inverse) return {Precision::full, Precision::full, point_beyond};
   const auto best = [&](double loss) {
     for (const Precision precision : {Precision::six_digits, Precision::ten_digits})
       if (loss * error_of(precision) <= tolerance) return precision;
     return Precision::full;
   };
-  return {best(1), best(10)};
+  return {best(1), best(10), point_beyond};
 }
 
 template <int d>
@@ -62,6 +63,7 @@ PairsJob NearField<d>::job_for(const Cluster& leaf, Sums& sums) const {
   job.targets = leaf.targets;
   job.log_shift = problem_.log_shift;
   job.inverse_squared_core = problem_.inverse_squared_core;
+  job.point_beyond = precisions_.point_beyond;
   job.potential = problem_.potential ? sums.potential.data() : nullptr;
   return job;
 }

@@ -9,6 +9,7 @@ namespace farfield::detail {
 /// Of pairs of points, and of substitute charges with points.
 struct Precisions {
   Precision points, substitutes;
+  double point_beyond;  // of PairsJob
 };
 
 /// What keeps a tolerance. Substitute charges may be ten times larger in all than the charges they stand for.

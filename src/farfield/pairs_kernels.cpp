@@ -58,8 +58,13 @@ FARFIELD_INLINE void add_pair(const PairsJob& job, const Vector* distance, doubl
     factor = select(valid, charge / squared);
   } else {
     const Vector s = squared * job.inverse_squared_core;
-    const Vector near = blob_series(s) * job.inverse_squared_core, far = (1.0 - exp_nonpositive(-s)) / squared;
-    factor = (s < 0.5 ? near : far) * charge;
+    if (!any_true(s < job.point_beyond)) {
+      factor = charge / squared;
+    } else {
+      factor = (1.0 - exp_nonpositive(-s)) / squared * charge;
+      const Signed near = s < 0.5;
+      if (any_true(near)) factor = near ? blob_series(s) * job.inverse_squared_core * charge : factor;
+    }
   }
   if constexpr (field)
     for (int l = 0; l < d; ++l) sums.field[l] += factor * distance[l];

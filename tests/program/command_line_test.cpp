@@ -120,6 +120,13 @@ TEST(Study, LeavesATableAndChartsAndAPage) {
                 .exit_code,
             0);
   EXPECT_TRUE(fs::exists(folder / "all.csv"));
+  // What is left of an interrupted study is not replaced either; a table that cannot be written loses nothing else.
+  fs::remove(folder / "st/study.json");
+  EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step=0.2 --repeats 1 --out st").exit_code, 6);
+  EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step=0.2 --repeats 1 --out kept --csv st").exit_code,
+            6);
+  for (const char* file : {"kept/study.csv", "kept/study.json", "kept/study.md"})
+    EXPECT_TRUE(fs::exists(folder / file)) << file;
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step").exit_code, 2);
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.stop=1,2").exit_code, 3);
 }
