@@ -58,6 +58,9 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   const Costs<d> costs(problem, degrees, precisions);
   if (any && problem.sources + problem.targets < 1000) return direct();  // nothing to be gained, not even by floats
 
+  // Single precision gains even where one cluster holds all; else the tables alone have to be worth it.
+  if (any && precisions.points != Precision::six_digits && direct_seconds < 1.5 * costs.setup(false)) return direct();
+
   const double good = costs.good_leaf_size();
   const std::size_t fine_leaf_size =
       options.leaf_size > 0 ? options.leaf_size : static_cast<std::size_t>(std::clamp(good / 6, 8.0, 1024.0));

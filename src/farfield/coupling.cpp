@@ -47,7 +47,10 @@ Coupling make_coupling(const Interpolation<d>& interpolation, const int* k) {
           row[i] += distance * distance;
         }
       }
-      for (std::size_t i = 0; i < nodes; ++i) row[i] = d == 3 ? 1 / std::sqrt(row[i]) : std::log(row[i]) / 2;
+      if (d == 3)
+        fastest_kernels().inverse_roots({row, nodes});
+      else
+        for (std::size_t i = 0; i < nodes; ++i) row[i] = std::log(row[i]) / 2;
       to_parities<d>(row, octant);
     }
   to_parities<d>(values.data(), octant * nodes);

@@ -90,6 +90,12 @@ struct ExpansionJob {
   double* field[3];
 };
 
+/// values[i] = 1/sqrt(values[i]) for 1e-37 < values[i] < 1e37, to full precision.
+struct InverseRootsJob {
+  double* values;
+  std::size_t count;
+};
+
 struct Kernels {
   const char* name;
   std::size_t lanes;  // doubles in a vector
@@ -97,6 +103,7 @@ struct Kernels {
   void (*product)(const ProductJob&);
   void (*moments)(const MomentsJob&);
   void (*expansion)(const ExpansionJob&);
+  void (*inverse_roots)(const InverseRootsJob&);
 };
 
 /// The sets that this processor runs, slowest first; at least one.

@@ -10,6 +10,7 @@ void pairs(const PairsJob& job);
 void product(const ProductJob& job);
 void moments(const MomentsJob& job);
 void expansion(const ExpansionJob& job);
+void inverse_roots(const InverseRootsJob& job);
 
 extern const Kernels kernels;
 

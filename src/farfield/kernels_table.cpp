@@ -5,6 +5,7 @@ namespace farfield::detail::FARFIELD_ISA {
 
 #define FARFIELD_TEXT_OF(x) #x
 #define FARFIELD_TEXT(x) FARFIELD_TEXT_OF(x)
-const Kernels kernels = {FARFIELD_TEXT(FARFIELD_ISA), FARFIELD_LANES, pairs, product, moments, expansion};
+const Kernels kernels = {
+    FARFIELD_TEXT(FARFIELD_ISA), FARFIELD_LANES, pairs, product, moments, expansion, inverse_roots};
 
 }  // namespace farfield::detail::FARFIELD_ISA

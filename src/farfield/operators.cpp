@@ -124,17 +124,21 @@ void Operators<d>::make_transfer(const Interpolation<d>& interpolation) {
     transfer_[o].assign(count * count, 0.0);
     transposed_[o].assign(count * count, 0.0);
   }
+  std::vector<int> degrees(count);
+  std::vector<unsigned> parities(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    degrees[k] = degree_of<d>(k);
+    parities[k] = parity<d>(k);
+  }
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < nodes; ++i) column[i] = values[i * count + k];
     interpolation.fit(column.data(), coefficients.data());
-    for (std::size_t m = 0; m < count; ++m) {
-      if (degree_of<d>(m) > degree_of<d>(k)) continue;
+    for (std::size_t m = 0; m < count && degrees[m] <= degrees[k]; ++m)
       for (std::size_t o = 0; o < octants; ++o) {
-        const double value = coefficients[m] * sign(parity<d>(m), o) * sign(parity<d>(k), o);
+        const double value = coefficients[m] * sign(parities[m] ^ parities[k], o);
         transfer_[o][place(m) * count + place(k)] = value;
         transposed_[o][place(k) * count + place(m)] = value;
       }
-    }
   }
 }
 

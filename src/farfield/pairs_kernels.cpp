@@ -308,6 +308,15 @@ void pairs_in_float(const PairsJob& job) {
 
 }  // namespace
 
+void inverse_roots(const InverseRootsJob& job) {
+  std::size_t i = 0;
+  for (; i + tile <= job.count; i += tile) {
+    store(job.values + i, rsqrt<true>(load(job.values + i)));
+    store(job.values + i + lanes, divided_rsqrt(load(job.values + i + lanes)));
+  }
+  for (; i < job.count; ++i) job.values[i] = 1 / __builtin_sqrt(job.values[i]);
+}
+
 void pairs(const PairsJob& job) {
   if (job.interaction == Interaction::logarithm) return pairs_by_output<Interaction::logarithm, true>(job);
   if (job.interaction == Interaction::blob) return pairs_in_double<Interaction::blob, true, false, true>(job);
