@@ -30,6 +30,15 @@ double Charge::stable_step() const {
   return largest_rate_ > 0 ? 1 / largest_rate_ : std::numeric_limits<double>::infinity();
 }
 
+std::string Charge::warning() const {
+  if (options_.mobility >= 0 || largest_rate_ == 0) return "";
+  return fmt::format(
+      "equal charges attract each other where effects.charge.mobility is negative: their density grows like 1/(1 - "
+      "t/tau), "
+      "and from t = tau = {:.3g} on there is no solution",
+      1 / largest_rate_);
+}
+
 void Charge::add(double /*t*/, const Particles& particles, const PointsView& x, const VectorsView& u) const {
   const std::vector<double>& charges = charges_of(particles);
   if (options_.dimension == 2) {

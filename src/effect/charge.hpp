@@ -34,6 +34,7 @@ class Charge : public Effect, private Drift {
   std::string conserves() const override { return "charge and, without a flow, its centroid"; }
   /// Within 1 / (mobility div E) the density changes by its own size.
   double stable_step() const override;
+  std::string warning() const override;
 
   void begin(Particles& particles, double time) override;
   const Drift* drift() const override { return this; }

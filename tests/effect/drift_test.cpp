@@ -44,7 +44,8 @@ TEST(Charge, AnEvenDiscStaysEvenAndGrows) {
   const Case scene = disc({"effects.charge.mobility=0.3"});
   Simulation simulation(scene);
   const RunSummary summary = simulation.run();
-  // Blobs do not see the part (eps/R)^2 = 1.6 % of the charge that is nearer than eps: less than 1 % of the growth by 1.9.
+  // Blobs do not see the part (eps/R)^2 = 1.6 % of the charge that is nearer than eps: less than 1 % of the growth
+  // by 1.9.
   EXPECT_NEAR(mean_square_radius(simulation.particles()) / mean_square_radius(at_start(scene)), growth, 1e-2 * growth);
   EXPECT_NEAR(summary.frames.back().second.maximum, 1 / growth, 0.05 / growth);  // ripples at the edge
 }
@@ -271,6 +272,15 @@ TEST(Drift, IsNotThereUnlessACaseNamesIt) {
   EXPECT_GT(summary.effects[1].seconds, 0);
   EXPECT_EQ(summary.effects[1].numbers[0].first, "evaluations");
   EXPECT_GE(summary.effects[1].numbers[0].second, 40);  // ten steps of four stages
+}
+
+TEST(Charge, WarnsWhereEqualChargesFallTogether) {
+  const auto warning = [](const std::string& mobility) {
+    Simulation simulation(disc({"effects.charge.mobility=" + mobility, "time.end=0.1", "output.times=[0.1]"}));
+    return simulation.run().effects[1].warning;
+  };
+  EXPECT_EQ(warning("0.3"), "");
+  EXPECT_NE(warning("-0.3").find("tau = 0.531"), std::string::npos) << warning("-0.3");  // 1/(2 pi 0.3)
 }
 
 TEST(Drift, RefusesStepsThatAreTooLong) {
