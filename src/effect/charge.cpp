@@ -39,11 +39,12 @@ std::string Charge::warning() const {
       1 / largest_rate_);
 }
 
-void Charge::add(double /*t*/, const Particles& particles, const PointsView& x, const VectorsView& u) const {
+void Charge::add(double t, const Particles& particles, const PointsView& x, const VectorsView& u) const {
   const std::vector<double>& charges = charges_of(particles);
   if (options_.dimension == 2) {
     // The field of a Gaussian charge is the velocity of a vortex blob turned by a quarter, times 2 pi.
-    const farfield::Points<2> turned = pairs_.vortices(x, charges, options_.core_radius);
+    const double core = std::sqrt(options_.core_radius * options_.core_radius + options_.spreading * t);
+    const farfield::Points<2> turned = pairs_.vortices(x, charges, core);
     const double factor = 2 * std::numbers::pi * options_.mobility;
     for (std::size_t j = 0; j < x.count; ++j) {
       u.axis[0][j] += factor * turned(1, static_cast<Eigen::Index>(j));

@@ -17,7 +17,8 @@ class Charge : public Effect, private Drift {
  public:
   struct Options {
     double mobility = 1;
-    double core_radius = 0;  // eps, 2D
+    double core_radius = 0;  // eps at the start, 2D
+    double spreading = 0;    // eps^2 grows at this rate, 4 D with core spreading
     double cell = 1;         // volume of a particle at the start
     double tolerance = 1e-6;
     int dimension = 2;

@@ -1196,6 +1196,9 @@ class Reader {
       if (effects.diffusion && effects.diffusion->method == DiffusionSpec::Method::particle_exchange)
         refuse(name, "does not go with [effects.diffusion] method = \"particle-exchange\"",
                "particles of its halo come later and cannot be carried from the start; method = \"core-spreading\"");
+      if (effects.diffusion && effects.charge && dimension_ == 3)
+        refuse("charge", "does not go with [effects.diffusion] in three dimensions",
+               "charges are points there, and their field would not see what has diffused; leave out one of them");
       const bool own = effects.charge && !effects.charge->density.empty() && std::string(name) == "charge";
       if (effects.reaction && !own)
         refuse(name, "does not go with [effects.reaction], which changes the weights that move the particles",

@@ -55,9 +55,11 @@ Effects make_effects(const Case& description, const Scene& scene, Follow follow,
   }
   const int dimension = description.domain.dimension;
   const double cell = std::pow(scene.seeding.spacing, dimension);
+  const double spreading = named.diffusion ? 4 * named.diffusion->coefficient : 0;  // of blobs, by core spreading
   if (const auto& charge = named.charge) {
     Charge::Options options{.mobility = charge->mobility,
                             .core_radius = scene.core_radius,
+                            .spreading = spreading,
                             .cell = cell,
                             .tolerance = charge->tolerance,
                             .dimension = dimension,
@@ -69,12 +71,11 @@ Effects make_effects(const Case& description, const Scene& scene, Follow follow,
     effects.push_back(std::make_unique<Charge>(std::move(options)));
   }
   if (const auto& vortex = named.vortex)
-    effects.push_back(
-        std::make_unique<Vortex>(Vortex::Options{.core_radius = scene.core_radius,
-                                                 .spreading = named.diffusion ? 4 * named.diffusion->coefficient : 0,
-                                                 .cell = cell,
-                                                 .tolerance = vortex->tolerance,
-                                                 .threads = threads}));
+    effects.push_back(std::make_unique<Vortex>(Vortex::Options{.core_radius = scene.core_radius,
+                                                               .spreading = spreading,
+                                                               .cell = cell,
+                                                               .tolerance = vortex->tolerance,
+                                                               .threads = threads}));
   if (const auto& remesh = named.remesh)
     effects.push_back(std::make_unique<Remesh>(scene.seeding, Remesh::Options{.every = remesh->every,
                                                                               .stretch = remesh->stretch,

@@ -129,7 +129,7 @@ namespace {
 double work_of_drift(const Case& description, const Scene& scene, double particles) {
   if (description.domain.dimension == 3) return std::min(0.04 * particles, 250.0);
   const auto& diffusion = description.effects.diffusion;
-  const double spread = description.effects.vortex && diffusion ? 4 * diffusion->coefficient * description.time.end : 0;
+  const double spread = diffusion ? 4 * diffusion->coefficient * description.time.end : 0;
   const double width = std::sqrt(scene.core_radius * scene.core_radius + spread);
   double area = 1;
   for (int k = 0; k < 2; ++k)

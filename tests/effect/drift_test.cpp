@@ -274,6 +274,23 @@ TEST(Drift, IsNotThereUnlessACaseNamesIt) {
   EXPECT_GE(summary.effects[1].numbers[0].second, 40);  // ten steps of four stages
 }
 
+// (1 - exp(-r^2/(eps^2 + 4 D t))) / r between two blobs that have spread.
+TEST(Charge, OfABlobSpreadsWithIt) {
+  const double r = 0.1, eps = 0.05, spreading = 0.04, mu = 0.5;
+  Charge charge({.mobility = mu, .core_radius = eps, .spreading = spreading, .cell = 1, .tolerance = 1e-9});
+  Particles particles;
+  particles.position[0] = {0, r};
+  particles.position[1] = {0, 0};
+  particles.alpha = {2, 2};
+  particles.id = {0, 1};
+  charge.begin(particles, 0);
+  for (const double t : {0.0, 0.3}) {
+    std::vector<double> ux(2, 0.0), uy(2, 0.0);
+    charge.drift()->add(t, particles, particles.view(), VectorsView{2, 2, {ux.data(), uy.data(), nullptr}});
+    EXPECT_NEAR(ux[1], mu * 2 / r * (1 - std::exp(-r * r / (eps * eps + spreading * t))), 1e-12);
+  }
+}
+
 TEST(Charge, WarnsWhereEqualChargesFallTogether) {
   const auto warning = [](const std::string& mobility) {
     Simulation simulation(disc({"effects.charge.mobility=" + mobility, "time.end=0.1", "output.times=[0.1]"}));
