@@ -1,5 +1,5 @@
 // Matrices of kernel values at points on a line, kept in blocks of low rank: N log N numbers in place of N^2. The
-// construction of [Mel, exercises 3 to 7]; docs/farfield.md, "Matrices in blocks", has what came out.
+// construction of [Mel08, exercises 3 to 7]; docs/farfield.md, "Matrices in blocks", has what came out.
 //
 //   const farfield::BlockMatrix matrix(farfield::log_kernel, points, {.degree = 5});
 //   const Eigen::VectorXd y = matrix * x;
@@ -18,9 +18,9 @@ namespace farfield {
 /// K(x, y) for x != y.
 using LineKernel = double (*)(double x, double y);
 
-/// ln |x - y|, [Mel, (2)].
+/// ln |x - y|, [Mel08, (2)].
 double log_kernel(double x, double y);
-/// e^(x + y), [Mel, (3)]: smooth, so that one block of low rank is the whole matrix.
+/// e^(x + y), [Mel08, (3)]: smooth, so that one block of low rank is the whole matrix.
 double smooth_kernel(double x, double y);
 
 /// Chebyshev points of an interval, degree + 1 of them: its zeros.
@@ -30,7 +30,7 @@ Eigen::VectorXd chebyshev_points(int degree, double low, double high);
 Eigen::MatrixXd lagrange_matrix(int degree, double low, double high, const Eigen::Ref<const Eigen::VectorXd>& x);
 
 /// M with M_ij = K(x_i, x_j) interpolated on the bounding interval of the points in both variables: W S V^T of rank
-/// degree + 1, [Mel, (4)]. W = V for one set of points.
+/// degree + 1, [Mel08, (4)]. W = V for one set of points.
 struct LowRank {
   Eigen::MatrixXd w, s, v;  // rows x rank, rank x rank, columns x rank
 
@@ -48,8 +48,8 @@ struct Block {
   std::size_t columns() const { return column_end - column_begin; }
 };
 
-/// The greedy list of [Mel, exercise 5]: a block of one row or one column is exact; one whose bounding intervals
-/// satisfy max diam <= dist / 2 [Mel, (6)] is of low rank; any other is divided into four. points     ascending,
+/// The greedy list of [Mel08, exercise 5]: a block of one row or one column is exact; one whose bounding intervals
+/// satisfy max diam <= dist / 2 [Mel08, (6)] is of low rank; any other is divided into four. points     ascending,
 /// finite, at least one leaf_size  blocks of at most so many rows or columns are exact; 1 as on the sheet Throws
 /// InvalidArgument.
 std::vector<Block> block_list(const Eigen::Ref<const Eigen::VectorXd>& points, std::size_t leaf_size = 1);
@@ -102,7 +102,7 @@ class BlockMatrix {
   std::vector<std::pair<std::size_t, std::size_t>> basis_range_;
 };
 
-/// M_ij = m_{i-j}, multiplied in N log N by the fast Fourier transform [Mel, exercise 7].
+/// M_ij = m_{i-j}, multiplied in N log N by the fast Fourier transform [Mel08, exercise 7].
 class ToeplitzMatrix {
  public:
   /// column  M_11, M_21, ..., M_N1

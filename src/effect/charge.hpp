@@ -1,7 +1,7 @@
 // Charged particles that repel each other and drift with the field,
 //   X_j' = u(X_j, t) + mobility E(X_j),   E = sum_k q_k (X_j - X_k) / r^d   (d = 2, 3; no unit has a factor 4 pi),
 // where the charge is the weight or has a density of its own. In 2D the charges are blobs, a factor 1 -
-// exp(-r^2/eps^2); in 3D they are points. docs/method.md, section 8.3.
+// exp(-r^2/eps^2); in 3D they are points. docs/method.md, section 8.4.
 #pragma once
 
 #include <functional>

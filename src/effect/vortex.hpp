@@ -1,6 +1,6 @@
 // Vortex blobs: the density is a vorticity, weights are circulations, and the blobs move each other,
 //   X_j' = u(X_j, t) + sum_k alpha_k (1 - exp(-r^2/w^2)) / (2 pi r^2) (-dy, dx),   (dx, dy) = X_j - X_k,
-// the velocity whose vorticity is the density of Gaussian blobs of width w. docs/method.md, section 8.4.
+// the velocity whose vorticity is the density of Gaussian blobs of width w. docs/method.md, section 8.5.
 #pragma once
 
 #include "effect/drift.hpp"

@@ -38,7 +38,7 @@ double mean_square_radius(const Particles& particles) {
 
 Particles at_start(const Case& scene) { return seed_scene(make_scene(scene), 0); }
 
-// rho = rho_0 / (1 + t/tau), tau = 1/(2 pi mu rho_0), R^2 = R_0^2 (1 + t/tau). [CASES, 11]
+// rho = rho_0 / (1 + t/tau), tau = 1/(2 pi mu rho_0), R^2 = R_0^2 (1 + t/tau). docs/method.md, section 8.4.
 TEST(Charge, AnEvenDiscStaysEvenAndGrows) {
   const double mu = 0.3, growth = 1 + 2 * pi * mu;
   const Case scene = disc({"effects.charge.mobility=0.3"});
@@ -50,7 +50,7 @@ TEST(Charge, AnEvenDiscStaysEvenAndGrows) {
   EXPECT_NEAR(summary.frames.back().second.maximum, 1 / growth, 0.05 / growth);  // ripples at the edge
 }
 
-// R^3 = R_0^3 (1 + t/tau), tau = 1/(4 pi mu rho_0). [CASES, 11]
+// R^3 = R_0^3 (1 + t/tau), tau = 1/(4 pi mu rho_0). docs/method.md, section 8.4.
 TEST(Charge, AnEvenBallStaysEvenAndGrows) {
   const std::string text = R"(gaussdrift = 1
 [domain]
@@ -82,7 +82,7 @@ mobility = 0.1
   EXPECT_NEAR(mean_square_radius(simulation.particles()) / mean_square_radius(at_start(scene)), growth, 1e-2 * growth);
 }
 
-// r^2 = r_0^2 + 2 mu Q(<r_0) t for every radius: shells do not cross. [CASES, 11]
+// r^2 = r_0^2 + 2 mu Q(<r_0) t for every radius: shells do not cross. docs/method.md, section 8.4.
 TEST(Charge, ShellsOfARoundCloudMoveWithTheChargeInside) {
   const double mu = 0.3, mass = 0.04 * pi;  // of exp(-r^2/0.04)
   const Case scene =
@@ -154,7 +154,7 @@ Particles carried(Particles particles, double end, double step) {
   return particles;
 }
 
-// Around their common centre at the rate (Gamma_1 + Gamma_2) / (2 pi d^2). [CASES, 9]
+// Around their common centre at the rate (Gamma_1 + Gamma_2) / (2 pi d^2). [Lam32, 155]
 TEST(Vortex, TwoEqualOnesTurnAroundEachOther) {
   const double distance = 0.5, gamma = 3, rate = 2 * gamma / (2 * pi * distance * distance);
   std::vector<double> errors;
@@ -177,7 +177,7 @@ TEST(Vortex, TwoOppositeOnesMoveStraight) {
   EXPECT_GT(found.position[1][0] * found.position[1][1], 0);
 }
 
-// Omega = omega a b / (a + b)^2, and the shape is kept. [CASES, 9]
+// Omega = omega a b / (a + b)^2, and the shape is kept. [Lam32, 159]
 TEST(Vortex, KirchhoffsEllipseTurnsAsABody) {
   const double a = 0.5, b = 0.25, omega = 4, rate = omega * a * b / ((a + b) * (a + b));
   const std::string text = R"(gaussdrift = 1

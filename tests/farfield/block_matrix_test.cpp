@@ -1,4 +1,4 @@
-// Matrices in blocks of low rank: the exercises of [Mel] as facts.
+// Matrices in blocks of low rank: the exercises of [Mel08] as facts.
 #include "farfield/block_matrix.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using farfield::Bases;
 using farfield::Block;
 using farfield::BlockMatrix;
 
-/// x_i = (i - 1) h, h = 1 / (N - 1), [Mel, (1)].
+/// x_i = (i - 1) h, h = 1 / (N - 1), [Mel08, (1)].
 Eigen::VectorXd sheet_points(Eigen::Index count) { return Eigen::VectorXd::LinSpaced(count, 0, 1); }
 
 Eigen::VectorXd random_points(Eigen::Index count, unsigned seed) {

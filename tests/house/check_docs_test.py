@@ -1,0 +1,69 @@
+"""The check of the documents finds what it should: each of these faults, put into a copy of the tree, must fail it.
+Usage: check_docs_test.py <source folder> <scratch folder>"""
+import os
+import shutil
+import subprocess
+import sys
+
+root, scratch = sys.argv[1:]
+shutil.rmtree(scratch, ignore_errors=True)
+for folder in ("docs", "src", "include", "tests", "tools", "cases"):
+    shutil.copytree(os.path.join(root, folder), os.path.join(scratch, folder), ignore=shutil.ignore_patterns("build"))
+for name in ("README.md", "LICENSE"):
+    shutil.copy(os.path.join(root, name), scratch)
+
+
+def check():
+    return subprocess.run([sys.executable, os.path.join(root, "tools/check_docs.py"), scratch],
+                          capture_output=True, text=True)
+
+
+def read(name):
+    with open(os.path.join(scratch, name), encoding="utf-8") as file:
+        return file.read()
+
+
+def write(name, text):
+    with open(os.path.join(scratch, name), "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+good = check()
+if good.returncode != 0:
+    sys.exit("the tree as it is fails the check:\n" + good.stdout + good.stderr)
+
+# File, what is replaced (empty: put at the end), by what, what the check says.
+FAULTS = [
+    ("docs/method.md", "", "\nAs in [Nob99, 3] and elsewhere.\n", "[Nob99] is not in docs/references.md"),
+    ("src/time/tableau.cpp", "", "// after [Nob99]\n", "[Nob99] is not in docs/references.md"),
+    ("tests/effect/drift_test.cpp", "", "// r = 1. [CASES, 11]\n", "[CASES, ...] reads like a key"),
+    ("docs/references.md", "| [GS91]", "| [GS92]", "nobody refers to [GS92]"),
+    ("docs/references.md", "| [GS91]", "| [Sch06] | again |\n| [GS91]", "[Sch06] is there already"),
+    ("docs/usage.md", "", "\nSee [this](nowhere.md).\n", "the link nowhere.md leads nowhere"),
+    ("docs/usage.md", "", "\nSee [this](method.md#nothing-of-it).\n", "has no heading #nothing-of-it"),
+    ("README.md", "docs/gallery/swirl.png", "docs/gallery/whirl.png", "the link docs/gallery/whirl.png leads nowhere"),
+    ("src/effect/vortex.hpp", "section 8.5", "section 8.9", "docs/method.md has no section 8.9"),
+    ("src/effect/remesh_kernel.cpp", "equation (4)", "equation (40)", "docs/method.md has no equation 40"),
+    ("docs/method.md", "    (2)   X_j'", "    (1)   X_j'", "equation 1 is there 2 times"),
+    ("README.md", "| [decay]", "\n| [decay]", "the table of cases has 0 rows of cases/decay.toml"),
+    ("README.md", "| [decay](cases/decay.toml)", "| [decay](cases/swirl.toml)", "0 rows of cases/decay.toml"),
+]
+for name, old, new, said in FAULTS:
+    before = read(name)
+    if old and old not in before:
+        sys.exit(f"{name} has no longer: {old}")
+    write(name, before.replace(old, new, 1) if old else before + new)
+    result = check()
+    if result.returncode == 0 or said not in result.stdout:
+        sys.exit(f"{name}: \"{said}\" is not noticed\n{result.stdout}")
+    write(name, before)
+
+changes = os.path.join(scratch, "docs/changes")
+first = sorted(os.listdir(changes))[0]
+shutil.copy(os.path.join(changes, first), os.path.join(changes, first[:4] + "-another.md"))
+result = check()
+if result.returncode == 0 or "has this number" not in result.stdout:
+    sys.exit("two pages with one number are not noticed")
+os.remove(os.path.join(changes, first[:4] + "-another.md"))
+if check().returncode != 0:
+    sys.exit("the tree again fails the check")
