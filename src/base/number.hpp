@@ -1,0 +1,46 @@
+// Numbers in text, read whole or not at all, and numbers in messages, with the digits that tell them apart.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <concepts>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gaussdrift::base {
+
+/// The text without blanks and line ends around it.
+inline std::string_view without_blanks(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n\f\v";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The number that the whole text is: "1.5", "+1", " 2e-3 "; nothing for "1,5", "1.5 m", "", "1.5" as a whole number,
+/// and numbers that the type cannot hold. Of floating-point types "nan" and "inf" are numbers too.
+template <class Number>
+requires std::integral<Number> || std::floating_point<Number> std::optional<Number> read_number(std::string_view text) {
+  text = without_blanks(text);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && rest == end && !text.empty() ? std::optional(number) : std::nullopt;
+}
+
+/// The number with six digits, or as many more as show that it is none of the others: 0.7 beside 0.69999999 is "0.7",
+/// that is "0.69999999".
+template <class... Others>
+std::string told_apart(double number, Others... others) {
+  std::string text;
+  for (int digits = 6; digits <= 17; ++digits) {
+    text = fmt::format("{:.{}g}", number, digits);
+    if (((number == others || text != fmt::format("{:.{}g}", double(others), digits)) && ...)) break;
+  }
+  return text;
+}
+
+}  // namespace gaussdrift::base
