@@ -49,6 +49,9 @@ void add_sum_options(CLI::App& verb, SumOptions& options) {
       ->type_name("FILE");
   CLI::Option* targets = verb.add_option("--targets", options.targets, "table of targets; the sources by default");
   targets->type_name("FILE");
+  verb.add_option("--columns", options.columns,
+                  "the columns that are coordinates, as in --columns x,y; all but weight by default")
+      ->type_name("NAME,...");
   verb.add_option("--grid", options.grid, "a grid instead, as in --grid=-1:1:200,0:1:100; its first axis runs fastest")
       ->type_name("LOW:HIGH:COUNT,...")
       ->excludes(targets);

@@ -126,10 +126,15 @@ double read_points(const SumOptions& options, study::PointsRequest& request) {
   request.tolerance = options.tolerance;
   request.threads = options.threads;
   if (!options.grid.empty()) request.grid = study::parse_grid(options.grid);
+  const input::CoordinateNames coordinates = study::parse_columns(options.columns);
   const base::Stopwatch reading;
-  request.sources = input::read_points_table(options.sources, input::PointsRole::sources, request.memory_limit);
-  if (!options.targets.empty())
-    request.targets = input::read_points_table(options.targets, input::PointsRole::targets, request.memory_limit);
+  const auto read = [&](const fs::path& file, input::PointsRole role) {
+    input::PointsTable table = input::read_points_table(file, role, request.memory_limit, coordinates);
+    for (const std::string& doubt : table.doubts) fmt::print(stderr, "warning: {}\n", doubt);
+    return table;
+  };
+  request.sources = read(options.sources, input::PointsRole::sources);
+  if (!options.targets.empty()) request.targets = read(options.targets, input::PointsRole::targets);
   return reading.seconds();
 }
 

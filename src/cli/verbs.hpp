@@ -39,6 +39,7 @@ struct StudyVerbOptions {
 struct SumOptions {
   std::string kernel = "gauss";
   std::filesystem::path sources, targets;  // targets empty: --grid, or the sources
+  std::string columns;                     // "x,y"; empty: all but the weight
   std::string grid;                        // "-1:1:200,-1:1:200"
   std::optional<double> sigma;
   std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum

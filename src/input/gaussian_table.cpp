@@ -14,10 +14,9 @@ namespace gaussdrift::input {
 
 namespace {
 
-// A fit to two samples at one place has no solution, or no meaning. Line of row k: a header stands before, and blank
-// lines only behind all rows.
-void check_distinct(const std::vector<double>& rows, std::size_t columns, std::size_t dimension,
-                    const std::string& name) {
+// A fit to two samples at one place has no solution, or no meaning.
+void check_distinct(const NamedColumns& table, std::size_t columns, std::size_t dimension, const std::string& name) {
+  const std::vector<double>& rows = table.rows;
   std::vector<std::size_t> order(rows.size() / columns);
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto row = [&](std::size_t k) { return rows.begin() + static_cast<std::ptrdiff_t>(k * columns); };
@@ -37,7 +36,8 @@ void check_distinct(const std::vector<double>& rows, std::size_t columns, std::s
   const bool same = std::equal(row(first), row(first) + static_cast<std::ptrdiff_t>(columns), row(second));
   throw InputError(fmt::format(
       "{}:{}:1: the sample at ({:g}) stands in line {} already{}; no field can be fitted to both: remove one", name,
-      second + 2, fmt::join(place, ", "), first + 2, same ? "" : ", with different values"));
+      table.lines.line_of(second), fmt::join(place, ", "), table.lines.line_of(first),
+      same ? "" : ", with different values"));
 }
 
 }  // namespace
@@ -45,9 +45,10 @@ void check_distinct(const std::vector<double>& rows, std::size_t columns, std::s
 GaussianTable read_gaussian_table(const std::filesystem::path& file, GaussianKind kind, int dimension) {
   constexpr std::size_t memory_limit = std::size_t{2} << 30;
   const std::vector<std::string> names = gaussian_columns_of(kind, dimension);
-  const std::vector<double> rows = read_named_columns(file, names, memory_limit);
+  const NamedColumns read = read_named_columns(file, names, memory_limit);
+  const std::vector<double>& rows = read.rows;
   const std::size_t columns = names.size(), d = static_cast<std::size_t>(dimension);
-  if (is_fitted(kind)) check_distinct(rows, columns, d, file.string());
+  if (is_fitted(kind)) check_distinct(read, columns, d, file.string());
   GaussianTable table;
   for (std::size_t at = 0; at < rows.size(); at += columns) {
     const auto row = rows.begin() + static_cast<std::ptrdiff_t>(at);

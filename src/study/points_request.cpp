@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 
 namespace gaussdrift::study {
 
@@ -49,9 +50,12 @@ std::vector<GridAxis> parse_grid(const std::string& text) {
     };
     const auto numbers = split(part, ':');
     GridAxis axis;
-    if (numbers.size() != 3 || !read_number(numbers[0], axis.lower) || !read_number(numbers[1], axis.upper))
-      refuse("is not an axis");
-    if (!read_number(numbers[2], axis.count) || axis.count < 1) refuse("has no positive count");
+    const auto number = [&](std::size_t k) { return base::read_number<double>(numbers[k]); };
+    if (numbers.size() != 3 || !number(0) || !number(1)) refuse("is not an axis");
+    axis.lower = *number(0), axis.upper = *number(1);
+    const auto count = base::read_number<std::size_t>(numbers[2]);
+    if (!count || *count < 1) refuse("has no positive count");
+    axis.count = *count;
     if (!std::isfinite(axis.lower) || !std::isfinite(axis.upper) || !std::isfinite(axis.upper - axis.lower))
       refuse("is not finite");
     if (axis.count == 1 && axis.lower != axis.upper) refuse("has one node between two ends");
@@ -60,6 +64,27 @@ std::vector<GridAxis> parse_grid(const std::string& text) {
   }
   if (grid.size() > 4) throw CommandLineError(fmt::format("--grid has {} axes, at most 4 are possible", grid.size()));
   return grid;
+}
+
+input::CoordinateNames parse_columns(const std::string& text) {
+  constexpr std::size_t most = 4;
+  input::CoordinateNames names;
+  if (text.empty()) return names;
+  for (std::string_view name : split(text, ',')) {
+    while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
+    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
+    const auto refuse = [&](const std::string& why) {
+      throw CommandLineError(fmt::format("--columns {}: {}", text, why));
+    };
+    if (name.empty()) refuse("a name is missing; write --columns x,y");
+    if (name == "weight") refuse("\"weight\" is no coordinate; it is read anyway");
+    if (std::find(names.begin(), names.end(), name) != names.end()) refuse(fmt::format("\"{}\" is there twice", name));
+    names.emplace_back(name);
+  }
+  if (names.size() > most)
+    throw CommandLineError(
+        fmt::format("--columns {} names {} coordinates, at most {} are possible", text, names.size(), most));
+  return names;
 }
 
 std::vector<std::vector<double>> nodes_of(const std::vector<GridAxis>& grid) {

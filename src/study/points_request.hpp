@@ -3,13 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <charconv>
 #include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "input/points_table.hpp"
@@ -34,6 +32,9 @@ struct PointsRequest {
 /// "-1:1:200,-1:1:200". Throws CommandLineError.
 std::vector<GridAxis> parse_grid(const std::string& text);
 
+/// "x,y": names of columns. Throws CommandLineError.
+input::CoordinateNames parse_columns(const std::string& text);
+
 /// The nodes of every axis. Throws CommandLineError for nodes that a double cannot tell apart.
 std::vector<std::vector<double>> nodes_of(const std::vector<GridAxis>& grid);
 
@@ -48,13 +49,5 @@ std::size_t memory_for_plan(const PointsRequest& request, std::size_t columns);
 void write_table(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, std::FILE* out);
 
 std::vector<std::string_view> split(std::string_view text, char separator);
-
-/// False if the text is anything but one number.
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && rest == end;
-}
 
 }  // namespace gaussdrift::study

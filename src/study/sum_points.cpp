@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 
@@ -107,13 +107,13 @@ nlohmann::ordered_json number(std::optional<double> value) {
 std::vector<int> parse_derivative(const std::string& text) {
   std::vector<int> derivative;
   for (const std::string_view part : split(text, ',')) {
-    int order = -1;
-    if (!read_number(part, order) || order < 0)
+    const auto order = base::read_number<int>(part);
+    if (!order || *order < 0)
       throw CommandLineError(
           fmt::format("--derivative: \"{}\" in \"{}\" is not an order; write one number for every coordinate, as in "
                       "--derivative 0,1,2",
                       part, text));
-    derivative.push_back(order);
+    derivative.push_back(*order);
   }
   return derivative;
 }

@@ -114,6 +114,11 @@ TEST_F(GaussianTables, GetThePromisedMessages) {
   write("twice.csv", "x,y,u,v\n0,0,1,0\n0.5,0,1,0\n0,0,1,1\n");
   write("same.csv", "x,y,u,v\n0,0,1,0\n0.5,0,1,0\n0,0,1,0\n");
   write("empty.csv", "");
+  write("commented.csv", "# made by a tool\n\nx,y,u,v\n0,0,1,0\n# between\n0.5,0,1,0\n0,0,1,1\n");
+  write("id.csv", "id,x,y,u,v\n1,0,0,1,0\n");
+  write("blanks.csv", "x y u v\n0 0 1 0\n");
+  write("wind.nc", "CDF\001 and what follows");
+  write("passwd", "root:x:0:0:root:/root:/bin/bash\n");
   struct Wrong {
     std::string velocity, message;
   };
@@ -126,11 +131,21 @@ TEST_F(GaussianTables, GetThePromisedMessages) {
            {"gaussians = \"odd.csv\"", "odd.csv:1:9: column \"temperature\" is not one of those that are wanted"},
            {"gaussians = \"nan.csv\"", "nan.csv:3:7: nan is not finite in column \"u\""},
            {"gaussians = \"word.csv\"", "word.csv:2:7: \"fast\" is not a number in column \"v\""},
-           {"gaussians = \"short.csv\"", "short.csv:2:6: 3 values where the header names 4 columns"},
+           {"gaussians = \"short.csv\"", "short.csv:2:6: 3 values where 4 columns are named"},
            {"gaussians = \"twice.csv\"",
             "twice.csv:4:1: the sample at (0, 0) stands in line 2 already, with different values"},
            {"gaussians = \"same.csv\"", "same.csv:4:1: the sample at (0, 0) stands in line 2 already; no field"},
            {"gaussians = \"empty.csv\"", "empty.csv is empty"},
+           {"gaussians = \"commented.csv\"",
+            "commented.csv:7:1: the sample at (0, 0) stands in line 4 already, with different values"},
+           {"gaussians = \"id.csv\"",
+            "id.csv:1:1: column \"id\" is not one of those that are wanted; the columns must be x,y,u,v"},
+           {"gaussians = \"blanks.csv\"",
+            "blanks.csv:1:1: names are separated by blanks in \"x y u v\"; separate names and numbers by commas, as in "
+            "x,y,u,v"},
+           {"gaussians = \"wind.nc\"", "wind.nc is a NetCDF file; with Python"},
+           {"gaussians = \"passwd\"",
+            "passwd:1:1: there is no column \"x\" among root:x:0:0:root:/root:/b...; the columns must be x,y,u,v"},
            {"gaussians = \"samples.csv\"\nkind = \"vorticty\"", "did you mean \"vorticity\"?"},
            {"gaussians = \"samples.csv\"\nkind = \"vorticity\"", "the columns must be x,y,omega"},
            {"gaussians = \"samples.csv\"\nwidth = 0", "velocity.width must be greater than 0"},

@@ -72,6 +72,136 @@ TEST(PointsTable, DoesNotDependOnTheLocale) {
   std::setlocale(LC_ALL, before.c_str());
 }
 
+TEST(PointsTable, LeavesCommentsOutAnywhere) {
+  const PointsTable table =
+      sources("# made by a tool\n\n#\nx,y,weight\n# first, second\n0,0,1\n  # indented\n1,2,3\n#end");
+  EXPECT_EQ(table.coordinates, (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(table.positions, (Numbers{0, 0, 1, 2}));
+  EXPECT_EQ(table.weights, (Numbers{1, 3}));
+  // Places are those of the file, comments counted.
+  EXPECT_EQ(refusal("# one\nx,weight\n# two\n1,1\n# three\n2,a\n"),
+            "S.csv:6:3: \"a\" is not a number in column \"weight\"");
+  EXPECT_EQ(refusal("# one\nx,wait\n"),
+            "S.csv:2:1: there is no column \"weight\" among x, wait; add one, with 1 in every "
+            "line if all sources count the same");
+  // As numpy.savetxt writes its header.
+  EXPECT_EQ(refusal("# x,weight\n0,1\n"),
+            "S.csv:2:1: \"0\" is a number, and the names of the columns seem to stand in the comment above; remove the "
+            "# of line 1");
+  EXPECT_EQ(refusal("# only words\n"), "S.csv is empty; it must have a line of names and a line for every point");
+}
+
+TEST(PointsTable, ReadsExponentsAsFortranWritesThem) {
+  EXPECT_EQ(targets("x,y\n1.5D+00,2d0\n-0.25D-2,+1.D3\n").positions, (Numbers{1.5, 2, -0.0025, 1000}));
+  EXPECT_EQ(refusal("x,weight\n1.5-103,1\n"),
+            "S.csv:2:1: \"1.5-103\" is not a number in column \"x\"; the e of its exponent is missing, as Fortran "
+            "leaves it out");
+  EXPECT_EQ(
+      refusal("x,weight\n********,1\n"),
+      "S.csv:2:1: \"********\" is not a number in column \"x\"; Fortran writes stars where a number does not fit");
+  EXPECT_EQ(refusal("x,weight\n1D999,1\n").substr(0, 22), "S.csv:2:1: \"1D999\" is ");
+  for (const char* wrong : {"1d", "d5", "1d5d", "1e5d2", "1d+", "0x1d2", "1 d5", "1.5d0.5", "inf", "1e400", "1e-400"})
+    EXPECT_NE(refusal(std::string("x,weight\n") + wrong + ",1\n").find("S.csv:2:1: "), std::string::npos) << wrong;
+}
+
+TEST(PointsTable, NamesTheSeparatorThatIsWrong) {
+  const std::string rest = "; separate names and numbers by commas, as in x,y,weight";
+  EXPECT_EQ(refusal("x y weight\n0 0 1\n"), "S.csv:1:1: names are separated by blanks in \"x y weight\"" + rest);
+  EXPECT_EQ(refusal("x\ty\tweight\n"), "S.csv:1:1: names are separated by tabs in \"x\\x09y\\x09weight\"" + rest);
+  EXPECT_EQ(refusal("x;y;weight\n1;2;3\n"), "S.csv:1:1: names are separated by semicolons in \"x;y;weight\"" + rest);
+  EXPECT_EQ(refusal("x,y,weight\n0 0 1\n"),
+            "S.csv:2:6: 1 value where 3 columns are named (x, y, weight); separate them by commas, not by blanks");
+  EXPECT_EQ(refusal("x,weight\n1,5,2,0\n"),
+            "S.csv:2:4: 4 values where 2 columns are named (x, weight); the decimal sign is a point, not a comma");
+  EXPECT_EQ(refusal("x,weight\n\"1\",2\n"),
+            "S.csv:2:1: \"\"1\"\" is not a number in column \"x\"; write numbers without quotation marks");
+  EXPECT_NE(refusal("x,weight\r0,1\r").find("lines end with a carriage return alone"), std::string::npos);
+}
+
+TEST(PointsTable, AsksAboutColumnsWhoseNamesAreNoCoordinates) {
+  EXPECT_EQ(refusal("id,x,y,weight\n1,0,0,1\n2,1,0,1\n"),
+            "S.csv:1:1: is the column \"id\" a coordinate? --columns x,y takes the others, --columns id,x,y takes all");
+  EXPECT_EQ(refusal("x,y,Time,weight\n1,0,0,1\n").substr(0, 42), "S.csv:1:5: is the column \"Time\" a coordina");
+  EXPECT_EQ(refusal("t,weight\n0,1\n"), "S.csv:1:1: is the column \"t\" a coordinate? Say so by --columns t");
+  for (const char* name : {"index", "idx", "no", "row", "step", "timestamp", "mass", "u", "Unnamed: 0"})
+    for (const PointsRole role : {PointsRole::sources, PointsRole::targets})
+      EXPECT_NE(refusal(std::string("x,") + name + (role == PointsRole::sources ? ",weight\n0,1,1\n" : "\n0,1\n"), role)
+                    .find("a coordinate?"),
+                std::string::npos)
+          << name;
+  EXPECT_NE(refusal(",x,weight\n0,1,1\n").find("pandas writes such a column"), std::string::npos);
+}
+
+TEST(PointsTable, DoubtsColumnsBesideAxesAndColumnsThatCount) {
+  EXPECT_TRUE(sources("x,y,weight\n0,0,1\n1,1,1\n2,2,1\n").doubts.empty());
+  EXPECT_TRUE(sources("X1,x_2,x[3],weight\n0,0,1,1\n").doubts.empty());
+  EXPECT_TRUE(sources("lon,lat,weight\n0,0,1\n").doubts.empty());
+  EXPECT_TRUE(sources("a,b,weight\n0.5,1,1\n").doubts.empty());
+  EXPECT_EQ(
+      sources("x,y,speed,weight\n0,0,7,1\n").doubts,
+      (std::vector<std::string>{"S.csv: the column \"speed\" is read as a coordinate; --columns x,y leaves it out, "
+                                "--columns x,y,speed says that it is one"}));
+  EXPECT_EQ(sources("station,east,weight\n1,0.5,1\n2,0.25,1\n3,0,1\n").doubts,
+            (std::vector<std::string>{"S.csv: the column \"station\" counts the lines and is read as a coordinate; "
+                                      "--columns east leaves it out, --columns station,east says that it is one"}));
+}
+
+TEST(PointsTable, TakesTheCoordinatesThatAreNamed) {
+  const std::string text = "id,y,label,x,weight\n7,1,north,2,10\n8,3,south,4,20\n";
+  const PointsTable table = parse_points_table(text, "S.csv", PointsRole::sources, plenty, {"x", "y"});
+  EXPECT_EQ(table.coordinates, (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(table.positions, (Numbers{2, 1, 4, 3}));
+  EXPECT_EQ(table.weights, (Numbers{10, 20}));
+  EXPECT_TRUE(table.doubts.empty());
+  EXPECT_EQ(parse_points_table(text, "T.csv", PointsRole::targets, plenty, {"id"}).positions, (Numbers{7, 8}));
+  const auto refused = [&](const CoordinateNames& names) {
+    try {
+      parse_points_table(text, "S.csv", PointsRole::sources, plenty, names);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused({"x", "lable"}),
+            "S.csv:1:1: there is no column \"lable\" among id, y, label, x, weight; is \"label\" meant?");
+  EXPECT_EQ(refused({"x", "label"}), "S.csv:2:5: \"north\" is not a number in column \"label\"");
+  EXPECT_EQ(refused({"x", "weight"}), "S.csv:1:14: the column \"weight\" is not a coordinate of sources");
+}
+
+TEST(PointsTable, SaysWhatAFileIsThatIsNoTable) {
+  const auto said = [](std::string_view beginning) { return refusal(std::string(beginning) + std::string(100, '\7')); };
+  EXPECT_EQ(
+      said("CDF\1"),
+      "S.csv is a NetCDF file; with Python: xarray.open_dataset(\"in.nc\").to_dataframe().reset_index()"
+      ".to_csv(\"out.csv\", index=False). A table is text: a line of names, as in x,y,weight, then a line of numbers "
+      "for every point, separated by commas");
+  EXPECT_NE(said("\x89HDF").find("is a NetCDF-4 or HDF5 file"), std::string::npos);
+  EXPECT_NE(said("PK\3\4").find("as spreadsheets"), std::string::npos);
+  EXPECT_NE(said("\x93NUMPY").find("numpy.savetxt"), std::string::npos);
+  EXPECT_NE(said("<VTKFile").find("ParaView"), std::string::npos);
+  EXPECT_NE(said("# vtk DataFile Version 3.0\n").find("ParaView"), std::string::npos);
+}
+
+// What stands in a file reaches the terminal in part, and without what steers it.
+TEST(PointsTable, QuotesLittleAndOnlyWhatIsPrintable) {
+  EXPECT_EQ(
+      refusal("root:x:0:0:root:/root:/bin/bash\n"),
+      "S.csv:1:1: there is no column \"weight\" among root:x:0:0:root:/root:/b...; add one, with 1 in every line if "
+      "all sources count the same");
+  const std::string steering = "\x1b[2J\x07\xc2\x9b\xe2\x80\xae\xff";
+  for (const std::string& text :
+       {steering + ",weight\n1,1\n", "x," + steering + "\n1,1\n", "x,weight\n" + steering + ",1\n",
+        "x,weight\n1" + steering + "\n", steering + "\n", steering + " " + steering + "\n"}) {
+    const std::string message = refusal(text);
+    EXPECT_FALSE(message.empty());
+    for (const char c : message) EXPECT_TRUE(c >= 32 && c < 127) << message;
+    EXPECT_LT(message.size(), 200u) << message;
+  }
+  std::string many = "x";
+  for (int k = 0; k < 1000; ++k) many += ",name" + std::to_string(k);
+  EXPECT_LT(refusal(many + "\n1\n").size(), 300u);
+}
+
 TEST(PointsTable, NamesFileLineAndColumnOfABadValue) {
   EXPECT_EQ(refusal("x,y,weight\n0,0,1\n1,zwei,1\n"), "S.csv:3:3: \"zwei\" is not a number in column \"y\"");
   EXPECT_EQ(refusal("x,y,weight\n0,0,1\n1, 2 m,1\n"), "S.csv:3:4: \"2 m\" is not a number in column \"y\"");
@@ -81,29 +211,28 @@ TEST(PointsTable, NamesFileLineAndColumnOfABadValue) {
   EXPECT_EQ(refusal("x,weight\n-inf,1\n"), "S.csv:2:1: -inf is not finite in column \"x\"");
   EXPECT_EQ(refusal("x,weight\r\n1,1\r\n1e400,1\r\n"),
             "S.csv:3:1: \"1e400\" is outside the range of double precision in column \"x\"");
-  for (const char* wrong : {"1e", "1d5", "0x10", "1_000", "--1", "+-1", "+", "-", ".", "1 2", "1;2", "\"1\"", "1.2.3"})
+  for (const char* wrong : {"1e", "0x10", "1_000", "--1", "+-1", "+", "-", ".", "1 2", "1;2", "\"1\"", "1.2.3"})
     EXPECT_NE(refusal(std::string("x,weight\n0,1\n") + wrong + ",1\n").find("S.csv:3:1: "), std::string::npos) << wrong;
 }
 
 TEST(PointsTable, NamesTheLineThatIsRagged) {
-  EXPECT_EQ(refusal("x,y,weight\n0,0,1\n1,2\n"), "S.csv:3:4: 2 values where the header names 3 columns (x, y, weight)");
-  EXPECT_EQ(refusal("x,weight\n0,1,2\n"), "S.csv:2:4: 3 values where the header names 2 columns (x, weight)");
-  EXPECT_EQ(refusal("x,weight\n0,1,\n"), "S.csv:2:4: 3 values where the header names 2 columns (x, weight)");
+  EXPECT_EQ(refusal("x,y,weight\n0,0,1\n1,2\n"), "S.csv:3:4: 2 values where 3 columns are named (x, y, weight)");
+  EXPECT_EQ(refusal("x,weight\n0,1,2\n"), "S.csv:2:4: 3 values where 2 columns are named (x, weight)");
+  EXPECT_EQ(refusal("x,weight\n0,1,\n"), "S.csv:2:4: 3 values where 2 columns are named (x, weight)");
   EXPECT_EQ(refusal("x,weight\n0,1\n\n2,1\n"), "S.csv:3:1: the line is blank, and points follow; remove it");
 }
 
 TEST(PointsTable, RefusesTablesWithoutPoints) {
-  EXPECT_EQ(refusal(""), "S.csv is empty; it must have a header line and a line for every point");
-  EXPECT_EQ(refusal("\xEF\xBB\xBF\r\n\r\n"), "S.csv is empty; it must have a header line and a line for every point");
-  EXPECT_EQ(refusal("x,weight\n\n"), "S.csv:2: no points follow the header line");
+  EXPECT_EQ(refusal(""), "S.csv is empty; it must have a line of names and a line for every point");
+  EXPECT_EQ(refusal("\xEF\xBB\xBF\r\n\r\n"), "S.csv is empty; it must have a line of names and a line for every point");
+  EXPECT_EQ(refusal("x,weight\n\n"), "S.csv:1: no points follow the line of names");
 }
 
 TEST(PointsTable, RefusesHeadersThatItCannotTrust) {
-  EXPECT_EQ(refusal("1,2,3\n4,5,6\n"), "S.csv:1:1: \"1\" is a number; the first line must name the columns");
+  EXPECT_EQ(refusal("1,2,3\n4,5,6\n"),
+            "S.csv:1:1: \"1\" is a number; the first line must name the columns, as in x,y,weight");
   EXPECT_EQ(refusal("x,,weight\n1,2,3\n"), "S.csv:1:3: column 2 has no name");
   EXPECT_EQ(refusal("x,x,weight\n1,2,3\n"), "S.csv:1:3: column \"x\" is there twice");
-  EXPECT_EQ(refusal("x;y;weight\n1;2;3\n"),
-            "S.csv:1:1: \"x;y;weight\" is not the name of a column; columns are separated by commas");
   EXPECT_EQ(refusal("x,y\n1,2\n"),
             "S.csv:1:1: there is no column \"weight\" among x, y; add one, with 1 in every line if all sources count "
             "the same");
@@ -111,11 +240,12 @@ TEST(PointsTable, RefusesHeadersThatItCannotTrust) {
             "S.csv:1:1: there is no column \"weight\" among x, weigth; is \"weigth\" meant?");
   EXPECT_EQ(refusal("weight\n1\n"), "S.csv:1:1: there are no coordinates; sources have 1 to 4");
   EXPECT_EQ(refusal("a,b,c,d,e,weight\n1,2,3,4,5,6\n"),
-            "S.csv:1:9: \"e\" would be coordinate 5; sources have 1 to 4 and a column \"weight\", nothing else");
-  EXPECT_EQ(refusal("x,weight\n1,2\n", PointsRole::targets),
-            "S.csv:1:3: targets have coordinates only; remove the column \"weight\"");
-  EXPECT_EQ(refusal(std::string_view("\xFF\xFEx\0", 4)), "S.csv:1:1: the file is UTF-16; save it as UTF-8");
-  EXPECT_NE(refusal(std::string_view("x\0,weight\n1,2\n", 13)).find("must be plain text"), std::string::npos);
+            "S.csv:1:9: \"e\" would be coordinate 5; sources have 1 to 4: name them, as in --columns x,y");
+  EXPECT_EQ(
+      refusal("x,weight\n1,2\n", PointsRole::targets),
+      "S.csv:1:3: targets have coordinates only; remove the column \"weight\", or name the coordinates by --columns");
+  EXPECT_NE(refusal(std::string_view("\xFF\xFEx\0", 4)).find("S.csv is UTF-16; save it as UTF-8"), std::string::npos);
+  EXPECT_NE(refusal(std::string_view("x\0,weight\n1,2\n", 13)).find("S.csv is no text"), std::string::npos);
 }
 
 TEST(PointsTable, RefusesSizesBeforeItAllocates) {

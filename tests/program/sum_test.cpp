@@ -140,6 +140,21 @@ TEST(Sum, TakesTheSourcesAsTargets) {
   EXPECT_NEAR(table.rows[1][0], -1 + 2 * std::exp(-1), 1e-15);
 }
 
+TEST(Sum, TakesTheColumnsThatAreNamedAndAsksWhereItWouldGuess) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "# exported\nid,x,y,weight\n1,0,0,1\n2,1,0,1\n");
+  const Outcome named =
+      gaussdrift_in(folder, "sum --sources S.csv --targets S.csv --columns x,y --sigma 1 --method direct");
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  EXPECT_EQ(named.err, "");
+  EXPECT_NEAR(table_of(named.out).rows.at(0).at(0), 1 + std::exp(-1), 1e-15);  // and not with id as an axis: 1 + e^-2
+  write_file(folder / "odd.csv", "x,y,speed,weight\n0,0,3,1\n");
+  const Outcome doubted = gaussdrift_in(folder, "sum --sources odd.csv --sigma 1");
+  EXPECT_EQ(doubted.exit_code, 0);
+  EXPECT_EQ(doubted.err.rfind("warning: odd.csv: the column \"speed\" is read as a coordinate; --columns x,y", 0), 0u)
+      << doubted.err;
+}
+
 TEST(Sum, RunsAlongTheFirstAxisOfAGridFastest) {
   const ScratchFolder folder;
   const Rows sources = points(30, 3);
@@ -292,6 +307,10 @@ TEST(Sum, RefusesAWrongCommandLine) {
       {"--sources S.csv --sigma 2 --json --out -", "add --out FILE"},
       {"--sources S.csv --sigma 2 --out S.csv", "would replace a table"},
       {"--sources S.csv --targets T.csv --sigma 2 --out ./T.csv", "would replace a table"},
+      {"--sources S.csv --sigma 2 --columns x,,y", "--columns x,,y: a name is missing"},
+      {"--sources S.csv --sigma 2 --columns x,x", "\"x\" is there twice"},
+      {"--sources S.csv --sigma 2 --columns x,weight", "\"weight\" is no coordinate"},
+      {"--sources S.csv --sigma 2 --columns a,b,c,d,e", "names 5 coordinates"},
       {"--sources S.csv --sigma 2 --bandwidth 2", "--bandwidth"}};
   for (const auto& [arguments, said] : wrong) {
     const Outcome refused = gaussdrift_in(folder, "sum " + arguments);
@@ -312,12 +331,15 @@ TEST(Sum, RefusesWrongTablesAndWritesNothing) {
   write_file(folder / "line.csv", "x\n0\n");
   write_file(folder / "ragged.csv", "x,y\n0,0\n1\n");
   write_file(folder / "words.csv", "x,y\n0,0\n1,zwei\n");
+  write_file(folder / "numbered.csv", "id,x,y,weight\n1,0,0,1\n2,1,0,1\n");
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"--sources bad.csv", "bad.csv:3:3: nan is not finite in column \"y\""},
       {"--sources plain.csv", "plain.csv:1:1: there is no column \"weight\""},
       {"--sources empty.csv", "empty.csv is empty"},
+      {"--sources numbered.csv", "numbered.csv:1:1: is the column \"id\" a coordinate? --columns x,y takes the others"},
+      {"--sources S.csv --columns x,z", "S.csv:1:1: there is no column \"z\" among x, y, weight"},
       {"--sources S.csv --targets bad.csv", "bad.csv:1:5: targets have coordinates only"},
-      {"--sources S.csv --targets ragged.csv", "ragged.csv:3:2: 1 value where the header names 2 columns"},
+      {"--sources S.csv --targets ragged.csv", "ragged.csv:3:2: 1 value where 2 columns are named"},
       {"--sources S.csv --targets words.csv", "words.csv:3:3: \"zwei\" is not a number in column \"y\""},
       {"--sources S.csv --targets line.csv", "targets have 1 coordinates (x), sources have 2 (x, y)"},
       {"--sources S.csv --targets swapped.csv", "in the order y, x, those of the sources in the order x, y"},

@@ -1,0 +1,107 @@
+// Pipes have no size, so the limit is watched while reading. Formats are known by their first bytes, not by names.
+#include "input/table_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "base/error.hpp"
+
+namespace gaussdrift::input {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void cannot_read(const fs::path& file, int reason) {
+  throw FileError(fmt::format("cannot read {}: {}", file.string(), std::generic_category().message(reason)));
+}
+
+struct Format {
+  std::string_view beginning, name, remedy;
+};
+
+constexpr std::string_view netcdf_remedy =
+    "with Python: xarray.open_dataset(\"in.nc\").to_dataframe().reset_index().to_csv(\"out.csv\", index=False)";
+constexpr std::string_view spreadsheet_remedy = "save the sheet as CSV, with a point as decimal sign";
+
+constexpr Format formats[] = {
+    {"CDF\x01", "a NetCDF file", netcdf_remedy},
+    {"CDF\x02", "a NetCDF file", netcdf_remedy},
+    {"CDF\x05", "a NetCDF file", netcdf_remedy},
+    {"\x89HDF", "a NetCDF-4 or HDF5 file", netcdf_remedy},
+    {"GRIB", "a GRIB file",
+     "with Python and cfgrib: xarray.open_dataset(\"in.grib\").to_dataframe().reset_index().to_csv(\"out.csv\", "
+     "index=False)"},
+    {"\x93NUMPY", "a NumPy file",
+     "with Python: numpy.savetxt(\"out.csv\", numpy.load(\"in.npy\"), delimiter=\",\", header=\"x,y,...\", "
+     "comments=\"\")"},
+    {"PK\x03\x04", "a zip archive, as spreadsheets (.xlsx, .ods) and .npz are", spreadsheet_remedy},
+    {"\xD0\xCF\x11\xE0", "an old spreadsheet (.xls)", spreadsheet_remedy},
+    {"\x1F\x8B", "compressed by gzip", "unpack it with gunzip"},
+    {"\xFD"
+     "7zXZ",
+     "compressed by xz", "unpack it with unxz"},
+    {"BZh", "compressed by bzip2", "unpack it with bunzip2"},
+    {"\x28\xB5\x2F\xFD", "compressed by zstd", "unpack it with unzstd"},
+    {"PAR1", "a Parquet file", "with Python: pandas.read_parquet(\"in\").to_csv(\"out.csv\", index=False)"},
+    {"MATLAB 5.0", "a MATLAB file",
+     "in MATLAB: writetable(array2table(A, VariableNames=[\"x\" \"y\" ...]), \"out.csv\")"},
+    {"# vtk DataFile", "a VTK file", "in ParaView: File, Save Data, CSV"},
+    {"<?xml", "an XML file, as those of VTK are", "in ParaView: File, Save Data, CSV"},
+    {"<VTKFile", "a VTK file", "in ParaView: File, Save Data, CSV"},
+    {"\x89PNG", "a picture", "only numbers in text can be read"},
+    {"%PDF", "a PDF document", "only numbers in text can be read"},
+    {"{", "JSON", "with Python: pandas.read_json(\"in.json\").to_csv(\"out.csv\", index=False)"},
+};
+
+}  // namespace
+
+std::string read_text(const fs::path& file, std::size_t memory_limit) {
+  const auto refuse_if_large = [&](std::uintmax_t bytes) {
+    if (bytes > memory_limit)
+      throw InputError(fmt::format("{} has {:.1f} GB or more; at most {:.1f} GB are read", file.string(),
+                                   static_cast<double>(bytes) / 1e9, static_cast<double>(memory_limit) / 1e9));
+  };
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) cannot_read(file, EISDIR);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), std::fclose);
+  if (!in) cannot_read(file, errno);
+
+  constexpr std::size_t block = std::size_t{1} << 20;
+  std::string text;
+  if (fs::is_regular_file(file, ignored)) {
+    const std::uintmax_t bytes = fs::file_size(file, ignored);
+    if (!ignored) {
+      refuse_if_large(bytes);
+      text.reserve(static_cast<std::size_t>(bytes) + block);
+    }
+  }
+  while (true) {
+    const std::size_t before = text.size();
+    text.resize(before + block);
+    const std::size_t taken = std::fread(text.data() + before, 1, block, in.get());
+    text.resize(before + taken);
+    if (std::ferror(in.get())) cannot_read(file, errno);
+    if (taken == 0) return text;
+    if (before == 0 && !foreign_format(text).empty()) return text;  // will be refused, however long it is
+    refuse_if_large(text.size());
+  }
+}
+
+std::string foreign_format(std::string_view data) {
+  for (const Format& format : formats)
+    if (data.substr(0, format.beginning.size()) == format.beginning)
+      return fmt::format("{}; {}", format.name, format.remedy);
+  if (data.substr(0, 2) == "\xFF\xFE" || data.substr(0, 2) == "\xFE\xFF") return "UTF-16; save it as UTF-8";
+  constexpr std::size_t looked_at = 4096;
+  if (data.substr(0, looked_at).find('\0') != std::string_view::npos)
+    return "no text; only numbers in text can be read";
+  return "";
+}
+
+}  // namespace gaussdrift::input
