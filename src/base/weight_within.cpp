@@ -23,7 +23,10 @@ double largest_weight_within(const PointsView& points, const double* weight, dou
   }
   // The box array may have a few entries a point; a very short reach gets longer boxes, which only raises the bound.
   const double allowed = 4.0 * static_cast<double>(count) + 1e6;
-  double side = reach / 2;
+  double longest = 0;
+  for (int k = 0; k < dimension; ++k) longest = std::max(longest, high[k] - low[k]);
+  double side = std::max(reach / 2, longest / allowed);
+  if (!(side > 0)) side = 1;  // all on one place
   std::array<std::size_t, max_dimension> boxes{1, 1, 1};
   for (;; side *= 1.5) {
     double total = 1;

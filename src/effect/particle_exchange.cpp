@@ -49,7 +49,23 @@ ParticleExchange::ParticleExchange(const Lattice& lattice, double core_radius, c
       solenoidal_(velocity.is_solenoidal()),
       // Beyond it eta is below the tolerance of its peak.
       halo_(static_cast<std::int64_t>(
-          std::ceil(core_radius / lattice.spacing * std::sqrt(std::log(1 / options.tolerance))))) {}
+          std::ceil(core_radius / lattice.spacing * std::sqrt(std::log(1 / options.tolerance))))) {
+  // Already that of one particle.
+  const double around = std::pow(2 * static_cast<double>(halo_) + 1, nodes_.dimension());
+  if (around > static_cast<double>(options_.most_particles))
+    throw InputError(
+        fmt::format("diffusion by particle exchange would surround each particle by {:.2g} others, {} lattice steps "
+                    "deep; at most {:.2g} particles are possible: lower particles.overlap, or raise "
+                    "[effects.diffusion] tolerance",
+                    around, halo_, static_cast<double>(options_.most_particles)));
+}
+
+void ParticleExchange::refuse_so_many() const {
+  throw NumericalError(
+      fmt::format("diffusion by particle exchange needs more than {} particles; lower particles.per_axis, raise "
+                  "[effects.diffusion] tolerance or shorten time.end",
+                  options_.most_particles));
+}
 
 std::string ParticleExchange::describe() const {
   return fmt::format("diffusion D Laplacian rho, D = {:g}, by particle exchange", options_.coefficient);
@@ -107,17 +123,14 @@ void ParticleExchange::grow_halo(Particles& particles) {
     if (inside) continue;
     const std::int64_t depth = dimension > 2 ? halo_ : 0;
     for (std::int64_t z = -depth; z <= depth; ++z)
-      for (std::int64_t y = -halo_; y <= halo_; ++y)
+      for (std::int64_t y = -halo_; y <= halo_; ++y) {
         for (std::int64_t x = -halo_; x <= halo_; ++x) {
           if (x * x + y * y + z * z > halo_ * halo_) continue;
           const std::int64_t id = nodes_.id({centre[0] + x, centre[1] + y, centre[2] + z});
           if (at_.find(id) == at_.end()) missing.insert(id);
         }
-    if (count + missing.size() > options_.most_particles)
-      throw NumericalError(
-          fmt::format("diffusion by particle exchange needs more than {} particles; lower "
-                      "particles.per_axis, raise [effects.diffusion] tolerance or shorten time.end",
-                      options_.most_particles));
+        if (count + missing.size() > options_.most_particles) refuse_so_many();
+      }
   }
   most_ = std::max(most_, count + missing.size());
   if (missing.empty()) return;

@@ -20,7 +20,7 @@ class ParticleExchange : public Effect, private PathIntegral {
     double coefficient = 0;   // D > 0
     double tolerance = 1e-6;  // particles with more than this part of the largest density are surrounded by others
     int threads = 0;          // 0: all
-    std::size_t most_particles = std::size_t{1} << 28;  // with the halo; beyond, an error
+    std::size_t most_particles = std::size_t{1} << 24;  // with the halo, some 250 bytes each; beyond, an error
   };
   /// Carries particles that stand on their nodes, as they stood when begin() was called last, to the present, with
   /// their path integrals.
@@ -50,6 +50,7 @@ class ParticleExchange : public Effect, private PathIntegral {
   std::string quantity() const override { return "the divergence of the velocity"; }
 
   void grow_halo(Particles& particles);
+  [[noreturn]] void refuse_so_many() const;
   template <int d>
   void exchange_in_dimension(Particles& particles, double time, double length);
   template <int d>

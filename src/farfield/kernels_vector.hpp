@@ -18,7 +18,8 @@ constexpr std::size_t lanes = FARFIELD_LANES;
 using Vector = double __attribute__((vector_size(8 * FARFIELD_LANES)));
 using Bits = unsigned long long __attribute__((vector_size(8 * FARFIELD_LANES)));
 using Signed = long long __attribute__((vector_size(8 * FARFIELD_LANES)));
-using Unaligned = double __attribute__((vector_size(8 * FARFIELD_LANES), aligned(8), may_alias));
+typedef double Unaligned __attribute__((vector_size(8 * FARFIELD_LANES), aligned(8), may_alias));
+static_assert(alignof(Unaligned) == 8);  // clang ignores `aligned` where the name is given by `using`
 
 #define FARFIELD_INLINE inline __attribute__((always_inline))
 

@@ -191,8 +191,9 @@ constexpr std::size_t target_block = 256;  // targets whose coordinates are turn
 using Floats = float __attribute__((vector_size(8 * FARFIELD_LANES)));
 using Integers = int __attribute__((vector_size(8 * FARFIELD_LANES)));
 using HalfFloats = float __attribute__((vector_size(4 * FARFIELD_LANES)));
-using HalfUnaligned = float __attribute__((vector_size(4 * FARFIELD_LANES), aligned(4), may_alias));
-using UnalignedIntegers = int __attribute__((vector_size(8 * FARFIELD_LANES), aligned(4), may_alias));
+typedef float HalfUnaligned __attribute__((vector_size(4 * FARFIELD_LANES), aligned(4), may_alias));
+typedef int UnalignedIntegers __attribute__((vector_size(8 * FARFIELD_LANES), aligned(4), may_alias));
+static_assert(alignof(HalfUnaligned) == 4 && alignof(UnalignedIntegers) == 4);  // as in kernels_vector.hpp
 
 /// 1/sqrt(x) to 3e-7: an estimate and one step of Newton's method.
 FARFIELD_INLINE Floats wide_rsqrt(Floats x) {

@@ -88,8 +88,10 @@ SortedPoints<d> sort_points(const Lattice<d>& lattice, const PointView& points, 
   for (std::size_t l = 0; l < d; ++l) boxes *= static_cast<double>(high[l] - low[l] + 1);
   const auto outside = [&](const double* at) {
     bool any = false;
-    for (std::size_t l = 0; l < d; ++l)
-      any |= (at[l] < static_cast<double>(low[l])) | (at[l] > static_cast<double>(high[l]));
+    for (std::size_t l = 0; l < d; ++l) {
+      any |= at[l] < static_cast<double>(low[l]);
+      any |= at[l] > static_cast<double>(high[l]);
+    }
     return any;
   };
 

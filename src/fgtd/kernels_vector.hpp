@@ -13,7 +13,8 @@ constexpr std::size_t lanes = FGTD_LANES;
 
 using Vector = double __attribute__((vector_size(8 * FGTD_LANES)));
 using Bits = unsigned long long __attribute__((vector_size(8 * FGTD_LANES)));
-using Unaligned = double __attribute__((vector_size(8 * FGTD_LANES), aligned(8), may_alias));
+typedef double Unaligned __attribute__((vector_size(8 * FGTD_LANES), aligned(8), may_alias));
+static_assert(alignof(Unaligned) == 8);  // clang ignores `aligned` where the name is given by `using`
 
 #define FGTD_INLINE inline __attribute__((always_inline))
 

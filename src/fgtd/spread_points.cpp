@@ -43,13 +43,15 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
   struct Found {
     std::size_t count = 0;
     std::array<double, d> low, high;
+    Found() {
+      low.fill(std::numeric_limits<double>::infinity());
+      high.fill(-std::numeric_limits<double>::infinity());
+    }
   };
   const std::size_t pieces = (count + piece - 1) / piece;
   std::vector<Found> found(pieces);
   gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
     Found here;
-    here.low.fill(std::numeric_limits<double>::infinity());
-    here.high.fill(-std::numeric_limits<double>::infinity());
     for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
       const std::array<double, d> y = from_anchor(i);
       if (!is_near(y)) continue;
@@ -63,11 +65,10 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
   });
   Found all;
   for (Found& part : found) {
-    if (part.count > 0)
-      for (std::size_t l = 0; l < d; ++l) {
-        all.low[l] = all.count == 0 ? part.low[l] : std::min(all.low[l], part.low[l]);
-        all.high[l] = all.count == 0 ? part.high[l] : std::max(all.high[l], part.high[l]);
-      }
+    for (std::size_t l = 0; l < d; ++l) {
+      all.low[l] = std::min(all.low[l], part.low[l]);
+      all.high[l] = std::max(all.high[l], part.high[l]);
+    }
     all.count += std::exchange(part.count, all.count);  // from now on those before it
   }
   NearTargets<d> near;
@@ -170,8 +171,7 @@ double SpreadSum<d>::point_bytes(const Request<d>& request, std::size_t count) c
 
 #define FGTD_INSTANTIATE(d)                                                                           \
   template void SpreadSum<d>::evaluate(const Request<d>&, const double*, std::size_t, double*) const; \
-  template double SpreadSum<d>::point_bytes(const Request<d>&, std::size_t) const;                    \
-  template class SpreadSum<d>;
+  template double SpreadSum<d>::point_bytes(const Request<d>&, std::size_t) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)
 FGTD_INSTANTIATE(3)

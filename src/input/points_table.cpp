@@ -5,14 +5,22 @@
 
 #include <algorithm>
 #include <charconv>
+<<<<<<< HEAD
+#include <cmath>
+=======
+>>>>>>> a0a8c8c (wip tables)
 #include <optional>
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/suggest.hpp"
+<<<<<<< HEAD
+#include "base/text_file.hpp"
+=======
 #include "input/column_names.hpp"
 #include "input/table_number.hpp"
 #include "input/table_text.hpp"
+>>>>>>> a0a8c8c (wip tables)
 
 namespace gaussdrift::input {
 
@@ -379,6 +387,13 @@ class Parser {
   RowLines rows_;
 };
 
+<<<<<<< HEAD
+std::string read_text(const fs::path& file, std::size_t memory_limit) {
+  return base::read_text_file(file, "a table of points (CSV)", memory_limit);
+}
+
+=======
+>>>>>>> a0a8c8c (wip tables)
 }  // namespace
 
 PointsTable parse_points_table(std::string_view text, const std::string& name, PointsRole role,

@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
 
 #include "base/lattice.hpp"
 #include "base/suggest.hpp"
+#include "base/text_file.hpp"
 #include "expression/expression.hpp"
 #include "field/gaussian_velocity.hpp"
 #include "field/named_fields.hpp"
@@ -28,6 +27,8 @@
 namespace gaussdrift::input {
 namespace {
 
+// A case is a few kilobytes; a long list of output times may take more. Data belong into files of their own.
+constexpr std::size_t largest_case_file = 4'000'000;
 constexpr double largest_lattice = 2147483648.0;  // 2^31 points: 16 GiB a column
 constexpr double most_steps = 2147483648.0;
 constexpr double same_time =
@@ -1258,14 +1259,9 @@ ReadResult parse_case(const std::string& text, const std::filesystem::path& file
 
 ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides, int threads) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw FileError(fmt::format("{} is a folder, not a case file", file.string()));
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw FileError(fmt::format("the case file {} cannot be read: {}", file.string(),
-                                std::filesystem::exists(file, error) ? "no permission" : "there is no such file"));
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) throw FileError(fmt::format("the case file {} cannot be read", file.string()));
+  if (!std::filesystem::exists(file, error))
+    throw FileError(fmt::format("the case file {} cannot be read: there is no such file", file.string()));
+  const std::string text = base::read_text_file(file, "a case file", largest_case_file);
   return parse_case(text, file, overrides, threads);
 }
 

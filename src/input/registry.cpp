@@ -270,7 +270,7 @@ std::vector<Key> written_keys() {
        .name = "overlap",
        .type = Type::number,
        .fallback = "2",
-       .range = {0, infinity, true},
+       .range = {0.01, 100},
        .symbol = "c",
        .meaning = "core radius of a blob divided by h: eps = c h"},
       {.table = "particles",
@@ -285,7 +285,7 @@ std::vector<Key> written_keys() {
        .name = "width_ratio",
        .type = Type::number,
        .fallback = "2",
-       .range = {0, infinity, true},
+       .range = {0.01, 100},
        .symbol = "a",
        .meaning = "widths of the pair two-gauss are eps and a eps; not 1"},
 

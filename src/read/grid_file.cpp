@@ -25,11 +25,15 @@
 #include <fstream>
 #include <optional>
 
+#include "base/text_file.hpp"
+
 namespace gaussdrift::read {
 
 namespace {
 
 constexpr double most_numbers = 268435456;  // 2 GiB
+// Before a file is opened: the same numbers as text, three times as long, and a line for each of a million times.
+constexpr double largest_data_file = 3 * 8 * most_numbers, largest_series_file = 2e8;
 
 std::string name_of(const std::filesystem::path& file) { return file.filename().string(); }
 
@@ -38,8 +42,19 @@ void check_readable(const std::filesystem::path& file, const std::string& contex
   if (!std::filesystem::exists(file, error))
     throw GridFileError(fmt::format("there is no file {}{}", file.string(), context),
                         "paths are relative to the folder of the case file");
-  if (!std::filesystem::is_regular_file(file, error) || !std::ifstream(file, std::ios::binary))
+  if (const std::string other = base::what_else_it_is(file); !other.empty())
+    throw GridFileError(fmt::format("{}{} is {}, not a file of data", file.string(), context, other));
+  if (!std::filesystem::is_regular_file(file, error))
+    throw GridFileError(fmt::format("{}{} is a pipe", file.string(), context),
+                        "data on a grid are read several times: write them to a file");
+  if (!std::ifstream(file, std::ios::binary))
     throw GridFileError(fmt::format("the file {}{} cannot be read", file.string(), context));
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  const double most = file.extension() == ".pvd" ? largest_series_file : largest_data_file;
+  if (!error && static_cast<double>(bytes) > most)
+    throw GridFileError(fmt::format("{}{} has {:.3g} MB; at most {:.3g} MB are read", file.string(), context,
+                                    static_cast<double>(bytes) / 1e6, most / 1e6),
+                        "leave times or points out");
 }
 
 /// VTK's complaints instead of lines on stderr.

@@ -184,6 +184,22 @@ TEST(ParticleExchange, RefusesAnUnstableStepAndNamesTheLongest) {
       scene_of({"effects.diffusion.D=1", exchange, "time.step=0.0049", "time.end=0.0147", "output.times=[0]"})));
 }
 
+TEST(ParticleExchange, RefusesAHaloThatFitsNowhereBeforeMakingIt) {
+  // 373 lattice steps deep in space: 4e8 particles around each.
+  EXPECT_THROW(particles_at_end(
+                   scene_of({exchange, "particles.overlap=100", "domain.min=[-1,-1,-1]", "domain.max=[1,1,1]",
+                             "velocity.u=[\"0\",\"0\",\"0\"]", "density.center=[0,0,0]", "effects.diffusion.D=0.01"})),
+               InputError);
+  // One particle's halo fits, those of all do not.
+  const Case scene = scene_of({exchange, "effects.diffusion.D=0.01"});
+  const Scene parts = make_scene(scene);
+  Particles particles = seed_scene(parts, 1);
+  ParticleExchange effect(parts.seeding, parts.core_radius, *parts.velocity, [](Particles&) {},
+                          {.coefficient = 0.01, .most_particles = particles.size() + 10});
+  EXPECT_THROW(effect.begin(particles, 0), NumericalError);
+  EXPECT_LE(particles.size(), 41u * 41u);  // nothing was added
+}
+
 TEST(ParticleExchange, GivesTheSameBitsForAnyThreads) {
   const Case scene = scene_of({"velocity.u=[\"-y\", \"0.5*x\"]", "effects.diffusion.D=0.02", exchange,
                                "effects.reaction.rate=x", "effects.remesh.every=4"});
