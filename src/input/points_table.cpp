@@ -5,22 +5,15 @@
 
 #include <algorithm>
 #include <charconv>
-<<<<<<< HEAD
-#include <cmath>
-=======
->>>>>>> a0a8c8c (wip tables)
 #include <optional>
 
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/suggest.hpp"
-<<<<<<< HEAD
 #include "base/text_file.hpp"
-=======
 #include "input/column_names.hpp"
+#include "input/foreign_format.hpp"
 #include "input/table_number.hpp"
-#include "input/table_text.hpp"
->>>>>>> a0a8c8c (wip tables)
 
 namespace gaussdrift::input {
 
@@ -387,13 +380,6 @@ class Parser {
   RowLines rows_;
 };
 
-<<<<<<< HEAD
-std::string read_text(const fs::path& file, std::size_t memory_limit) {
-  return base::read_text_file(file, "a table of points (CSV)", memory_limit);
-}
-
-=======
->>>>>>> a0a8c8c (wip tables)
 }  // namespace
 
 PointsTable parse_points_table(std::string_view text, const std::string& name, PointsRole role,
@@ -403,7 +389,8 @@ PointsTable parse_points_table(std::string_view text, const std::string& name, P
 
 PointsTable read_points_table(const fs::path& file, PointsRole role, std::size_t memory_limit,
                               const CoordinateNames& coordinates) {
-  return parse_points_table(read_text(file, memory_limit), file.string(), role, memory_limit, coordinates);
+  return parse_points_table(base::read_text_file(file, "a table of points (CSV)", memory_limit), file.string(), role,
+                            memory_limit, coordinates);
 }
 
 NamedColumns parse_named_columns(std::string_view text, const std::string& name, const std::vector<std::string>& names,
@@ -414,7 +401,8 @@ NamedColumns parse_named_columns(std::string_view text, const std::string& name,
 }
 
 NamedColumns read_named_columns(const fs::path& file, const std::vector<std::string>& names, std::size_t memory_limit) {
-  return parse_named_columns(read_text(file, memory_limit), file.string(), names, memory_limit);
+  return parse_named_columns(base::read_text_file(file, "a table of points (CSV)", memory_limit), file.string(), names,
+                             memory_limit);
 }
 
 }  // namespace gaussdrift::input

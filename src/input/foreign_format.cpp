@@ -1,25 +1,11 @@
-// Pipes have no size, so the limit is watched while reading. Formats are known by their first bytes, not by names.
-#include "input/table_text.hpp"
+// Formats are known by their first bytes, not by names of files.
+#include "input/foreign_format.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <memory>
-#include <system_error>
-
-#include "base/error.hpp"
-
 namespace gaussdrift::input {
 
-namespace fs = std::filesystem;
-
 namespace {
-
-[[noreturn]] void cannot_read(const fs::path& file, int reason) {
-  throw FileError(fmt::format("cannot read {}: {}", file.string(), std::generic_category().message(reason)));
-}
 
 struct Format {
   std::string_view beginning, name, remedy;
@@ -60,38 +46,6 @@ constexpr Format formats[] = {
 };
 
 }  // namespace
-
-std::string read_text(const fs::path& file, std::size_t memory_limit) {
-  const auto refuse_if_large = [&](std::uintmax_t bytes) {
-    if (bytes > memory_limit)
-      throw InputError(fmt::format("{} has {:.1f} GB or more; at most {:.1f} GB are read", file.string(),
-                                   static_cast<double>(bytes) / 1e9, static_cast<double>(memory_limit) / 1e9));
-  };
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) cannot_read(file, EISDIR);
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"), std::fclose);
-  if (!in) cannot_read(file, errno);
-
-  constexpr std::size_t block = std::size_t{1} << 20;
-  std::string text;
-  if (fs::is_regular_file(file, ignored)) {
-    const std::uintmax_t bytes = fs::file_size(file, ignored);
-    if (!ignored) {
-      refuse_if_large(bytes);
-      text.reserve(static_cast<std::size_t>(bytes) + block);
-    }
-  }
-  while (true) {
-    const std::size_t before = text.size();
-    text.resize(before + block);
-    const std::size_t taken = std::fread(text.data() + before, 1, block, in.get());
-    text.resize(before + taken);
-    if (std::ferror(in.get())) cannot_read(file, errno);
-    if (taken == 0) return text;
-    if (before == 0 && !foreign_format(text).empty()) return text;  // will be refused, however long it is
-    refuse_if_large(text.size());
-  }
-}
 
 std::string foreign_format(std::string_view data) {
   for (const Format& format : formats)
