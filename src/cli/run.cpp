@@ -283,6 +283,7 @@ ExitCode run(const RunOptions& options) {
                       time, numbers.stretch, scene.particles.overlap));
       break;
     }
+  for (const std::string& warning : summary.warnings) warn(warning);
   for (const EffectSummary& effect : summary.effects)
     if (!effect.warning.empty()) warn(fmt::format("{}: {}", effect.name, effect.warning));
   if (summary.reference.untraced > 0)

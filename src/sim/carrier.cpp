@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "sim/simulation.hpp"
-#include "sim/stable_step.hpp"
 
 namespace gaussdrift {
 
@@ -61,20 +61,70 @@ void Carrier::begin(Particles& particles) {
   for (const auto& effect : effects_) effect->begin(particles, 0);
   particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
   if (is_adaptive() || case_.time.end <= 0) return;
+  const FlowRates flow = sample_flow_rates(*scene_.velocity, particles, case_.time.end, difference_length(scene_));
+  refuse_unstable_step(flow);
+  warn_of_jumps(flow, particles);
+}
+
+void Carrier::refuse_unstable_step(const FlowRates& flow) const {
   // The longest step taken: one longer than the run is cut.
   const double step = std::min(case_.time.step, case_.time.end);
-  const StableStep flow =
-      estimate_stable_step(*scene_.velocity, particles, tableau_, case_.time.end, step, difference_length(scene_));
-  if (flow.step < step * (1 - 1e-9))
-    throw InputError(
-        fmt::format("time.step = {:g} is not stable with time.method = \"{}\": {}, and over this run what only turns "
-                    "or decays would "
-                    "grow by more than {:g} %; the longest stable step is {:.3g}",
-                    case_.time.step, tableau_.name, flow.reason, 100 * growth_allowed, flow.step));
+  const auto too_long = [&](double longest) { return longest < step * (1 - 1e-9); };
+  const Effect* refusing = nullptr;
+  double of_effects = step;
   for (const auto& effect : effects_)
-    if (effect->stable_step() < step * (1 - 1e-9))
-      throw InputError(fmt::format("time.step = {:g} is not stable for [effects.{}]; the longest stable step is {:.3g}",
-                                   case_.time.step, effect->name(), effect->stable_step()));
+    if (effect->stable_step() < of_effects) {
+      of_effects = effect->stable_step();
+      if (too_long(of_effects)) refusing = effect.get();
+    }
+  const StableStep stable = longest_stable_step(flow, tableau_, case_.time.end, step);
+  if (!too_long(stable.step) && !refusing) return;
+  const double longest = rounded_down(std::min(stable.step, of_effects), 3);
+  if (!too_long(stable.step))
+    throw InputError(fmt::format("time.step = {:g} is not stable with [effects.{}]. Use time.step <= {:g}.",
+                                 case_.time.step, refusing->name(), longest));
+  // The method of fewest stages that takes this step, if the effects do.
+  const time::Tableau* other = nullptr;
+  for (const time::Tableau& tableau : time::tableaux())
+    if (!refusing && !time::is_adaptive(tableau) && (!other || tableau.stages < other->stages) &&
+        !too_long(longest_stable_step(flow, tableau, case_.time.end, step).step))
+      other = &tableau;
+  const FlowRate& rate = *stable.limited_by;
+  std::string place;
+  for (int k = 0; k < case_.domain.dimension; ++k) place += fmt::format("{}{:.4g}", k ? ", " : "", rate.place[k]);
+  throw InputError(fmt::format(
+      "With time.step = {:g} the method \"{}\" amplifies {} by more than {:g} % over this run: the flow {} at the rate "
+      "{:.4g} at ({}), t = {:.4g}. Use time.step <= {:g}{}.",
+      case_.time.step, tableau_.name, rate.turns() ? "a pure rotation" : "what should only decay", 100 * growth_allowed,
+      rate.turns() ? "turns" : "contracts", rate.turns() ? std::abs(rate.value.imag()) : -rate.value.real(), place,
+      rate.time, longest, other ? fmt::format(", or time.method = \"{}\"", other->name) : ""));
+}
+
+// Particles that cross a jump in one step take the velocity of one side for a part of the step that belongs to the
+// other.
+void Carrier::warn_of_jumps(const FlowRates& flow, const Particles& particles) {
+  warnings_.clear();
+  if (scene_.velocity->is_smooth()) return;
+  std::vector<Jump> jumps = flow.jumps;
+  // Between neighbours of the lattice as well: the rates see only what is next to a particle.
+  const double half = 0.51 * scene_.seeding.spacing;  // a little more: a jump in the middle is on one side
+  const FlowRates between = sample_flow_rates(*scene_.velocity, particles, case_.time.end, half);
+  jumps.insert(jumps.end(), between.jumps.begin(), between.jumps.end());
+  const auto largest =
+      std::max_element(jumps.begin(), jumps.end(), [](const Jump& a, const Jump& b) { return a.height < b.height; });
+  if (largest == jumps.end()) return;
+  const double misplaced = largest->height * std::min(case_.time.step, case_.time.end);
+  if (!(misplaced > difference_length(scene_))) return;
+  std::string place;
+  for (int k = 0; k < case_.domain.dimension; ++k) place += fmt::format("{}{:.4g}", k ? ", " : "", largest->place[k]);
+  warnings_.push_back(
+      fmt::format("the velocity jumps by {:.3g} at ({}), t = {:.4g}: a particle that crosses the jump in one step is "
+                  "misplaced by up "
+                  "to {:.2g}, the jump times time.step{}",
+                  largest->height, place, largest->time, misplaced,
+                  case_.reference.kind == ReferenceSpec::Kind::characteristics
+                      ? "; where fluid gathers or thins out at the jump the exact density does not know of it"
+                      : ""));
 }
 
 std::size_t Carrier::carry(Particles& particles, double from, double to, std::size_t steps_before,

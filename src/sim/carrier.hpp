@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/stopwatch.hpp"
 #include "gaussdrift/case.hpp"
 #include "sim/adaptive_stepper.hpp"
 #include "sim/effects.hpp"
+#include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
 #include "time/schedule.hpp"
 
@@ -23,8 +25,11 @@ class Carrier {
   Carrier& operator=(const Carrier&) = delete;
 
   /// Readies the particles for the effects. Throws InputError if time.step is not stable for the flow or for an effect,
-  /// naming the longest that is.
+  /// naming a step that is stable for all of them.
   void begin(Particles& particles);
+
+  /// What is not exact about the steps of this case, sentences for people. Asked after begin().
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Carries the particles from an output time to the next and brings weights and widths up to it; `steps_before` were
   /// taken before. `report(time, steps)` is called between batches of steps. Seconds are booked under "transport" and
@@ -50,6 +55,9 @@ class Carrier {
   const std::vector<const Drift*>& drifts() const { return drifts_; }
 
  private:
+  void refuse_unstable_step(const FlowRates& flow) const;
+  void warn_of_jumps(const FlowRates& flow, const Particles& particles);
+
   // Brings weights and widths up to `time`, at which the positions are.
   void land(Particles& particles, double time, base::StageTimes& stages) const;
 
@@ -76,6 +84,7 @@ class Carrier {
     std::size_t first = 0, steps = 0;
   };
   std::vector<Taken> taken_;
+  std::vector<std::string> warnings_;
   int threads_;
 };
 

@@ -334,6 +334,7 @@ RunSummary Simulation::run() {
   summary.checks = judge(case_.checks, mass_at_start_, summary.frames);
   summary.steps = steps_done_;
   summary.steps_rejected = carrier_.steps_rejected();
+  summary.warnings = carrier_.warnings();
   summarise_effects(carrier_.effects(), scene_, summary);
   summary.seconds = before + watch_.seconds();
   return summary;

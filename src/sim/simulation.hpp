@@ -103,6 +103,7 @@ struct RunSummary {
   std::vector<std::pair<double, FrameNumbers>> frames;
   ReferenceReport reference;  // points of all outputs whose exact density is not known
   std::vector<CheckResult> checks;
+  std::vector<std::string> warnings;  // what is not exact about the steps of this case
   base::StageTimes stages;
   double seconds = 0;
 };

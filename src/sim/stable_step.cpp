@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
-#include <vector>
+#include <string>
 
-#include "field/differences.hpp"
+#include "base/number.hpp"
 #include "time/stability.hpp"
 
 namespace gaussdrift {
@@ -20,37 +19,53 @@ constexpr std::size_t sampled_particles = 500;
 
 }  // namespace
 
-StableStep estimate_stable_step(const VelocityField& velocity, const Particles& particles, const time::Tableau& tableau,
-                                double length, double step, double distance) {
-  StableStep result{step, ""};
-  if (length <= 0 || particles.size() == 0) return result;
+FlowRates sample_flow_rates(const VelocityField& velocity, const Particles& particles, double length, double distance) {
+  FlowRates flow;
   const int dimension = particles.dimension;
   const Columns x = sample_of(particles.view(), sampled_particles);
-  const std::size_t sampled = x[0].size();
-
   for (const double t : {0.0, 0.5 * length, length}) {
-    const auto gradient = gradient_by_differences(velocity, t, x, dimension, distance);
-    for (std::size_t j = 0; j < sampled; ++j) {
+    const auto gradient = gradient_by_differences(velocity, t, x, dimension, distance, &flow.jumps);
+    for (std::size_t j = 0; j < x[0].size(); ++j) {
       Eigen::MatrixXd matrix(dimension, dimension);
       for (int k = 0; k < dimension; ++k)
         for (int i = 0; i < dimension; ++i) matrix(k, i) = gradient[k][i][j];
       if (!matrix.allFinite()) continue;
+      FlowRate rate;
+      for (int k = 0; k < dimension; ++k) rate.place[k] = x[k][j];
+      rate.time = t;
       const auto eigenvalues = matrix.eigenvalues();
       for (Eigen::Index n = 0; n < eigenvalues.size(); ++n) {
-        const std::complex<double> rate = eigenvalues(n);
-        if (time::growth_of_step(tableau, rate, length, result.step) <= std::log1p(growth_allowed)) continue;
-        const double limit = time::largest_stable_step(tableau, rate, length, std::log1p(growth_allowed), result.step);
-        if (limit >= result.step) continue;
-        result.step = limit;
-        std::string place;
-        for (int k = 0; k < dimension; ++k) place += fmt::format("{}{:.4g}", k ? ", " : "", x[k][j]);
-        const bool turns = std::abs(rate.imag()) > std::abs(rate.real());
-        result.reason = fmt::format("the velocity gradient at ({}), t = {:.4g} {} at the rate {:.4g}", place, t,
-                                    turns ? "turns" : "contracts", turns ? std::abs(rate.imag()) : -rate.real());
+        rate.value = eigenvalues(n);
+        flow.rates.push_back(rate);
       }
     }
   }
+  return flow;
+}
+
+StableStep longest_stable_step(const FlowRates& flow, const time::Tableau& tableau, double length, double step) {
+  StableStep result{step, std::nullopt};
+  if (length <= 0) return result;
+  for (const FlowRate& rate : flow.rates) {
+    if (time::growth_of_step(tableau, rate.value, length, result.step) <= std::log1p(growth_allowed)) continue;
+    const double limit =
+        time::largest_stable_step(tableau, rate.value, length, std::log1p(growth_allowed), result.step);
+    if (limit >= result.step) continue;
+    result = {limit, rate};
+  }
   return result;
+}
+
+StableStep estimate_stable_step(const VelocityField& velocity, const Particles& particles, const time::Tableau& tableau,
+                                double length, double step, double distance) {
+  if (length <= 0 || particles.size() == 0) return {step, std::nullopt};
+  return longest_stable_step(sample_flow_rates(velocity, particles, length, distance), tableau, length, step);
+}
+
+double rounded_down(double x, int digits) {
+  if (!(x > 0) || !std::isfinite(x)) return x;
+  const double power = std::pow(10, std::floor(std::log10(x)) - (digits - 1));
+  return *base::read_number<double>(fmt::format("{:.{}e}", std::floor(x / power * (1 + 1e-12)) * power, digits - 1));
 }
 
 }  // namespace gaussdrift

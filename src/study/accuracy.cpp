@@ -109,12 +109,6 @@ double step_for(const Case& scene, const Scene& parts, double wanted, int thread
   return trial.time.step;
 }
 
-/// Two digits, downwards, as they are written.
-double two_digits(double x) {
-  const double power = std::pow(10, std::floor(std::log10(x)) - 1);
-  return std::stod(fmt::format("{:.1e}", std::floor(x / power * (1 + 1e-12)) * power));
-}
-
 }  // namespace
 
 AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads) {
@@ -155,13 +149,13 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
         "that, or make the density smoother",
         target, most_particles, best));
   Case& scene = *chosen;
-  scene.evaluate.tolerance = std::clamp(two_digits(0.02 * target), 1e-13, 1e-3);
+  scene.evaluate.tolerance = std::clamp(rounded_down(0.02 * target, 2), 1e-13, 1e-3);
   {
     const Scene parts = make_scene(scene, threads);
     if (time::is_adaptive(time::find_tableau(scene.time.method)))
       scene.time.tolerance = std::min(scene.time.tolerance, 1e-2 * target);
     else
-      scene.time.step = two_digits(step_for(scene, parts, 0.2 * target, threads));
+      scene.time.step = rounded_down(step_for(scene, parts, 0.2 * target, threads), 2);
     choice.predicted = predict_budget(scene, parts, Effort::whatever, threads);
   }
   if (choice.predicted.total > target)

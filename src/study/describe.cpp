@@ -176,6 +176,7 @@ Description describe(const Case& description, int threads) {
   Particles particles = seed_scene(scene, threads);
   Carrier carrier(description, scene, threads);
   carrier.begin(particles);
+  result.step_warnings = carrier.warnings();
   for (const auto& effect : carrier.effects()) {
     result.effects.push_back(effect->describe());
     if (const std::string warning = effect->warning(); !warning.empty()) result.effect_warnings.push_back(warning);
@@ -246,6 +247,7 @@ std::string to_text(const Case& scene, const Description& r) {
   if (!scene.title.empty())
     text += fmt::format("title      {}{}\n", scene.title, scene.cite.empty() ? "" : ", after " + scene.cite);
   text += fmt::format("velocity   {}\n", r.velocity);
+  for (const std::string& warning : r.step_warnings) text += fmt::format("           {}\n", warning);
   text += fmt::format("density    {}\n", r.initial_density);
   text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n",
                       grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
@@ -285,6 +287,7 @@ std::string to_json(const Case& scene, const Description& r) {
                                         {"largest_speed", r.largest_speed},
                                         {"largest_divergence", r.largest_divergence},
                                         {"effects", effects},
+                                        {"step_warnings", r.step_warnings},
                                         {"effect_warnings", r.effect_warnings},
                                         {"lattice_points", r.lattice_points},
                                         {"particles", r.particles},

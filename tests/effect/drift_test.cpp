@@ -305,7 +305,7 @@ TEST(Drift, RefusesStepsThatAreTooLong) {
     Simulation(disc({"effects.charge.mobility=30"})).run();
     FAIL() << "the density would fall by its own size many times in a step";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("not stable for [effects.charge]"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("not stable with [effects.charge]"), std::string::npos) << error.what();
   }
 }
 

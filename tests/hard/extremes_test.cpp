@@ -144,7 +144,7 @@ TEST(Step, JustBelowItsLimitStaysBoundedAndJustAboveIsRefused) {
     run(decaying_flow(1.01 * limit));
     FAIL() << "a step beyond the limit was taken";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("0.279"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Use time.step <= 0.278"), std::string::npos) << error.what();
   }
 }
 
