@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/parallel.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "fgtd/kernels.hpp"
 #include "read/grid_file.hpp"
@@ -97,9 +98,9 @@ ExitCode doctor(const DoctorOptions& options) {
   for (const Finding& finding : findings) {
     well = well && finding.well;
     document[finding.what] = {{"found", finding.found}, {"well", finding.well}};
-    if (!options.json) fmt::print("{:<10} {:<4} {}\n", finding.what, finding.well ? "ok" : "BAD", finding.found);
+    if (!options.json) say("{:<10} {:<4} {}\n", finding.what, finding.well ? "ok" : "BAD", finding.found);
   }
-  if (options.json) fmt::print("{}\n", document.dump(2));
+  if (options.json) say("{}\n", document.dump(2));
   return well ? ExitCode::ok : ExitCode::internal;
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/registry.hpp"
 #include "write/atomic_file.hpp"
@@ -43,9 +44,9 @@ ExitCode explain(const ExplainOptions& options) {
   if (!options.guide.empty()) {
     write_guide(options.guide);
   } else if (options.schema) {
-    fmt::print("{}", input::schema_json());
+    say("{}", input::schema_json());
   } else if (options.word.empty()) {
-    fmt::print("{}", options.json ? input::keys_json() : input::overview_text());
+    say("{}", options.json ? input::keys_json() : input::overview_text());
   } else {
     const auto found = input::explain(options.word);
     if (found.empty()) {
@@ -55,7 +56,7 @@ ExitCode explain(const ExplainOptions& options) {
                       "explain shows the keys",
                       options.word, near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
     }
-    fmt::print("{}", options.json ? input::to_json(options.word, found) : input::to_text(found));
+    say("{}", options.json ? input::to_json(options.word, found) : input::to_text(found));
   }
   return ExitCode::ok;
 }

@@ -6,11 +6,13 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/suggest.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/read_case.hpp"
 
@@ -218,7 +220,9 @@ ExitCode dispatch(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
-    app.exit(asked);
+    std::ostringstream answer;
+    app.exit(asked, answer, answer);
+    put(stdout, answer.str());
     return ExitCode::ok;
   } catch (const CLI::ParseError& error) {
     throw CommandLineError(fmt::format("{}; gaussdrift --help shows the verbs and their options", error.what()));
@@ -244,20 +248,21 @@ ExitCode dispatch(int argc, char** argv) {
 int main_verbs(int argc, char** argv) {
   try {
     const ExitCode code = dispatch(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-      throw FileError("standard output cannot be written, so what should stand there is lost");
-    return exit_code(code);
+    const Delivery delivered = delivery();
+    if (delivered == Delivery::lost)
+      note("error: standard output cannot be written, so what should stand there is lost\n");
+    return exit_code(code == ExitCode::ok && delivered != Delivery::all ? ExitCode::files : code);
   } catch (const input::CaseError& error) {  // laid out already
-    fmt::print(stderr, "{}\n", error.what());
+    note("{}\n", error.what());
     return exit_code(error.code());
   } catch (const Error& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    note("error: {}\n", error.what());
     return exit_code(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory; lower particles.per_axis or evaluate.per_axis\n");
+    note("error: out of memory; lower particles.per_axis or evaluate.per_axis\n");
     return exit_code(ExitCode::input);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\n", error.what());
+    note("internal error: {}\n", error.what());
     return exit_code(ExitCode::internal);
   }
 }

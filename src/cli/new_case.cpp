@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/suggest.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/examples.hpp"
 #include "input/read_case.hpp"
@@ -34,12 +35,12 @@ void list_examples(bool json) {
   for (const input::ExampleFile& file : input::example_files())
     if (is_case(file)) list.push_back({{"name", name_of(file)}, {"title", title_of(file.bytes)}});
   if (json) {
-    fmt::print("{}\n", list.dump(2));
+    say("{}\n", list.dump(2));
     return;
   }
-  fmt::print("examples; gaussdrift new NAME writes one as NAME.toml:\n");
+  say("examples; gaussdrift new NAME writes one as NAME.toml:\n");
   for (const auto& entry : list)
-    fmt::print("  {:<18} {}\n", entry["name"].get<std::string>(), entry["title"].get<std::string>());
+    say("  {:<18} {}\n", entry["name"].get<std::string>(), entry["title"].get<std::string>());
 }
 
 }  // namespace
@@ -77,12 +78,12 @@ ExitCode new_case(const NewOptions& options) {
     const fs::path path = options.folder / file->name;
     write::write_text(path, file->bytes);
     written.push_back(path.string());
-    if (!options.json) fmt::print("wrote  {}\n", path.string());
+    if (!options.json) say("wrote  {}\n", path.string());
   }
   if (options.json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"written", written}}.dump(2));
+    say("{}\n", nlohmann::ordered_json{{"written", written}}.dump(2));
   else
-    fmt::print("next   gaussdrift run {}\n", (options.folder / (wanted + ".toml")).string());
+    say("next   gaussdrift run {}\n", (options.folder / (wanted + ".toml")).string());
   return ExitCode::ok;
 }
 

@@ -1,11 +1,15 @@
 #include "cli/progress.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
+
+#include "cli/terminal.hpp"
 
 namespace gaussdrift::cli {
 
@@ -13,11 +17,40 @@ namespace {
 
 constexpr double terminal_interval = 0.1;  // seconds between two lines
 constexpr double plain_interval = 10;      // the same where lines pile up (files, pipes)
+constexpr std::size_t least_columns = 40;  // a narrower terminal does not show enough of a line
 
 std::string duration(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);
   if (seconds < 5400) return fmt::format("{:.0f} min", seconds / 60);
   return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+/// Columns of the terminal that standard error is; 0: not known.
+std::size_t columns() {
+  if (const std::string_view told = environment("COLUMNS"); !told.empty())
+    return std::strtoul(told.data(), nullptr, 10);
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
+
+/// Can a line be taken back? A wrapped one cannot, and not every terminal knows how.
+bool rewrites_lines() {
+  const std::string_view kind = environment("TERM");
+  return isatty(STDERR_FILENO) != 0 && environment("NO_COLOR").empty() && !kind.empty() && kind != "dumb" &&
+         columns() >= least_columns;
+}
+
+/// What fits into so many columns, every character of UTF-8 whole.
+std::string_view cut(std::string_view text, std::size_t most) {
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80 && ++shown > most) return text.substr(0, i);
+  return text;
 }
 
 }  // namespace
@@ -37,7 +70,7 @@ std::string progress_text(const Progress& progress) {
                      progress.time, progress.end, steps, per_step, duration(left));
 }
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr) {}
+ProgressLine::ProgressLine() : terminal_(rewrites_lines()) {}
 
 void ProgressLine::show(const Progress& progress) { show(progress_text(progress)); }
 
@@ -46,17 +79,17 @@ void ProgressLine::show(const std::string& text) {
   if (!terminal_ && last_ < 0) last_ = 0;  // short runs leave no progress lines in a file
   if (last_ >= 0 && now - last_ < (terminal_ ? terminal_interval : plain_interval)) return;
   last_ = now;
+  terminal_ = terminal_ && rewrites_lines();  // a window may have been made narrow
   if (terminal_) {
-    std::fprintf(stderr, "\r\033[K%s", text.c_str());
+    note("\r\033[K{}", cut(text, columns() - 1));
     visible_ = true;
   } else {
-    std::fprintf(stderr, "%s\n", text.c_str());
+    note("{}\n", text);
   }
-  std::fflush(stderr);
 }
 
 void ProgressLine::clear() {
-  if (visible_) std::fputs("\r\033[K", stderr);
+  if (visible_) note("\r\033[K");
   visible_ = false;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/suggest.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "render/picture.hpp"
 #include "sim/reference.hpp"
@@ -60,12 +61,13 @@ ExitCode report(const ReportOptions& options) {
   if (options.json) {
     nlohmann::ordered_json written = nlohmann::ordered_json::array();
     for (const fs::path& file : files.written) written.push_back(file.string());
-    fmt::print("{}\n", laid_out(nlohmann::ordered_json{{"written", written}, {"left_out", files.left_out}}));
+    say("{}\n", laid_out(nlohmann::ordered_json{{"written", written}, {"left_out", files.left_out}}));
   } else {
-    for (const fs::path& file : files.written) fmt::print("wrote  {}\n", file.string());
-    for (const std::string& what : files.left_out) fmt::print("left out {}\n", what);
+    for (const fs::path& file : files.written) say("wrote  {}\n", file.string());
+    for (const std::string& what : files.left_out) say("left out {}\n", what);
   }
-  return ExitCode::ok;
+  for (const std::string& why : files.failed) note("error: {}\n", why);
+  return files.failed.empty() ? ExitCode::ok : ExitCode::files;
 }
 
 ExitCode render(const RenderOptions& options) {
@@ -124,9 +126,9 @@ ExitCode render(const RenderOptions& options) {
           .range_max = range_max},
          png);
     written.push_back(png.string());
-    if (!options.json) fmt::print("wrote  {}\n", png.string());
+    if (!options.json) say("wrote  {}\n", png.string());
   }
-  if (options.json) fmt::print("{}\n", laid_out(nlohmann::ordered_json{{"written", written}}));
+  if (options.json) say("{}\n", laid_out(nlohmann::ordered_json{{"written", written}}));
   return ExitCode::ok;
 }
 
@@ -159,17 +161,16 @@ ExitCode compare(const CompareOptions& options) {
                     {"L1", norms.l1},
                     {"L2", norms.l2},
                     {"Linf", linf}});
-    if (!options.json)
-      fmt::print("{:<14} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", in_text(time), norms.l1, norms.l2, linf);
+    if (!options.json) say("{:<14} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", in_text(time), norms.l1, norms.l2, linf);
   }
   const bool apart = options.tolerance >= 0 && !(worst <= options.tolerance);
   if (options.json)
-    fmt::print("{}\n", laid_out(nlohmann::ordered_json{{"outputs", rows}, {"largest", worst}, {"within", !apart}}));
+    say("{}\n", laid_out(nlohmann::ordered_json{{"outputs", rows}, {"largest", worst}, {"within", !apart}}));
   else
-    fmt::print("largest difference {:.2e}, relative to {}{}\n", worst, options.second.string(),
-               options.tolerance < 0 ? ""
-               : apart               ? fmt::format(": more than {:g}", options.tolerance)
-                                     : fmt::format(": within {:g}", options.tolerance));
+    say("largest difference {:.2e}, relative to {}{}\n", worst, options.second.string(),
+        options.tolerance < 0 ? ""
+        : apart               ? fmt::format(": more than {:g}", options.tolerance)
+                              : fmt::format(": within {:g}", options.tolerance));
   return apart ? ExitCode::check : ExitCode::ok;
 }
 

@@ -8,7 +8,9 @@
 #include <string>
 
 #include "base/parallel.hpp"
+#include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/read_case.hpp"
 #include "render/picture_series.hpp"
@@ -38,7 +40,7 @@ Case read(const CaseOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.accuracy.empty()) overrides.push_back("accuracy.target=" + options.accuracy);
   input::ReadResult result = input::read_case(options.file, overrides, options.threads);
-  for (const std::string& warning : result.warnings) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : result.warnings) note("{}\n", warning);
   return std::move(result.scene);
 }
 
@@ -46,7 +48,7 @@ Case read(const CaseOptions& options) {
 Case settled(Case scene, const CaseOptions& options) {
   if (!scene.accuracy.target) return scene;
   study::AccuracyChoice choice = study::choose_for_accuracy(scene, *scene.accuracy.target, options.threads);
-  fmt::print(options.json ? stderr : stdout, "{}", study::to_text(choice));
+  put(options.json ? stderr : stdout, study::to_text(choice));
   return std::move(choice.scene);
 }
 
@@ -101,17 +103,33 @@ void add_observers(Simulation& simulation, const Case& scene, const fs::path& fo
     simulation.observe(kind == OutputSpec::Vtk::density ? write::density_files(folder) : write::particle_files(folder));
   if (const auto styles = styles_of(scene); !styles.empty()) {
     if (const std::string reason = render::unavailable_reason(); !reason.empty())
-      fmt::print(stderr, "warning: no pictures are drawn: {}\n", reason);
+      note("warning: no pictures are drawn: {}\n", reason);
     else
       simulation.observe(render::picture_series(folder, styles, scene.title.empty() ? scene.name : scene.title));
   }
 }
 
-double seconds_of(const RunSummary& summary, const std::string& beginning) {
-  double total = 0;
-  for (const auto& [stage, seconds] : summary.stages.stages())
-    if (stage.rfind(beginning, 0) == 0) total += seconds;
-  return total;
+/// What the seconds went into, largest first, down to a hundredth of all: "charge 460.21, density 30.02".
+std::string seconds_text(const RunSummary& summary) {
+  base::StageTimes parts;
+  double told = 0;
+  for (const auto& [stage, seconds] : summary.stages.stages()) {
+    const std::string name = stage.starts_with("write ")          ? "files"
+                             : stage.starts_with("effect ")       ? stage.substr(7)
+                             : stage == "predicted error budget"  ? "error budget"
+                             : stage == "measure transform error" ? "check of the transform"
+                                                                  : stage;
+    parts.add(name, seconds);
+    told += seconds;
+  }
+  if (summary.seconds > told) parts.add("other", summary.seconds - told);
+  std::vector<std::pair<std::string, double>> rows = parts.stages();
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [name, seconds] : rows)
+    if (text.empty() || seconds >= 0.01 * summary.seconds)
+      text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", name, seconds);
+  return text;
 }
 
 std::string place_text(const Vector& place, int dimension) {
@@ -126,12 +144,8 @@ std::string ending_text(const Case& scene, const RunSummary& summary, const stud
   std::string text;
   double worst = 0;
   for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
-  text += fmt::format(
-      "done   {} particles, {} steps, {} frames in {:.2f} s on {} threads (transport {:.2f}, density {:.2f}, "
-      "reference {:.2f}, files {:.2f}, pictures {:.2f})\n",
-      summary.particles, summary.steps, summary.frames.size(), summary.seconds, summary.threads,
-      seconds_of(summary, "transport"), seconds_of(summary, "density"), seconds_of(summary, "reference"),
-      seconds_of(summary, "write"), seconds_of(summary, "pictures"));
+  text += fmt::format("done   {} particles, {} steps, {} frames in {:.2f} s on {} threads ({})\n", summary.particles,
+                      summary.steps, summary.frames.size(), summary.seconds, summary.threads, seconds_text(summary));
   if (!summary.frames.empty()) {
     const auto extremes = [](const FrameNumbers& numbers) {
       return numbers.minimum < 0 ? fmt::format("rho in [{:.6g}, {:.6g}]", numbers.minimum, numbers.maximum)
@@ -173,21 +187,23 @@ std::string ending_text(const Case& scene, const RunSummary& summary, const stud
   return text;
 }
 
-struct PageNotes {
-  std::string without;  // lines for the end of the run
-  std::string trouble;  // why there is no page: what was computed stands in the other files, and its checks count
-};
-
-PageNotes page_of(const fs::path& folder, const Case& scene) {
-  PageNotes notes;
+/// Lines for the end of the run: what the page does without.
+std::string write_page(const fs::path& folder, const Case& scene, OwedFiles& owed) {
+  std::string without;
   try {
-    for (const std::string& what : study::write_report(folder, !scene.output.images.empty()).left_out)
-      notes.without += fmt::format("page   without {}\n", what);
-  } catch (const std::exception& error) {
-    notes.trouble = fmt::format("there is no page about this run: {}; gaussdrift report {} makes it later",
-                                error.what(), folder.string());
+    const study::ReportFiles page = study::write_report(folder, !scene.output.images.empty());
+    for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
+    const bool there =
+        std::find(page.written.begin(), page.written.end(), folder / "report.html") != page.written.end();
+    for (const std::string& why : page.failed)
+      owed.miss(fmt::format("{}: {}; gaussdrift report {} makes it later",
+                            there ? "the page about this run is not complete" : "there is no page about this run", why,
+                            folder.string()));
+  } catch (const std::exception& error) {  // what was computed stands in the other files, and its checks count
+    owed.miss(fmt::format("there is no page about this run: {}; gaussdrift report {} makes it later", error.what(),
+                          folder.string()));
   }
-  return notes;
+  return without;
 }
 
 /// Data files are named as seen from the run's folder. The hash has their bytes and bare names: where they lie is of no
@@ -240,6 +256,72 @@ void add_accuracy_table(const Case& scene, const RunSummary& summary, const stud
   more["accuracy_table"] = table;
 }
 
+/// What the results do not show by themselves; for the terminal, the page and the log.
+std::vector<std::string> warnings_of(const Case& scene, const RunSummary& summary) {
+  std::vector<std::string> warnings;
+  if (summary.transform_achievable > scene.evaluate.tolerance)
+    warnings.push_back(
+        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
+                    "{:.1e} of max rho",
+                    scene.evaluate.tolerance, summary.transform_achievable));
+  for (const auto& [time, numbers] : summary.frames)
+    if (numbers.stretch > scene.particles.overlap) {
+      warnings.push_back(
+          fmt::format("at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart, and blobs "
+                      "{:g} spacings wide no longer overlap there: the density has gaps and peaks that are not there; "
+                      "[effects.remesh], or more overlap on a finer lattice",
+                      time, numbers.stretch, scene.particles.overlap));
+      break;
+    }
+  warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());
+  for (const EffectSummary& effect : summary.effects)
+    if (!effect.warning.empty()) warnings.push_back(fmt::format("{}: {}", effect.name, effect.warning));
+  if (summary.reference.untraced > 0)
+    warnings.push_back(
+        fmt::format("the exact density is not known at {} grid points of all outputs (one is {}: {}); the norms of the "
+                    "error leave them out",
+                    summary.reference.untraced, place_text(summary.reference.first_untraced, scene.domain.dimension),
+                    summary.reference.trouble));
+  return warnings;
+}
+
+bool budgeted(const Case& scene) {
+  return scene.accuracy.budget != AccuracySpec::Budget::none && scene.reference.kind != ReferenceSpec::Kind::none;
+}
+
+/// What is found out about a finished run beyond its numbers: where its error comes from, what digits cost. The run
+/// does not depend on it, so what fails is a warning.
+std::optional<study::Budget> look_back(const Case& scene, RunSummary& summary, const study::LastFrame::Kept& last,
+                                       nlohmann::ordered_json& more, std::vector<std::string>& warnings, int threads) {
+  const auto stage = [&](const char* name, const auto& work) {
+    const base::Stopwatch watch;
+    try {
+      work();
+    } catch (const std::exception& error) {
+      warnings.push_back(fmt::format("no {}: {}", name, error.what()));
+    }
+    const double seconds = watch.seconds();
+    summary.stages.add(name, seconds);
+    summary.seconds += seconds;
+  };
+  std::optional<study::Budget> measured, predicted;
+  if (budgeted(scene)) {
+    const auto effort =
+        scene.accuracy.budget == AccuracySpec::Budget::measured ? study::Effort::whatever : study::Effort::share_of_run;
+    stage("error budget",
+          [&] { measured = study::measure_budget(scene, make_scene(scene, threads), last, effort, threads); });
+    stage("predicted error budget",
+          [&] { predicted = study::predict_budget(scene, make_scene(scene, threads), effort, threads); });
+  }
+  if (measured && predicted)
+    more["budget"] = {{"norm", "largest error at the last output, relative to the largest exact density there"},
+                      {"predicted", study::to_json(*predicted)},
+                      {"measured", study::to_json(*measured)},
+                      {"advice", measured->advice}};
+  if (scene.output.report) stage("accuracy table", [&] { add_accuracy_table(scene, summary, last, more, threads); });
+  return measured;
+}
+
 }  // namespace
 
 ExitCode run(const RunOptions& options) {
@@ -252,10 +334,8 @@ ExitCode run(const RunOptions& options) {
   write::write_run_inputs(folder, scene, input::resolved_toml(scene, folder));
   write::write_text(folder / "provenance.json", provenance);
   add_observers(simulation, scene, folder);
-  const bool budgeted =
-      scene.accuracy.budget != AccuracySpec::Budget::none && scene.reference.kind != ReferenceSpec::Kind::none;
   study::LastFrame::Kept last;
-  if ((budgeted && study::budget_not_covered(scene).empty()) || scene.output.report)
+  if ((budgeted(scene) && study::budget_not_covered(scene).empty()) || scene.output.report)
     simulation.observe(std::make_unique<study::LastFrame>(last, scene.output.times.back()));
 
   RunSummary summary;
@@ -264,61 +344,9 @@ ExitCode run(const RunOptions& options) {
     simulation.on_progress([&](const Progress& progress) { line.show(progress); });
     summary = simulation.run();
   }
-  std::vector<std::string> warnings;  // also for the page and the log
-  const auto warn = [&](const std::string& text) {
-    fmt::print(stderr, "warning: {}\n", text);
-    warnings.push_back(text);
-  };
-  if (summary.transform_achievable > scene.evaluate.tolerance)
-    warn(
-        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
-                    "{:.1e} of max rho",
-                    scene.evaluate.tolerance, summary.transform_achievable));
-  for (const auto& [time, numbers] : summary.frames)
-    if (numbers.stretch > scene.particles.overlap) {
-      warn(
-          fmt::format("at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart, and blobs "
-                      "{:g} spacings wide no longer overlap there: the density has gaps and peaks that are not there; "
-                      "[effects.remesh], or more overlap on a finer lattice",
-                      time, numbers.stretch, scene.particles.overlap));
-      break;
-    }
-  for (const std::string& warning : summary.warnings) warn(warning);
-  for (const EffectSummary& effect : summary.effects)
-    if (!effect.warning.empty()) warn(fmt::format("{}: {}", effect.name, effect.warning));
-  if (summary.reference.untraced > 0)
-    warn(
-        fmt::format("the exact density is not known at {} grid points of all outputs (one is {}: {}); the norms of the "
-                    "error leave them out",
-                    summary.reference.untraced, place_text(summary.reference.first_untraced, scene.domain.dimension),
-                    summary.reference.trouble));
-  const auto book = [&](const char* stage, const base::Stopwatch& watch) {
-    const double seconds = watch.seconds();
-    summary.stages.add(stage, seconds);
-    summary.seconds += seconds;
-  };
-  std::optional<study::Budget> measured;
+  std::vector<std::string> warnings = warnings_of(scene, summary);
   nlohmann::ordered_json more;
-  if (budgeted) {
-    const base::Stopwatch watch;
-    const Scene parts = make_scene(scene, options.scene.threads);
-    const auto effort =
-        scene.accuracy.budget == AccuracySpec::Budget::measured ? study::Effort::whatever : study::Effort::share_of_run;
-    measured = study::measure_budget(scene, parts, last, effort, options.scene.threads);
-    book("error budget", watch);
-    const base::Stopwatch before;
-    const study::Budget predicted = study::predict_budget(scene, parts, effort, options.scene.threads);
-    book("predicted error budget", before);
-    more["budget"] = {{"norm", "largest error at the last output, relative to the largest exact density there"},
-                      {"predicted", study::to_json(predicted)},
-                      {"measured", study::to_json(*measured)},
-                      {"advice", measured->advice}};
-  }
-  if (scene.output.report) {
-    const base::Stopwatch watch;
-    add_accuracy_table(scene, summary, last, more, options.scene.threads);
-    book("accuracy table", watch);
-  }
+  const std::optional<study::Budget> measured = look_back(scene, summary, last, more, warnings, options.scene.threads);
   if (const auto target = asked.accuracy.target; target && !summary.frames.empty()) {
     const auto& error = summary.frames.back().second.error;
     const bool known = error && std::isfinite(error->linf);
@@ -328,31 +356,35 @@ ExitCode run(const RunOptions& options) {
   }
   if (!warnings.empty()) more["warnings"] = warnings;
   const std::string json = write::summary_json(scene, summary, more);
-  write::write_text(folder / "summary.json", json);
-  const PageNotes page = scene.output.report ? page_of(folder, scene) : PageNotes{};
+
+  // Every file before the first word: a terminal that takes no text costs no result.
+  OwedFiles owed;
+  std::string without;
+  if (owed.attempt([&] { write::write_text(folder / "summary.json", json); }) && scene.output.report)
+    without = write_page(folder, scene, owed);
   const std::string ending =
-      ending_text(scene, summary, measured ? &*measured : nullptr, asked.accuracy.target, folder) + page.without;
-  if (!page.trouble.empty()) warn(page.trouble);
+      ending_text(scene, summary, measured ? &*measured : nullptr, asked.accuracy.target, folder) + without;
   std::string log;
   for (const std::string& warning : warnings) log += "warning: " + warning + "\n";
-  write::write_text(folder / "log.txt", log + ending);
-  if (options.scene.json)
-    fmt::print("{}", json);
-  else
-    fmt::print("{}", ending);
+  for (const std::string& why : owed.missing()) log += "error: " + why + "\n";
+  owed.attempt([&] { write::write_text(folder / "log.txt", log + ending); });
+
+  for (const std::string& warning : warnings) note("warning: {}\n", warning);
+  put(stdout, options.scene.json ? json : ending);
   bool failed = false;
   for (const CheckResult& result : summary.checks) {
     if (result.passed) continue;
     failed = true;
-    fmt::print(stderr, "check failed: {}\n", result.text);
+    note("check failed: {}\n", result.text);
   }
-  return failed ? ExitCode::check : ExitCode::ok;
+  for (const std::string& why : owed.missing()) note("error: {}\n", why);
+  return failed ? ExitCode::check : owed.missing().empty() ? ExitCode::ok : ExitCode::files;
 }
 
 ExitCode check(const CaseOptions& options) {
   const Case scene = settled(read(options), options);
   const study::Description description = study::describe(scene, options.threads);
-  fmt::print("{}", options.json ? study::to_json(scene, description) : study::to_text(scene, description));
+  say("{}", options.json ? study::to_json(scene, description) : study::to_text(scene, description));
   return ExitCode::ok;
 }
 
@@ -369,7 +401,7 @@ ExitCode reproduce_cone(const ReproduceOptions& options) {
       line.show(fmt::format("{} of {} heights", done, total));
     });
   }
-  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? study::to_json(result) : study::to_text(result));
   return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;
 }
 
@@ -387,7 +419,7 @@ ExitCode reproduce_coulomb(const ReproduceOptions& options) {
     result = study::reproduce_coulomb(
         coulomb, [&](std::size_t particles) { line.show(fmt::format("{} particles", particles)); });
   }
-  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? study::to_json(result) : study::to_text(result));
   return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
 }
 
@@ -401,7 +433,7 @@ ExitCode reproduce_logkernel(const ReproduceOptions& options) {
     ProgressLine line;
     result = study::reproduce_logkernel(logkernel, [&](const std::string& what) { line.show(what); });
   }
-  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? study::to_json(result) : study::to_text(result));
   return ExitCode::ok;
 }
 
@@ -415,7 +447,7 @@ ExitCode reproduce_tables(study::TableSet set, const ReproduceOptions& options) 
     ProgressLine line;
     result = study::reproduce_fgtd(fgtd, [&](const std::string& table) { line.show(table); });
   }
-  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? study::to_json(result) : study::to_text(result));
   return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
 }
 
@@ -430,7 +462,7 @@ ExitCode reproduce_figures(const ReproduceOptions& options) {
     ProgressLine line;
     made = study::reproduce_figures(figures, [&](const std::string& figure) { line.show(figure); });
   }
-  fmt::print("{}", options.json ? study::to_json(made) : study::to_text(made));
+  say("{}", options.json ? study::to_json(made) : study::to_text(made));
   return ExitCode::ok;
 }
 
@@ -449,8 +481,7 @@ ExitCode reproduce(const ReproduceOptions& options) {
     throw CommandLineError(fmt::format(
         "nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, coulomb, logkernel",
         options.what));
-  fmt::print(
-      "tables that can be reproduced:\n"
+  say("tables that can be reproduced:\n"
       "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
       "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
       "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"

@@ -4,7 +4,9 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "render/picture.hpp"
 #include "study/study.hpp"
@@ -52,22 +54,26 @@ ExitCode study(const StudyVerbOptions& options) {
     };
     result = study::run_study(wanted);
   }
-  for (const study::Experiment& experiment : result.experiments)
-    write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment));
   const std::string json = study::to_json(result);
-  write::write_text(folder / "study.json", json);
-  write::write_text(folder / "study.md", study::to_markdown(result));
-  study::draw_charts(result, folder);
+  OwedFiles owed;
+  for (const study::Experiment& experiment : result.experiments)
+    owed.attempt([&] { write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment)); });
+  owed.attempt([&] { write::write_text(folder / "study.json", json); });
+  owed.attempt([&] { write::write_text(folder / "study.md", study::to_markdown(result)); });
+  owed.attempt([&] { study::draw_charts(result, folder); });
+  if (!options.csv.empty())
+    owed.attempt([&] {
+      write::write_text(options.csv, result.experiments.size() == 1 ? study::to_csv(result.experiments.front())
+                                                                    : study::to_csv(result));
+    });
   if (const std::string reason = render::unavailable_reason(); !reason.empty())
-    fmt::print(stderr, "warning: no charts are drawn: {}\n", reason);
+    note("warning: no charts are drawn: {}\n", reason);
   if (options.scene.json)
-    fmt::print("{}", json);
+    put(stdout, json);
   else
-    fmt::print("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.md").string());
-  if (!options.csv.empty())  // last: where it cannot be written nothing else is lost
-    write::write_text(options.csv, result.experiments.size() == 1 ? study::to_csv(result.experiments.front())
-                                                                  : study::to_csv(result));
-  return ExitCode::ok;
+    say("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.md").string());
+  for (const std::string& why : owed.missing()) note("error: {}\n", why);
+  return owed.missing().empty() ? ExitCode::ok : ExitCode::files;
 }
 
 }  // namespace gaussdrift::cli

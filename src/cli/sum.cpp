@@ -12,6 +12,7 @@
 
 #include "base/stopwatch.hpp"
 #include "base/suggest.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
 #include "study/sum_pairs.hpp"
@@ -115,6 +116,7 @@ void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd
     else
       write::write_atomically(options.out, [&](const fs::path& part) { write_file(columns, values, part); });
   } catch (const std::system_error& error) {
+    if (to_standard_output(options) && error.code() == std::errc::broken_pipe) return;  // as in: sum ... | head
     throw FileError(fmt::format("cannot write {}: {}",
                                 to_standard_output(options) ? "to standard output" : options.out.string(),
                                 error.code().message()));
@@ -130,7 +132,7 @@ double read_points(const SumOptions& options, study::PointsRequest& request) {
   const base::Stopwatch reading;
   const auto read = [&](const fs::path& file, input::PointsRole role) {
     input::PointsTable table = input::read_points_table(file, role, request.memory_limit, coordinates);
-    for (const std::string& doubt : table.doubts) fmt::print(stderr, "warning: {}\n", doubt);
+    for (const std::string& doubt : table.doubts) note("warning: {}\n", doubt);
     return table;
   };
   request.sources = read(options.sources, input::PointsRole::sources);
@@ -142,15 +144,15 @@ double read_points(const SumOptions& options, study::PointsRequest& request) {
 template <class Sums>
 void write(Sums& sums, const SumOptions& options) {
   if (options.method != "auto" && sums.asked != sums.choice.method)
-    fmt::print(stderr, "warning: {} is not possible for these points, targets and tolerance; {} did the sum\n",
-               options.method, to_string(sums.choice.method));
+    note("warning: {} is not possible for these points, targets and tolerance; {} did the sum\n", options.method,
+         to_string(sums.choice.method));
   const base::Stopwatch writing;
   write_values(sums.columns, sums.values, options);
   sums.write_seconds = writing.seconds();
   if (options.json)
-    fmt::print("{}", study::to_json(sums));
+    say("{}", study::to_json(sums));
   else if (!to_standard_output(options))
-    fmt::print("{}open   {}\n", study::to_text(sums), options.out.string());
+    say("{}open   {}\n", study::to_text(sums), options.out.string());
 }
 
 void sum_gaussians(const SumOptions& options) {

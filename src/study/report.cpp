@@ -288,18 +288,17 @@ pre{background:#f6f6f6;padding:.8rem;overflow:auto;font-size:.85rem}
 pre{white-space:pre-wrap;overflow-wrap:anywhere}.bars div,.verdict,.warning{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
-/// Initial, final, exact and error densities in one picture. Returns why some or all are not drawn.
-std::vector<std::string> draw_summary(const fs::path& folder, const json& summary) {
-  std::error_code ignored;
-  fs::remove(folder / "summary.png", ignored);  // an older one must not pass for this
-  if (const std::string reason = render::unavailable_reason(); !reason.empty()) return {"pictures: " + reason};
-  const auto outputs = written_outputs(folder);
-  if (outputs.empty()) return {"pictures: the run wrote no density files (output.vtk)"};
+/// Initial, final, exact and error densities; `notes`: why some or all are missing.
+std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary, std::vector<std::string>& notes) {
   std::vector<render::Panel> panels;
+  const auto outputs = written_outputs(folder);
+  if (outputs.empty()) {
+    notes.push_back("pictures: the run wrote no density files (output.vtk)");
+    return panels;
+  }
   const auto add = [&](const WrittenOutput& output, const char* array, const char* title, bool error) {
     panels.push_back({title, read_density(output.file, array), output.time, error});
   };
-  std::vector<std::string> notes;
   if (outputs.size() > 1) add(outputs.front(), "rho", "initial", false);
   add(outputs.back(), "rho", outputs.size() > 1 ? "final" : "density", false);
   const json frame = summary.at("frames").empty() ? json::object() : summary.at("frames").back();
@@ -319,8 +318,41 @@ std::vector<std::string> draw_summary(const fs::path& folder, const json& summar
       notes.push_back(fmt::format("pictures of the exact density and the error: {}", error.what()));
     }
   }
-  render::draw_panels(panels, folder / "summary.png");
-  return notes;
+  return panels;
+}
+
+void draw_summary(const fs::path& folder, const json& summary, ReportFiles& result) {
+  const fs::path file = folder / "summary.png";
+  std::error_code ignored;
+  fs::remove(file, ignored);  // an older one must not pass for this
+  if (const std::string reason = render::unavailable_reason(); !reason.empty()) {
+    result.left_out.push_back("pictures: " + reason);
+    return;
+  }
+  std::vector<render::Panel> panels;
+  try {
+    panels = panels_of(folder, summary, result.left_out);
+  } catch (const Error& error) {  // densities that cannot be read
+    result.left_out.push_back(fmt::format("pictures: {}", error.what()));
+    return;
+  }
+  if (panels.empty()) return;
+  try {
+    render::draw_panels(panels, file);
+    result.written.push_back(file);
+  } catch (const Error& error) {
+    result.failed.push_back(error.what());
+  }
+}
+
+/// One that cannot be written is told in the end.
+void write_file(const fs::path& file, const std::string& text, ReportFiles& result) {
+  try {
+    write::write_text(file, text);
+    result.written.push_back(file);
+  } catch (const FileError& error) {
+    result.failed.push_back(error.what());
+  }
 }
 
 std::string seconds(const json& summary) {
@@ -368,12 +400,7 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
   const json untraced = get(last, "untraced");
 
   if (pictures) {
-    try {
-      result.left_out = draw_summary(folder, summary);
-    } catch (const Error& error) {
-      result.left_out.push_back(fmt::format("pictures: {}", error.what()));
-    }
-    if (fs::exists(folder / "summary.png")) result.written.push_back(folder / "summary.png");
+    draw_summary(folder, summary, result);
   } else {
     by_choice.push_back("pictures: the case wants none (output.images); gaussdrift report draws them all the same");
   }
@@ -435,6 +462,7 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
     page += "</table></div>\n";
   }
   std::vector<std::string> absent = result.left_out;
+  for (const std::string& why : result.failed) absent.push_back("pictures: " + why);
   absent.insert(absent.end(), by_choice.begin(), by_choice.end());
   if (!absent.empty()) {
     page += "<h2>What is not on this page</h2><ul>";
@@ -445,14 +473,12 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
     page += "<h2>The case, with all defaults</h2><pre>" + escaped(resolved) + "</pre>\n";
   if (provenance.is_object()) page += how_to_make_again(provenance);
   page += "</html>\n";
-  write::write_text(folder / "report.html", page);
-  result.written.push_back(folder / "report.html");
+  write_file(folder / "report.html", page, result);
 
   json report = summary;
   report["not_on_the_page"] = absent;
   if (provenance.is_object()) report["provenance"] = provenance;
-  write::write_text(folder / "report.json", report.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
-  result.written.push_back(folder / "report.json");
+  write_file(folder / "report.json", report.dump(2, ' ', false, json::error_handler_t::replace) + "\n", result);
   return result;
 }
 

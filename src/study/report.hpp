@@ -11,10 +11,12 @@ namespace gaussdrift::study {
 struct ReportFiles {
   std::vector<std::filesystem::path> written;
   std::vector<std::string> left_out;  // what the run did not leave, or could not be read
+  std::vector<std::string> failed;    // what could not be written, and why
 };
 
 /// From summary.json, provenance.json, run.toml, density/ and images/ of a run's folder. pictures: draw the panel of
-/// initial, final, exact and error densities. Throws FileError where the folder holds no run.
+/// initial, final, exact and error densities. A file that cannot be written does not cost the others. Throws FileError
+/// where the folder holds no run.
 ReportFiles write_report(const std::filesystem::path& folder, bool pictures);
 
 }  // namespace gaussdrift::study

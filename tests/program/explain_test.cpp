@@ -52,7 +52,8 @@ TEST(Explain, GivesTheSameAsJson) {
   const std::string overview = gaussdrift_in(folder, "explain").out;
   for (const auto& key : all) {
     const std::string name = key["key"].get<std::string>();
-    EXPECT_TRUE(key.contains("goes with") || overview.find("  " + name.substr(name.rfind('.') + 1)) != std::string::npos)
+    EXPECT_TRUE(key.contains("goes with") ||
+                overview.find("  " + name.substr(name.rfind('.') + 1)) != std::string::npos)
         << name;
   }
 }

@@ -119,6 +119,37 @@ TEST(Page, ThatCannotBeWrittenCostsNeitherTheRunNorItsChecks) {
   EXPECT_EQ(gaussdrift_in(folder, "report output/a", "ulimit -f 32;").exit_code, 6) << "asked for, it is an error";
 }
 
+TEST(Page, ThatCannotBeWrittenIsExitCode6) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", small_case + "vtk = []\n[case]\ntitle = \"" + std::string(3000, '<') + "\"\n");
+  const Outcome out = gaussdrift_in(folder, "run a.toml --set time.end=1 --set 'output.times=[0, 1]'", "ulimit -f 32;");
+  EXPECT_EQ(out.exit_code, 6) << out.err;
+  EXPECT_NE(out.err.find("error: there is no page about this run: cannot write output/a/report.html"),
+            std::string::npos)
+      << out.err;
+  EXPECT_NE(out.out.find("done   "), std::string::npos);
+  for (const char* file : {"summary.json", "report.json", "log.txt"})
+    EXPECT_TRUE(fs::exists(folder / "output/a" / file)) << file;
+}
+
+TEST(Page, ThatIsWrittenInPartIsExitCode6AndHasTheOtherFiles) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", small_case);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out a --set 'output.images=[\"heatmap\"]'").exit_code, 0);
+  for (const std::string blocked : {"report.json", "report.html", "summary.png"}) {
+    for (const char* file : {"report.json", "report.html", "summary.png"}) fs::remove_all(folder / "a" / file);
+    fs::create_directories(folder / "a" / blocked / "in the way");
+    const Outcome out = gaussdrift_in(folder, "report a");
+    EXPECT_EQ(out.exit_code, 6) << blocked;
+    EXPECT_NE(out.err.find("error: cannot write a/" + blocked), std::string::npos) << out.err;
+    for (const char* file : {"report.json", "report.html", "summary.png"}) {
+      if (file == blocked) continue;
+      EXPECT_TRUE(fs::is_regular_file(folder / "a" / file)) << blocked << ": " << file;
+    }
+    fs::remove_all(folder / "a" / blocked);
+  }
+}
+
 TEST(Page, OfASummaryThatWasCutOrChangedIsRefused) {
   const ScratchFolder folder;
   for (const char* summary :

@@ -191,6 +191,20 @@ TEST(Run, SaysWhatCanBePromisedWhereTheDensityLeavesTheGrid) {
   EXPECT_NE(gone.err.find("cannot be promised"), std::string::npos) << gone.err;
 }
 
+TEST(Run, SaysWhatTookLongestFirstEffectsAmongIt) {
+  const ScratchFolder folder;
+  // 1100 charges that move each other: nearly all of the seconds.
+  write_file(folder / "small.toml", small_case + "report = \"none\"\n[effects.charge]\nmobility = 0.01\n");
+  const Outcome run =
+      gaussdrift_in(folder,
+                    "run small.toml --set particles.per_axis=150 --set time.end=0.5 --set time.step=0.05 "
+                    "--set 'output.times=[0, 0.5]' --set reference.kind=none");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find(" threads (charge "), std::string::npos) << run.out;
+  const auto summary = nlohmann::json::parse(read_file(folder / "output/small/summary.json"));
+  EXPECT_GT(summary.at("seconds").at("effect charge"), 0.0);
+}
+
 TEST(Run, RefusesAFolderThatCannotBe) {
   const ScratchFolder folder;
   write_file(folder / "small.toml", small_case);
