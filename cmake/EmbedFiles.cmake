@@ -1,5 +1,7 @@
-# Writes a source with the files of a folder as byte arrays: input::example_files().
-# Usage: cmake -D FOLDER=<folder> -D FILES=<a.toml|b.vti> -D OUT=<file.cpp> -P EmbedFiles.cmake
+# Writes a source with the files of a folder as byte arrays: a function of the module that returns them, as
+# input::example_files(). Its header declares it, and a struct of a name and bytes.
+# Usage: cmake -D FOLDER=<folder> -D FILES=<a.toml|b.vti> -D OUT=<file.cpp> -D HEADER=<input/examples.hpp>
+#   -D MODULE=<input> -D TYPE=<ExampleFile> -D FUNCTION=<example_files> -P EmbedFiles.cmake
 cmake_policy(VERSION 3.25)
 string(REPLACE "|" ";" FILES "${FILES}")
 set(arrays "")
@@ -15,4 +17,19 @@ foreach(file ${FILES})
   string(APPEND entries "      {\"${file}\", {file_${number}, ${size}}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE "${OUT}" "// Written by cmake/EmbedFiles.cmake from the files of a folder.\n#include \"input/examples.hpp\"\n\nnamespace gaussdrift::input {\n\nnamespace {\n${arrays}}  // namespace\n\nconst std::vector<ExampleFile>& example_files() {\n  static const std::vector<ExampleFile> files = {\n${entries}  };\n  return files;\n}\n\n}  // namespace gaussdrift::input\n")
+file(WRITE "${OUT}" "// Written by cmake/EmbedFiles.cmake from the files of a folder.
+#include \"${HEADER}\"
+
+namespace gaussdrift::${MODULE} {
+
+namespace {
+${arrays}}  // namespace
+
+const std::vector<${TYPE}>& ${FUNCTION}() {
+  static const std::vector<${TYPE}> files = {
+${entries}  };
+  return files;
+}
+
+}  // namespace gaussdrift::${MODULE}
+")

@@ -1,11 +1,16 @@
-// The tables of reproduce_fgtd(), one function for those that are measured together.
+// The tables of reproduce_fgtd(), one function for those that are measured together. They leave the published numbers
+// to it and tell it, with every row and column, where these are printed.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "study/reproduce_fgtd.hpp"
 
 namespace gaussdrift::study {
+
+/// 1.1e-8, 1e28: a power of ten without signs and zeros that say nothing.
+std::string short_power(double value, int digits);
 
 std::vector<Table> analytic_tables();                                // 3.2, 3.3
 std::vector<Table> parameter_tables();                               // 3.4, 3.5
@@ -16,6 +21,7 @@ std::vector<Table> dimension_table(const FgtdOptions& options);      // 4.5
 std::vector<Table> width_table(const FgtdOptions& options);          // 4.6
 std::vector<Table> spacing_table(const FgtdOptions& options);        // 4.7
 std::vector<Table> point_set_table(const FgtdOptions& options);      // 4.8
+std::vector<Table> level_table(const FgtdOptions& options);          // 4.9
 std::vector<Table> field_table(const FgtdOptions& options);          // 6.1
 std::vector<Table> divergence_table(const FgtdOptions& options);     // 6.2
 

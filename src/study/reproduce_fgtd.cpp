@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "study/fgtd_tables.hpp"
+#include "study/published.hpp"
 
 namespace gaussdrift::study {
 
@@ -30,13 +31,27 @@ const std::vector<Group>& groups(TableSet set) {
                                       {{"4.5"}, dimension_table},
                                       {{"4.6"}, width_table},
                                       {{"4.7"}, spacing_table},
-                                      {{"4.8"}, point_set_table}};
+                                      {{"4.8"}, point_set_table},
+                                      {{"4.9"}, level_table}};
   return set == TableSet::fgtd ? all : divergence;
 }
 
-bool comparable(const Column& column, const Entry& entry) {
-  return entry.published && entry.computed && column.quantity != Quantity::seconds &&
-         column.quantity != Quantity::factor;
+// Rows and columns of a table know where in the published one they are printed.
+void quote(Table& table) {
+  const PublishedTable published("schroeder-table-" + table.number);
+  for (Row& row : table.rows)
+    for (std::size_t i = 0; i < row.entries.size(); ++i) {
+      const Column& column = table.columns[i];
+      if (column.printed.empty()) continue;
+      const auto number = published.number(row.printed, column.printed);
+      if (!number) continue;
+      row.entries[i].published = *number * column.unit;
+      row.entries[i].last_digit = published.last_digit(row.printed, column.printed) * column.unit;
+    }
+}
+
+bool compared(const Column& column, const Entry& entry) {
+  return entry.published && entry.computed && comparison_of(column, entry) != Comparison::none;
 }
 
 void count_agreement(const Table& table, FgtdReproduction& result) {
@@ -46,14 +61,17 @@ void count_agreement(const Table& table, FgtdReproduction& result) {
       const Entry& entry = row.entries[i];
       const std::string place = fmt::format("Table {}, {}, {}", table.number, row.name, column.name);
       if (!entry.kept) result.disagreements.push_back(place + ": automatic breaks its promise");
-      if (!comparable(column, entry)) continue;
+      if (!compared(column, entry)) continue;
       ++result.compared;
-      const double then = *entry.published, now = *entry.computed;
-      const bool exact = column.quantity == Quantity::count;
-      if (exact ? now == then : power_of_ten(now) == power_of_ten(then)) ++result.equal;
-      if (!exact && power_of_ten(now) < power_of_ten(then)) ++result.better;
+      const auto kind = std::find(comparisons.begin(), comparisons.end(), comparison_of(column, entry));
+      ++result.by_kind[static_cast<std::size_t>(kind - comparisons.begin())];
       if (!agrees(column, entry))
-        result.disagreements.push_back(fmt::format("{}: {:g}, published {:g}", place, now, then));
+        result.disagreements.push_back(
+            fmt::format("{}: {:g}, published {:g}", place, *entry.computed, *entry.published));
+      else if (off(column, entry))
+        result.off.push_back({fmt::format("{}: {}, published {}", place, short_power(*entry.computed, 3),
+                                          short_power(*entry.published, 1)),
+                              column.why_off});
     }
 }
 
@@ -65,18 +83,38 @@ int power_of_ten(double x) {
   return static_cast<int>(std::floor(std::log10(x) + 1e-9));
 }
 
+std::string to_string(Comparison comparison) {
+  constexpr std::array names{"none", "arithmetic", "digits", "order of magnitude", "at most"};
+  return names[static_cast<std::size_t>(comparison)];
+}
+
+Comparison comparison_of(const Column& column, const Entry& entry) {
+  return entry.comparison.value_or(column.comparison);
+}
+
 bool agrees(const Column& column, const Entry& entry) {
   if (!entry.kept) return false;
-  if (!comparable(column, entry)) return true;
+  if (!compared(column, entry)) return true;
   const double then = *entry.published, now = *entry.computed;
-  switch (column.quantity) {
-    case Quantity::count:
-      return now == then;
-    case Quantity::bound:
-      return std::abs(power_of_ten(now) - power_of_ten(then)) <= column.decades;
+  const int power = power_of_ten(then);
+  switch (comparison_of(column, entry)) {
+    case Comparison::arithmetic:
+      if (column.quantity == Quantity::count) return now == then;
+      return std::abs(power_of_ten(now) - power) <= column.decades;
+    case Comparison::digits:
+      return std::abs(now - then) <= 0.5 * (1 + 1e-6) * entry.last_digit;  // 1e-6: the halves that are rounded
+    case Comparison::order:
+      // Some powers are printed rounded, 9.1e1 as 1e2, others cut off, 6.5e3 as 1e3.
+      return now >= std::pow(10, power - 0.5) && power_of_ten(now / error_slack) <= power;
     default:
-      return power_of_ten(now / error_slack) <= power_of_ten(then) + column.decades;
+      return power_of_ten(now / error_slack) <= power + column.decades;
   }
+}
+
+bool off(const Column& column, const Entry& entry) {
+  if (!compared(column, entry) || column.quantity == Quantity::count) return false;
+  const int away = power_of_ten(*entry.computed) - power_of_ten(*entry.published);
+  return away > 0 || (away < 0 && comparison_of(column, entry) == Comparison::arithmetic);
 }
 
 std::vector<std::string> table_numbers(TableSet set) {
@@ -100,6 +138,7 @@ FgtdReproduction reproduce_fgtd(const FgtdOptions& options, const std::function<
     if (progress) progress(fmt::format("Table {}", fmt::join(group.numbers, ", ")));
     for (Table& table : group.compute(options)) {
       if (!wanted(table.number)) continue;
+      quote(table);
       count_agreement(table, result);
       result.tables.push_back(std::move(table));
     }

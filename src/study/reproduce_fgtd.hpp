@@ -1,8 +1,9 @@
-// Tables 3.2 to 3.5, 4.1 to 4.8 (the transform), 6.1 and 6.2 (divergence-free fields) of [Sch06] again: `hermite` with
+// Tables 3.2 to 3.5, 4.1 to 4.9 (the transform), 6.1 and 6.2 (divergence-free fields) of [Sch06] again: `hermite` with
 // the thesis's parameters and points beside the published numbers, and `automatic` asked for the error that these
 // parameters gave. docs/reproduce.md.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -12,31 +13,49 @@
 
 namespace gaussdrift::study {
 
-/// What the numbers of a column are, hence how they are printed and when they agree.
+/// What the numbers of a column are, hence how they are shown.
 enum class Quantity {
-  count,    // exact
-  bound,    // proven error, printed as a power of ten: the same power
-  error,    // measured, printed as a power of ten or with digits: that power or less
-  seconds,  // of another machine: no comparison
-  factor    // of seconds
+  count,  // whole
+  error,  // a power of ten, or digits
+  seconds,
+  factor  // of seconds
 };
 
+/// How the published number is compared with the computed one.
+enum class Comparison {
+  none,        // seconds of another machine; numbers that nobody published
+  arithmetic,  // follows from a formula, nothing is measured: the same number, or the same power of ten
+  digits,      // measured: all printed digits
+  order,       // measured: the printed order of magnitude, between a third of the power of ten and its end
+  at_most      // measured: at most the printed power of ten
+};
+/// The kinds that compare, in that order.
+constexpr std::array comparisons{Comparison::arithmetic, Comparison::digits, Comparison::order, Comparison::at_most};
+std::string to_string(Comparison comparison);
+
 struct Column {
-  std::string name;
+  std::string name = {};
+  std::string printed = {};  // column of the published table; empty: nobody published it
   Quantity quantity = Quantity::error;
-  int decades = 0;         // powers of ten that an error may be larger, a bound different
-  int digits = 1;          // printed
-  bool automatic = false;  // has a third number
-  bool published = true;   // has a first number
+  Comparison comparison = Comparison::none;
+  int digits = 1;            // shown
+  bool automatic = false;    // has a third number
+  int decades = 0;           // powers of ten that a number may be off and agree nevertheless, larger unless arithmetic
+  std::string why_off = {};  // the reason
+  double unit = 1;           // of the published number in those of the computed one
 };
 
 struct Entry {
-  std::optional<double> published, computed, automatic;
-  bool kept = true;  // automatic keeps its promise
+  std::optional<double> computed, automatic;
+  bool kept = true;                           // automatic keeps its promise
+  std::optional<Comparison> comparison = {};  // where it is not that of the column
+  std::optional<double> published = {};       // filled in from the published table
+  double last_digit = 0;                      // a unit of the last digit of that
 };
 
 struct Row {
   std::string name;
+  std::size_t printed = 0;     // row of the published table
   std::vector<Entry> entries;  // as many as columns
   std::string note;
 };
@@ -53,8 +72,11 @@ struct Table {
 /// this factor beyond it.
 constexpr double error_slack = 1.25;
 
-/// Is the computed number as good as the published one, and does automatic keep its promise?
+Comparison comparison_of(const Column& column, const Entry& entry);
+/// Does the computed number agree with the published one as the comparison says, and does automatic keep its promise?
 bool agrees(const Column& column, const Entry& entry);
+/// Is it compared, and a power of ten away from the published one, larger unless it follows by arithmetic?
+bool off(const Column& column, const Entry& entry);
 /// floor(log10 x), where 1e-3 is -3 although it is rounded.
 int power_of_ten(double x);
 
@@ -82,12 +104,15 @@ struct FgtdReproduction {
   int threads = 1;  // of the times
   double seconds = 0;
   std::size_t compared = 0;  // numbers that can agree or not
-  std::size_t equal = 0;     // errors: the same power of ten; counts: the same number
-  std::size_t better = 0;    // a smaller power of ten
+  std::array<std::size_t, comparisons.size()> by_kind{};
+  struct Off {
+    std::string place, why;  // "Table 4.1, N = 200, p=8 nu=2 bound: 1.1e3, published 1e2"
+  };
+  std::vector<Off> off;  // numbers a power of ten away that agree nevertheless
   std::vector<std::string> disagreements;
 };
 
-/// "3.2", ..., "4.8"; "6.1", "6.2"
+/// "3.2", ..., "4.9"; "6.1", "6.2"
 std::vector<std::string> table_numbers(TableSet set);
 
 /// `progress` is told the table that is being computed.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "study/fgtd_tables.hpp"
 #include "study/reproduce_fgtd.hpp"
 
 namespace gaussdrift::study {
@@ -26,12 +27,9 @@ std::string number(const Column& column, double value, bool published) {
   switch (column.quantity) {
     case Quantity::count:
       return fmt::format("{:.0f}", value);
-    case Quantity::bound:
     case Quantity::error:
       if (column.digits > 1 && value >= 1e-2) return fmt::format("{:.6f}", value);
-      return short_exponent(column.digits > 1 ? fmt::format("{:.2e}", value)
-                            : published       ? fmt::format("{:.0e}", value)
-                                              : fmt::format("{:.1e}", value));
+      return short_power(value, column.digits > 1 ? 3 : published ? 1 : 2);
     default:
       if (value >= 100) return fmt::format("{:.0f}", value);
       return short_exponent(fmt::format("{:.{}g}", value, column.digits));
@@ -43,7 +41,7 @@ using Cell = std::vector<std::string>;
 
 Cell cell_of(const Column& column, const Entry& entry) {
   Cell cell;
-  if (column.published) cell.push_back(entry.published ? number(column, *entry.published, true) : "");
+  if (!column.printed.empty()) cell.push_back(entry.published ? number(column, *entry.published, true) : "");
   cell.push_back(entry.computed ? number(column, *entry.computed, false) : "");
   if (!agrees(column, entry)) cell.back() += "!";
   if (column.automatic) cell.push_back(entry.automatic ? number(column, *entry.automatic, false) : "");
@@ -52,14 +50,29 @@ Cell cell_of(const Column& column, const Entry& entry) {
 
 Cell heading_of(const Column& column) {
   Cell cell;
-  if (column.published) cell.push_back("then");
-  cell.push_back(column.published || column.automatic ? "now" : "");
+  if (!column.printed.empty()) cell.push_back("then");
+  cell.push_back(!column.printed.empty() || column.automatic ? "now" : "");
   if (column.automatic) cell.push_back("auto");
   return cell;
 }
 
+// "34 arithmetic, 34 order of magnitude": how the numbers of a table are compared.
+std::string comparisons_of(const Table& table) {
+  std::array<std::size_t, comparisons.size()> counts{};
+  for (const Row& row : table.rows)
+    for (std::size_t i = 0; i < row.entries.size(); ++i)
+      for (std::size_t k = 0; k < comparisons.size(); ++k)
+        counts[k] += row.entries[i].published && row.entries[i].computed &&
+                     comparison_of(table.columns[i], row.entries[i]) == comparisons[k];
+  std::string text;
+  for (std::size_t k = 0; k < comparisons.size(); ++k)
+    if (counts[k] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k], to_string(comparisons[k]));
+  return text.empty() ? "nothing, seconds of another machine" : text;
+}
+
 std::string to_text(const Table& table) {
-  std::string text = fmt::format("Schroeder 2006, Table {}: {}\n  {}\n", table.number, table.title, table.what);
+  std::string text = fmt::format("Schroeder 2006, Table {}: {}\n  {}\n  compared: {}\n", table.number, table.title,
+                                 table.what, comparisons_of(table));
   std::vector<std::string> lines(table.rows.size() + 2);  // two of headings
   const auto pad = [&] {
     std::size_t widest = 0;
@@ -97,22 +110,42 @@ nlohmann::ordered_json value(const std::optional<double>& number) {
 }
 
 const char* name(Quantity quantity) {
-  constexpr std::array<const char*, 5> names{"count", "bound", "error", "seconds", "factor"};
+  constexpr std::array names{"count", "error", "seconds", "factor"};
   return names[static_cast<std::size_t>(quantity)];
 }
 
 }  // namespace
 
+std::string short_power(double value, int digits) { return short_exponent(fmt::format("{:.{}e}", value, digits - 1)); }
+
 std::string to_text(const FgtdReproduction& result) {
   std::string text = fmt::format(
       "then: as printed (a 3.05 GHz Pentium 4, 2006); now: method hermite with the same parameters; auto: method "
-      "automatic asked for that error; times on {} thread{}; ! does not agree\n\n",
-      result.threads, result.threads == 1 ? "" : "s");
+      "automatic asked for that error; times on {} thread{}; ! does not agree\n"
+      "compared: arithmetic: follows from a formula and measures nothing, the same number or power of ten; digits: all "
+      "that are printed; order of magnitude: between a third of the printed power of ten and {} times its end; at "
+      "most: "
+      "at most {} times the end of the printed power of ten\n\n",
+      result.threads, result.threads == 1 ? "" : "s", error_slack, error_slack);
   for (const Table& table : result.tables) text += to_text(table) + "\n";
-  text +=
-      fmt::format("{} numbers compared: {} equal or of the printed power of ten, {} better, {} disagree; {:.0f} s\n",
-                  result.compared, result.equal, result.better, result.disagreements.size(), result.seconds);
-  for (const std::string& line : result.disagreements) text += line + "\n";
+  text += fmt::format("{} numbers compared", result.compared);
+  const char* separator = ": ";
+  for (std::size_t k = 0; k < comparisons.size(); ++k) {
+    if (result.by_kind[k] == 0) continue;
+    text += fmt::format("{}{} {}", separator, result.by_kind[k], to_string(comparisons[k]));
+    separator = ", ";
+  }
+  text += fmt::format("; {} disagree; {:.0f} s\n", result.disagreements.size(), result.seconds);
+  for (const std::string& line : result.disagreements) text += "disagrees: " + line + "\n";
+  if (!result.off.empty()) text += fmt::format("a power of ten off, {} numbers:\n", result.off.size());
+  std::vector<std::string> reasons;
+  for (const auto& [place, why] : result.off)
+    if (std::find(reasons.begin(), reasons.end(), why) == reasons.end()) reasons.push_back(why);
+  for (const std::string& reason : reasons) {
+    text += "  " + reason + ":\n";
+    for (const auto& [place, why] : result.off)
+      if (why == reason) text += "    " + place + "\n";
+  }
   return text;
 }
 
@@ -126,6 +159,7 @@ std::string to_json(const FgtdReproduction& result) {
         const Entry& entry = row.entries[i];
         numbers.push_back({{"column", table.columns[i].name},
                            {"quantity", name(table.columns[i].quantity)},
+                           {"comparison", to_string(comparison_of(table.columns[i], entry))},
                            {"published", value(entry.published)},
                            {"computed", value(entry.computed)},
                            {"automatic", value(entry.automatic)},
@@ -135,12 +169,15 @@ std::string to_json(const FgtdReproduction& result) {
     }
     tables.push_back({{"table", table.number}, {"title", table.title}, {"what", table.what}, {"rows", rows}});
   }
+  nlohmann::ordered_json kinds, off = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < comparisons.size(); ++k) kinds[to_string(comparisons[k])] = result.by_kind[k];
+  for (const auto& [place, why] : result.off) off.push_back({{"number", place}, {"why", why}});
   const nlohmann::ordered_json document{{"source", result.source},
                                         {"tables", tables},
                                         {"threads", result.threads},
                                         {"compared", result.compared},
-                                        {"equal", result.equal},
-                                        {"better", result.better},
+                                        {"comparisons", kinds},
+                                        {"off_by_a_power_of_ten", off},
                                         {"disagreements", result.disagreements},
                                         {"seconds", result.seconds}};
   return document.dump(2) + "\n";
