@@ -145,7 +145,7 @@ double spacing_of(const fgtd::Points<d>& points) {
 template <int d>
 [[noreturn]] void refuse(const fgtd::Points<d>& points, double sigma, const GaussianFitOptions& options,
                          const std::string& what) {
-  throw InputError(fmt::format(
+  throw GaussiansTooWide(fmt::format(
       "{}: Gaussians of width {:.4g} can hardly be told apart at samples that lie {:.2g} apart on the average{}; lower "
       "width, remove samples that lie very close together, or {} regularisation (1e-8 is a beginning)",
       what, 1 / std::sqrt(sigma), spacing_of<d>(points),

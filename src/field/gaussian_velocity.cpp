@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "base/error.hpp"
 #include "field/divergence_free.hpp"
@@ -93,11 +94,39 @@ double term_tolerance(GaussianMatrix matrix, const fgtd::Points<d>& points, cons
   }
   const double wanted = tolerance * largest / unit_error;
   if (!(wanted >= fgtd::smallest_tolerance))
-    throw InputError(fmt::format(
+    throw GaussiansTooWide(fmt::format(
         "the Gaussians cancel: together they are {:.1e} times smaller than one by one, so a tolerance of {:.0e} of the "
         "velocity cannot be kept, {:.0e} can; lower width, set regularisation, or raise tolerance",
         unit_error / largest, tolerance, fgtd::smallest_tolerance * unit_error / largest));
   return std::min(wanted, coarsest);
+}
+
+/// The fit that `use` accepts: with the regularisation of the options or, where that may be chosen and Gaussians are
+/// too wide without, with the least that will do. Points at random have some that nearly coincide.
+template <int d, class Use>
+GaussianFit fit_as_needed(const GaussianModelOptions& options, const fgtd::Points<d>& points,
+                          const Eigen::MatrixXd& numbers, double sigma, const Use& use) {
+  const GaussianMatrix sampled = is_curl(options.kind) ? GaussianMatrix::vorticity : GaussianMatrix::field;
+  GaussianFitOptions how = options.fit;
+  const auto fitted = [&] {
+    GaussianFit fit = fit_gaussians<d>(sampled, points, numbers, sigma, how);
+    use(fit, how.regularisation);
+    return fit;
+  };
+  if (!options.regularise) return fitted();
+  std::exception_ptr first;
+  for (const double tried : {0., 1e-12, 1e-10, 1e-8, 1e-6}) {
+    how.regularisation = tried;
+    try {
+      GaussianFit fit = fitted();
+      // A field that misses its samples is not what was asked for; smoothing that much is for the user to decide.
+      constexpr double near_enough = 1e-2;
+      if (tried == 0 || fit.misfit <= near_enough) return fit;
+    } catch (const GaussiansTooWide&) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  std::rethrow_exception(first);
 }
 
 template <int d>
@@ -116,22 +145,29 @@ GaussianModel make_model(const std::vector<double>& positions, const std::vector
 
   model.about = fmt::format("divergence-free Gaussians of width {:.4g} at {} points", model.width, points.cols());
   Eigen::MatrixXd coefficients = numbers;
+  const auto sum = [&] {
+    model.term_tolerance =
+        term_tolerance<d>(model.matrix, points, coefficients, sigma, options.tolerance, options.fit.threads);
+  };
   if (is_fitted(options.kind)) {
-    const GaussianMatrix sampled = is_curl(options.kind) ? GaussianMatrix::vorticity : GaussianMatrix::field;
-    const GaussianFit fit = fit_gaussians<d>(sampled, points, numbers, sigma, options.fit);
-    coefficients = fit.coefficients;
+    const GaussianFit fit = fit_as_needed<d>(options, points, numbers, sigma, [&](const GaussianFit& found, double by) {
+      coefficients = found.coefficients;
+      model.regularisation = by;
+      sum();
+    });
     model.about +=
         fmt::format(", fitted to their {} by {}: residual {:.1e}, samples follow from the others to {:.1e}",
                     options.kind == GaussianKind::velocity ? "velocities" : "vorticities",
                     fit.iterations > 0 ? fmt::format("{} in {} iterations", fit.solver, fit.iterations) : fit.solver,
                     fit.residual, fit.left_out);
-    if (options.fit.regularisation > 0)
-      model.about += fmt::format(", regularisation {:.1e}, samples missed by up to {:.1e} of the largest",
-                                 options.fit.regularisation, fit.misfit);
+    if (model.regularisation > 0)
+      model.about += fmt::format(
+          ", regularisation {:.1e}{}, samples missed by up to {:.1e} of the largest", model.regularisation,
+          options.regularise ? " (chosen: without it the Gaussians can hardly be told apart)" : "", fit.misfit);
+  } else {
+    sum();
   }
   model.about += "; div u = 0";
-  model.term_tolerance =
-      term_tolerance<d>(model.matrix, points, coefficients, sigma, options.tolerance, options.fit.threads);
   const Eigen::MatrixXd by_point = coefficients.transpose();
   model.coefficients.assign(by_point.data(), by_point.data() + by_point.size());
   return model;

@@ -40,6 +40,7 @@ struct GaussianModelOptions {
   GaussianKind kind = GaussianKind::velocity;
   double width = 0;         // of phi = exp(-r^2 / width^2), sigma = 1/width^2; 0: default_gaussian_width
   double tolerance = 1e-8;  // of the velocity, relative to the largest at and near the points
+  bool regularise = false;  // where Gaussians are too wide, by the least of 1e-12, 1e-10, 1e-8 and 1e-6 that will do
   GaussianFitOptions fit = {};
 };
 
@@ -48,6 +49,7 @@ struct GaussianModel {
   int dimension = 2;
   GaussianMatrix matrix = GaussianMatrix::field;  // or curl
   double width = 1;
+  double regularisation = 0;         // of the fit
   double term_tolerance = 1e-8;      // of fgtd, so that the field keeps its tolerance
   std::vector<double> positions;     // [point][dimension]
   std::vector<double> coefficients;  // [point][components]
@@ -59,7 +61,8 @@ struct GaussianModel {
 double default_gaussian_width(int dimension, const std::vector<double>& positions);
 
 /// positions  [point][dimension], at least one;  values  [point][gaussian_values]
-/// Throws InputError if the fit fails, or if the Gaussians cancel so far that the tolerance cannot be kept.
+/// Throws InputError if the fit fails, or if the Gaussians cancel so far that the tolerance cannot be kept, with any
+/// regularisation that may be tried.
 GaussianModel make_gaussian_model(int dimension, const std::vector<double>& positions,
                                   const std::vector<double>& values, const GaussianModelOptions& options);
 

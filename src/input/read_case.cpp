@@ -727,7 +727,9 @@ class Reader {
     if (is_fitted(options.kind)) {
       if (const auto residual = number("velocity", "residual")) spec.residual = options.fit.residual = residual->number;
       if (const auto lambda = number("velocity", "regularisation"))
-        spec.regularisation = options.fit.regularisation = lambda->number;
+        options.fit.regularisation = lambda->number;
+      else
+        options.regularise = true;
     } else {
       for (const char* key : {"residual", "regularisation"})
         if (const Entry* entry = find("velocity", key))
@@ -744,6 +746,7 @@ class Reader {
       const GaussianTable table = read_gaussian_table(spec.file, options.kind, dimension_);
       spec.model = std::make_shared<const GaussianModel>(
           make_gaussian_model(dimension_, table.positions, table.values, options));
+      spec.regularisation = spec.model->regularisation;
     } catch (const Error& error) {
       diagnostics_.error(value.place, error.what());
     }

@@ -213,10 +213,11 @@ std::vector<Key> written_keys() {
       {.table = "velocity",
        .name = "regularisation",
        .type = Type::number,
-       .fallback = "0",
+       .fallback = "",
        .range = {0, infinity},
        .meaning = "of a fit: added to the diagonal of its matrix, relative to that; 0 interpolates the samples, more "
-                  "smooths them",
+                  "smooths them. If it is left out: 0 or, where the Gaussians can hardly be told apart, the least of "
+                  "1e-12, 1e-10, 1e-8 and 1e-6 that will do",
        .with = "gaussians"},
       {.table = "velocity",
        .name = "tolerance",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <string>
 #include <variant>
 
@@ -104,6 +105,56 @@ TEST_F(GaussianTables, AreWrittenIntoTheResolvedCase) {
   EXPECT_EQ(spec_of(again).regularisation, 1e-9);
 }
 
+// Points at random have some that nearly coincide, and Gaussians of the default width can hardly be told apart there.
+TEST_F(GaussianTables, OfRandomPointsAreFittedWithTheLeastRegularisationThatWillDo) {
+  int refused = 0;
+  for (const int seed : {1, 2, 3}) {
+    std::mt19937 random(static_cast<unsigned>(seed));
+    std::uniform_real_distribution<double> coordinate(-1.2, 1.2);
+    {
+      std::ofstream out(folder_ / "random.csv");
+      out.precision(17);
+      out << "x,y,u,v\n";
+      for (int i = 0; i < 480; ++i) {
+        const double x = coordinate(random), y = coordinate(random);
+        out << x << "," << y << "," << std::sin(2 * x) * std::cos(2 * y) << "," << -std::cos(2 * x) * std::sin(2 * y)
+            << "\n";
+      }
+    }
+    const Case scene = read("gaussians = \"random.csv\"");
+    const GaussianModel& model = *spec_of(scene).model;
+    EXPECT_NE(model.about.find("residual "), std::string::npos) << model.about;
+    const bool needed = !message("gaussians = \"random.csv\"\nregularisation = 0").empty();
+    refused += needed;
+    EXPECT_EQ(spec_of(scene).regularisation > 0, needed) << seed;
+    EXPECT_LE(spec_of(scene).regularisation, 1e-6) << seed;
+    EXPECT_EQ(model.about.find("(chosen: without it") != std::string::npos, needed) << model.about;
+    const auto field = make_gaussian_velocity(model, 1, 1);
+    for (const double x : {-0.6, 0.1, 0.5})
+      for (const double y : {-0.4, 0.3}) {
+        double u = 0, v = 0;
+        field->add(0, {2, 1, {&x, &y, nullptr}}, {2, 1, {&u, &v, nullptr}});
+        EXPECT_NEAR(u, std::sin(2 * x) * std::cos(2 * y), 2e-3) << seed;  // samples lie 0.1 apart
+        EXPECT_NEAR(v, -std::cos(2 * x) * std::sin(2 * y), 2e-3) << seed;
+      }
+    // The run's own case file names what was chosen, and gives the same field.
+    const Case again = parse_case(resolved_toml(scene), "elsewhere/run.toml").scene;
+    EXPECT_EQ(spec_of(again).regularisation, spec_of(scene).regularisation);
+    EXPECT_EQ(spec_of(again).model->coefficients, model.coefficients);
+  }
+  EXPECT_GE(refused, 2) << "such points need it";
+  // So do vorticities under wide Gaussians, and points in space.
+  write_rotation("spin.csv", "x,y,omega");
+  EXPECT_GT(spec_of(read("gaussians = \"spin.csv\"\nkind = \"vorticity\"\nwidth = 30")).regularisation, 0);
+  std::ofstream space(folder_ / "space.csv");
+  space << "x,y,z,u,v,w\n";
+  for (int i = 0; i < 64; ++i)
+    space << i % 4 / 3. << "," << i / 4 % 4 / 3. << "," << i / 16 / 3. << "," << -(i / 4 % 4) / 3. << "," << i % 4 / 3.
+          << ",0\n";
+  space.close();
+  EXPECT_GT(spec_of(read("gaussians = \"space.csv\"\nwidth = 20", least)).regularisation, 0);
+}
+
 TEST_F(GaussianTables, GetThePromisedMessages) {
   write_rotation("samples.csv");
   write("header.csv", "x,y,u\n0,0,1\n");
@@ -149,7 +200,8 @@ TEST_F(GaussianTables, GetThePromisedMessages) {
            {"gaussians = \"samples.csv\"\nkind = \"vorticty\"", "did you mean \"vorticity\"?"},
            {"gaussians = \"samples.csv\"\nkind = \"vorticity\"", "the columns must be x,y,omega"},
            {"gaussians = \"samples.csv\"\nwidth = 0", "velocity.width must be greater than 0"},
-           {"gaussians = \"samples.csv\"\nwidth = 30", "Gaussians of width 30 can hardly be told apart"},
+           {"gaussians = \"samples.csv\"\nwidth = 30\nregularisation = 0",
+            "Gaussians of width 30 can hardly be told apart"},
            {"gaussians = \"samples.csv\"\nwidth = 0.05", "do not follow from each other"},
            {"gaussians = \"samples.csv\"\nresidual = 2", "velocity.residual must be"},
            {"gaussians = \"samples.csv\"\ntolerance = 1e-13", "the Gaussians cancel"},
