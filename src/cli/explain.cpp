@@ -9,6 +9,7 @@
 
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "input/effect_rules.hpp"
 #include "input/registry.hpp"
 #include "write/atomic_file.hpp"
 
@@ -35,6 +36,7 @@ void write_guide(const std::filesystem::path& file) {
   std::string guide = text.str();
   replace_part(guide, file, "keys", fmt::format("\n{}\n", input::registry_markdown()));
   replace_part(guide, file, "functions", fmt::format("\n{}\n", input::functions_markdown()));
+  replace_part(guide, file, "effects", fmt::format("\n{}\n", input::effects_markdown()));
   write::write_text(file, guide);
 }
 

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "base/suggest.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "cli/wrong_words.hpp"
 #include "input/read_case.hpp"
 
 namespace gaussdrift::cli {
@@ -210,12 +210,8 @@ ExitCode dispatch(int argc, char** argv) {
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> verbs;
     for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-    if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end()) {
-      const std::optional<std::string> near = base::suggest(argv[1], verbs);
-      throw CommandLineError(
-          fmt::format("there is no verb \"{}\"{}; gaussdrift --help shows the verbs and their options", argv[1],
-                      near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
-    }
+    if (std::find(verbs.begin(), verbs.end(), argv[1]) == verbs.end())
+      throw CommandLineError(unknown_verb(app, argv[1]));
   }
   try {
     app.parse(argc, argv);
@@ -225,7 +221,7 @@ ExitCode dispatch(int argc, char** argv) {
     put(stdout, answer.str());
     return ExitCode::ok;
   } catch (const CLI::ParseError& error) {
-    throw CommandLineError(fmt::format("{}; gaussdrift --help shows the verbs and their options", error.what()));
+    throw CommandLineError(explained(app, error));
   }
   if (new_verb->parsed()) return new_case(new_options);
   if (explain_verb->parsed()) return explain(explain_options);

@@ -10,7 +10,9 @@
 #include <optional>
 #include <system_error>
 
+#include "base/printable.hpp"
 #include "base/suggest.hpp"
+#include "expression/foreign_names.hpp"
 
 namespace gaussdrift::expression {
 namespace {
@@ -64,20 +66,11 @@ Token number_at(const std::string& text, std::size_t position) {
 }
 
 /// Symbols that people try, and what to write instead.
-void refuse_foreign_symbol(const Token& token) {
-  struct Remedy {
-    std::string_view symbol, text;
-  };
-  static constexpr Remedy remedies[] = {
-      {"**", "powers are written a ^ b"},  {"=", "an expression assigns nothing; write == to compare"},
-      {"!", "write a == 0 instead of !a"}, {"&", "write && for \"and\""},
-      {"|", "write || for \"or\""},        {"%", "write mod(a, b) for the remainder"},
-  };
-  for (const auto& remedy : remedies)
-    if (token.text == remedy.symbol)
-      fail(token, fmt::format("there is no operator \"{}\"; {}", token.text, remedy.text));
+[[noreturn]] void refuse_foreign_symbol(const Token& token) {
+  const std::string_view instead = instead_of_symbol(token.text);
+  if (!instead.empty()) fail(token, fmt::format("there is no operator \"{}\"; {}", token.text, instead));
   if (token.text == "\"" || token.text == "'") fail(token, "an expression contains no strings");
-  fail(token, fmt::format("\"{}\" does not belong in an expression", token.text));
+  fail(token, fmt::format("{} does not belong in an expression", base::in_quotes(token.text)));
 }
 
 Token next_token(const std::string& text, std::size_t from) {
@@ -102,7 +95,6 @@ Token next_token(const std::string& text, std::size_t from) {
   std::size_t length = 1;  // a character beyond ASCII is several bytes 10xxxxxx long
   while (from + length < text.size() && (static_cast<unsigned char>(text[from + length]) & 0xC0) == 0x80) ++length;
   refuse_foreign_symbol({Token::Kind::symbol, from, text.substr(from, length)});
-  return {};
 }
 
 bool is_sign(const Token& token) { return token.is("+") || token.is("-"); }
@@ -202,19 +194,31 @@ class Checker {
     operand_wanted_ = false;
   }
 
+  static std::vector<std::string> function_names() {
+    std::vector<std::string> names;
+    for (const auto& function : expression_functions()) names.emplace_back(function.name);
+    return names;
+  }
+
   void unknown(const Token& token, bool called) const {
-    std::vector<std::string> candidates;
-    if (!called) candidates = known_;
-    for (const auto& function : expression_functions()) candidates.emplace_back(function.name);
+    const std::string_view instead = called ? instead_of_function(token.text) : instead_of_name(token.text);
+    if (!instead.empty())
+      fail(token, fmt::format("there is no {} \"{}\"; {}", called ? "function" : "name", token.text, instead));
+    std::vector<std::string> candidates = called ? std::vector<std::string>() : known_;
+    const std::vector<std::string> functions = function_names();
+    candidates.insert(candidates.end(), functions.begin(), functions.end());
     // A single letter is one replacement away from every other: the list of names says more.
     const auto near = token.text.size() > 1 ? base::suggest(token.text, candidates) : std::nullopt;
     std::string remedy;
     if (near) remedy = fmt::format("; did you mean \"{}\"?", *near);
-    if (!near && !called) remedy = fmt::format("; known here: {}", fmt::join(known_, ", "));
+    if (!near) remedy = fmt::format("; known here: {}", fmt::join(called ? functions : known_, ", "));
     fail(token, fmt::format("unknown {} \"{}\"{}", called ? "function" : "name", token.text, remedy));
   }
 
   void operation(const Token& token) {
+    if (token.kind == Token::Kind::name && std::find(known_.begin(), known_.end(), token.text) == known_.end() &&
+        !instead_of_name(token.text).empty())
+      fail(token, fmt::format("there is no operator \"{}\"; {}", token.text, instead_of_name(token.text)));
     if (token.kind != Token::Kind::symbol || token.is("("))
       fail(token, fmt::format("an operator is missing between \"{0}\" and \"{1}\"; write {0} * {1} to multiply",
                               last_.text, token.is("(") ? "(...)" : token.text));

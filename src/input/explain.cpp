@@ -10,6 +10,7 @@
 #include "expression/expression.hpp"
 #include "field/named_fields.hpp"
 #include "field/shapes.hpp"
+#include "input/effect_rules.hpp"
 #include "input/registry.hpp"
 
 namespace gaussdrift::input {
@@ -118,6 +119,12 @@ Explanation about(const Quantity& quantity) {
   return result;
 }
 
+Explanation about_effects() {
+  Explanation result{"tables", "[effects.*]", "what happens beside transport; which of them go together:", {}};
+  for (const std::string& effect : effect_names()) add(result.facts, effect, goes_with(effect));
+  return result;
+}
+
 bool chooses(const Key& key, std::string_view value) {
   return std::find(key.choices.begin(), key.choices.end(), value) != key.choices.end();
 }
@@ -146,6 +153,7 @@ std::vector<std::string> known_words() {
 std::vector<Explanation> explain(std::string_view word) {
   const std::string_view bare = without_brackets(word);
   std::vector<Explanation> found;
+  if (bare == "effects") found.push_back(about_effects());
   for (const Table& table : tables())
     if (table.name == bare) found.push_back(about(table));
   if (bare != word) return found;  // [particles] is nothing else

@@ -20,6 +20,8 @@
 #include "field/shapes.hpp"
 #include "input/diagnostics.hpp"
 #include "input/document.hpp"
+#include "input/effect_rules.hpp"
+#include "input/foreign_keys.hpp"
 #include "input/gaussian_table.hpp"
 #include "input/registry.hpp"
 #include "read/grid_file.hpp"
@@ -151,13 +153,6 @@ class Reader {
     return names;
   }
 
-  static std::vector<std::string> effect_names() {
-    std::vector<std::string> names;
-    for (const std::string& name : table_names())
-      if (name.rfind("effects.", 0) == 0) names.push_back(name.substr(8));
-    return names;
-  }
-
   void check_effects(const Entry& effects) {
     const std::vector<std::string> known = effect_names();
     for (const Entry& entry : effects.value.entries) {
@@ -166,7 +161,7 @@ class Reader {
         diagnostics_.error(entry.place,
                            fmt::format("unknown effect \"{}\"{}", entry.name,
                                        near ? fmt::format("; did you mean [effects.{}]?", *near) : ""),
-                           fmt::format("known effects: {}", fmt::join(known, ", ")));
+                           answer_to(entry.name, fmt::format("known effects: {}", fmt::join(known, ", "))));
       } else if (entry.value.kind != Kind::table) {
         diagnostics_.error(entry.place, fmt::format("effects.{0} must be one table [effects.{0}], found {1}",
                                                     entry.name, entry.value.description()));
@@ -202,11 +197,22 @@ class Reader {
 
   /// "; did you mean "overlap"?" or "; it belongs in [time]".
   std::string remedy_for(const std::string& name, const std::vector<std::string>& known, std::string_view table_name) {
+    if (const ForeignKey* foreign = find_foreign_key(name)) {
+      if (foreign->key.empty()) return "";
+      meant_.emplace_back(foreign->key);
+      return fmt::format("; did you mean {}?", foreign->key);
+    }
     const auto near = base::suggest(name, known);
     if (!near) return home_of(name);
     meant_.push_back(table_name.empty() ? *near : fmt::format("{}.{}", table_name, *near));
     const bool is_table = table_name.empty() && *near != "gaussdrift";
     return fmt::format("; did you mean {}?", is_table ? fmt::format("[{}]", *near) : fmt::format("\"{}\"", *near));
+  }
+
+  /// What is possible in place of a word that other programs have, or else the note.
+  static std::string answer_to(const std::string& name, const std::string& note) {
+    const ForeignKey* foreign = find_foreign_key(name);
+    return foreign ? std::string(foreign->answer) : note;
   }
 
   void unknown_at_top(const Entry& entry, const std::vector<std::string>& known) {
@@ -220,7 +226,7 @@ class Reader {
     diagnostics_.error(entry.place,
                        is_table ? fmt::format("unknown table [{}]{}", entry.name, remedy)
                                 : fmt::format("unknown key \"{}\" at the top of the file{}", entry.name, remedy),
-                       fmt::format("known tables: {}", fmt::join(known, ", ")));
+                       answer_to(entry.name, fmt::format("known tables: {}", fmt::join(known, ", "))));
   }
 
   void check_keys(const Entry& table, const std::string& table_name) {
@@ -229,7 +235,7 @@ class Reader {
       if (std::find(known.begin(), known.end(), entry.name) != known.end()) continue;
       const std::string remedy = remedy_for(entry.name, known, table_name);
       diagnostics_.error(entry.place, fmt::format("unknown key \"{}\" in [{}]{}", entry.name, table_name, remedy),
-                         fmt::format("known keys: {}", fmt::join(known, ", ")));
+                         answer_to(entry.name, fmt::format("known keys: {}", fmt::join(known, ", "))));
     }
   }
 
@@ -333,7 +339,7 @@ class Reader {
           kind.empty() ? all : key_names(home.name, kind, part_->find(std::string(kind))->value.text);
       const std::string remedy = remedy_for(entry.name, known, label_of(home.name));
       diagnostics_.error(entry.place, fmt::format("unknown key \"{}\" in [{}]{}", entry.name, home.name, remedy),
-                         fmt::format("known keys: {}", fmt::join(known, ", ")));
+                         answer_to(entry.name, fmt::format("known keys: {}", fmt::join(known, ", "))));
     }
     const auto kind = exactly_one(home.name, home.kinds);
     if (!kind) return;
@@ -536,7 +542,7 @@ class Reader {
     diagnostics_.error(value.place,
                        fmt::format("unknown value \"{}\" for {}{}", value.text, label,
                                    near ? fmt::format("; did you mean \"{}\"?", *near) : ""),
-                       note);
+                       find_foreign_key(value.text) ? answer_to(value.text, "") + "; " + note : note);
     return std::nullopt;
   }
 
@@ -1181,9 +1187,6 @@ class Reader {
         charge.density = field_expression(density->value, "effects.charge.density", false);
       if (const auto tolerance = number("effects.charge", "tolerance")) charge.tolerance = tolerance->number;
       effects.charge = charge;
-      if (effects.remesh && !charge.density.empty())
-        refuse("charge", "with a density of its own does not go with [effects.remesh]",
-               "remeshing makes new particles, which have weights but no such charge; leave out one of them");
     }
     if (table("effects.vortex")) {
       VortexSpec vortex;
@@ -1194,20 +1197,12 @@ class Reader {
         refuse("vortex", fmt::format("needs particles.cutoff = \"gauss2\", found \"{}\"", particles.cutoff),
                "the velocity of a blob is known for the Gaussian alone");
     }
-    for (const auto& [name, present] :
-         {std::pair{"charge", effects.charge.has_value()}, std::pair{"vortex", effects.vortex.has_value()}}) {
-      if (!present) continue;
-      if (effects.diffusion && effects.diffusion->method == DiffusionSpec::Method::particle_exchange)
-        refuse(name, "does not go with [effects.diffusion] method = \"particle-exchange\"",
-               "particles of its halo come later and cannot be carried from the start; method = \"core-spreading\"");
-      if (effects.diffusion && effects.charge && dimension_ == 3)
-        refuse("charge", "does not go with [effects.diffusion] in three dimensions",
-               "charges are points there, and their field would not see what has diffused; leave out one of them");
-      const bool own = effects.charge && !effects.charge->density.empty() && std::string(name) == "charge";
-      if (effects.reaction && !own)
-        refuse(name, "does not go with [effects.reaction], which changes the weights that move the particles",
-               std::string(name) == "charge" ? "give the charge a density of its own: effects.charge.density"
-                                             : "leave out one of them");
+    for (const EffectRule& rule : effect_rules()) {
+      const std::string effect(rule.effect), other(rule.other);
+      if (!table("effects." + effect) || !table("effects." + other) || !rule.apart(effects, dimension_)) continue;
+      const std::string unless = rule.unless.empty() ? "" : fmt::format(" unless {}", without_backticks(rule.unless));
+      refuse(effect, fmt::format("does not go with [effects.{}]{}: {}", other, unless, rule.reason),
+             fmt::format("{}; {}", rule.remedy, goes_with(effect)));
     }
   }
 

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "cases.hpp"
+#include "input/effect_rules.hpp"
 #include "input/registry.hpp"
 
 namespace gaussdrift::input {
@@ -372,6 +373,8 @@ void expect_in_guide(const std::string& mark, const std::string& generated) {
 }
 
 TEST(CaseGuide, ListsTheKeysOfTheRegistry) { expect_in_guide("keys", "\n" + registry_markdown() + "\n"); }
+
+TEST(CaseGuide, TellsWhichEffectsGoTogether) { expect_in_guide("effects", "\n" + effects_markdown() + "\n"); }
 
 TEST(CaseGuide, ListsTheFunctions) { expect_in_guide("functions", "\n" + functions_markdown() + "\n"); }
 

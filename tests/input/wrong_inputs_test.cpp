@@ -149,6 +149,26 @@ const std::vector<Wrong> wrongs = {
      "gaussdrift must be the version of the format, found the string \"1\"", "begin the file with: gaussdrift = 1"},
     {"gaussdrift = 1", "gausdrift = 1", 1, "gausdrift",
      "unknown key \"gausdrift\" at the top of the file; did you mean \"gaussdrift\"?", tables_note},
+    {"[domain]\n", "[domain]\nperiodic = true\n", 12, "periodic", "unknown key \"periodic\" in [domain]",
+     "the domain is not periodic: particles that leave it do not come back; the velocity may be periodic, as "
+     "sin(2*pi*x), in a domain wide enough for what moves"},
+    {"[domain]\n", "[domain]\nboundary = \"wall\"\n", 12, "boundary", "unknown key \"boundary\" in [domain]",
+     "the domain has no walls: particles move through all of space, and what leaves the domain is not drawn; a "
+     "velocity without flow through a wall keeps them inside, as a streamfunction that is constant along it"},
+    {"[particles]\n", "[Boundary-Conditions]\nleft = 0\n[particles]\n", 24, "Boundary-Conditions",
+     "unknown table [Boundary-Conditions]",
+     "the domain has no walls: particles move through all of space, and what leaves the domain is not drawn; a "
+     "velocity without flow through a wall keeps them inside, as a streamfunction that is constant along it"},
+    {"[time]\nend", "[effects.gravity]\ng = 9.81\n[time]\nend", 29, "gravity", "unknown effect \"gravity\"",
+     "the velocity is prescribed, in [velocity]; no equation of motion is solved"},
+    {"[velocity]\n", "[velocity]\ndiffusivity = 1\n", 16, "diffusivity", "unknown key \"diffusivity\" in [velocity]",
+     "[effects.diffusion] with the coefficient D"},
+    {"step = 0.001", "dt = 0.001", 31, "dt", "unknown key \"dt\" in [time]; did you mean time.step?",
+     "time.step is the time step; method = \"dopri5\" chooses its own"},
+    {"images = [\"surface\"]", "images = [\"png\"]", 42, "\"png\"",
+     "unknown value \"png\" for entry 1 of output.images",
+     "output.vtk writes files for ParaView, series.csv has numbers for every output time, pictures are PNG; known "
+     "values: \"surface\", \"contour\", \"heatmap\", \"slices\", \"projection\", \"isosurface\", \"error\""},
     {"gaussdrift = 1", "gaussdrift = 1\nstep = 0.1", 2, "step",
      "unknown key \"step\" at the top of the file; it belongs in [time]", tables_note},
     {"[evaluate]", "[evaluation]", 34, "evaluation", "unknown table [evaluation]; did you mean [evaluate]?",

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "program/program.hpp"
 
@@ -35,6 +37,33 @@ TEST(CommandLine, NamesTheVerbThatWasMeant) {
   const Outcome refused = gaussdrift_in(folder, "chekc small.toml");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("there is no verb \"chekc\"; did you mean \"check\"?"), std::string::npos) << refused.err;
+}
+
+TEST(CommandLine, NamesTheOptionThatWasMeant) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  write_file(folder / "S.csv", "x,weight\n0,1\n");
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {"run small.toml --frce", "run has no option \"--frce\", did you mean --force?"},
+      {"run small.toml --acc 1e-3", "did you mean --accuracy?"},
+      {"run small.toml -force", "run has no option \"-force\", did you mean --force?"},
+      {"run small.toml --time.step=0.1", "keys of the case are set by --set time.step=0.1"},
+      {"check small.toml --force", "check has no option \"--force\"; it belongs to new, run, study"},
+      {"sum --source S.csv --sigma 1", "sum has no option \"--source\", did you mean --sources?"},
+      {"sum --sources S.csv --sigma 1 --toleranc=1e-3", "did you mean --tolerance?"},
+      {"run small.toml more.toml", "\"more.toml\" is one word too many; gaussdrift run --help shows its options"},
+      {"small.toml", "to run the case write: gaussdrift run small.toml"},
+      {"plot small.toml", "there is no verb \"plot\"; did you mean \"render\"?"},
+      {"run small.toml --\x1b[31m", "run has no option \"--\\x1b[31m\""}};
+  for (const auto& [arguments, said] : wrong) {
+    std::string quoted;
+    for (const char c : arguments) quoted += c == '\x1b' ? "\"$(printf '\\033')\"" : std::string(1, c);
+    const Outcome refused = gaussdrift_in(folder, quoted);
+    EXPECT_EQ(refused.exit_code, 2) << arguments;
+    EXPECT_NE(refused.err.find(said), std::string::npos) << arguments << "\n" << refused.err;
+    EXPECT_EQ(refused.out, "") << arguments;
+  }
+  EXPECT_FALSE(fs::exists(folder / "output"));
 }
 
 TEST(CommandLine, NoticesThatStandardOutputCannotBeWritten) {
