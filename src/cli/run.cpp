@@ -19,6 +19,7 @@
 #include "study/budget.hpp"
 #include "study/describe.hpp"
 #include "study/report.hpp"
+#include "study/reproduce_claims.hpp"
 #include "study/reproduce_cone.hpp"
 #include "study/reproduce_coulomb.hpp"
 #include "study/reproduce_fgtd.hpp"
@@ -405,6 +406,21 @@ ExitCode reproduce_cone(const ReproduceOptions& options) {
   return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;
 }
 
+ExitCode reproduce_claims(const ReproduceOptions& options) {
+  if (!options.table.empty() || options.full)
+    throw CommandLineError(
+        "the claims have no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
+  study::ClaimsOptions claims;
+  if (options.threads > 0) claims.threads = options.threads;
+  study::ClaimsReproduction result;
+  {
+    ProgressLine line;
+    result = study::reproduce_claims(claims, [&](const std::string& what) { line.show(what); });
+  }
+  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  return ExitCode::ok;
+}
+
 ExitCode reproduce_coulomb(const ReproduceOptions& options) {
   if (!options.table.empty()) throw CommandLineError("coulomb is one table; leave the number away");
   study::CoulombOptions coulomb;
@@ -474,18 +490,21 @@ ExitCode reproduce(const ReproduceOptions& options) {
   if (options.what == "figures") return reproduce_figures(options);
   if (options.what == "coulomb") return reproduce_coulomb(options);
   if (options.what == "logkernel") return reproduce_logkernel(options);
+  if (options.what == "claims") return reproduce_claims(options);
   if (options.what == "cone") return reproduce_cone(options);
   if (options.what == "fgtd") return reproduce_tables(study::TableSet::fgtd, options);
   if (options.what == "divergence") return reproduce_tables(study::TableSet::divergence, options);
   if (!options.what.empty())
-    throw CommandLineError(fmt::format(
-        "nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, coulomb, logkernel",
-        options.what));
+    throw CommandLineError(
+        fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, claims, "
+                    "coulomb, logkernel",
+                    options.what));
   say("tables that can be reproduced:\n"
       "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
       "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
       "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"
       "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n"
+      "  claims      what the text of Schroeder 2006 claims outside its tables, and whether it holds\n"
       "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n"
       "  logkernel   ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project 6\n",
       fmt::join(study::table_numbers(study::TableSet::fgtd), ", "),

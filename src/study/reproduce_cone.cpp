@@ -42,20 +42,6 @@ constexpr int evaluation_points = 700;  // n_ge
 constexpr double step = 0.001;          // tau
 constexpr Vector low{-1, -1, 0}, high{1, 1, 0};
 
-struct Cone {
-  Lattice seeding;
-  Particles particles;
-};
-
-Cone seed_cone(int per_axis, int threads) {
-  const RadialDensity wendland(RadialDensity::Profile::wendland, 2, {0.5, 0, 0}, 0.25, 1);
-  Cone cone;
-  cone.seeding = make_lattice(2, low, high, per_axis);
-  cone.particles = seed(
-      cone.seeding, [&](const PointsView& x, double* values) { wendland.add(x, values); }, threads);
-  return cone;
-}
-
 double height(const Cone& cone, int overlap, int threads) {
   static const Lattice grid = make_lattice(2, low, high, evaluation_points);
   DensityOptions options;
@@ -68,6 +54,15 @@ double height(const Cone& cone, int overlap, int threads) {
 }
 
 }  // namespace
+
+Cone seed_cone(int per_axis, int threads) {
+  const RadialDensity wendland(RadialDensity::Profile::wendland, 2, {0.5, 0, 0}, 0.25, 1);
+  Cone cone;
+  cone.seeding = make_lattice(2, low, high, per_axis);
+  cone.particles = seed(
+      cone.seeding, [&](const PointsView& x, double* values) { wendland.add(x, values); }, threads);
+  return cone;
+}
 
 ConeReproduction reproduce_cone(int threads, const std::function<void(std::size_t, std::size_t)>& progress) {
   const base::Stopwatch watch;

@@ -5,7 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "base/lattice.hpp"
+#include "particle/particles.hpp"
+
 namespace gaussdrift::study {
+
+/// The cone at t = 0: Wendland's function of radius 1/4 at (1/2, 0), on a lattice over [-1, 1]^2 [Sch06, 5.3.2].
+struct Cone {
+  Lattice seeding;
+  Particles particles;
+};
+Cone seed_cone(int per_axis, int threads);
 
 struct ConeHeight {
   int table = 51;    // 51: Table 5.1, 52: Table 5.2
