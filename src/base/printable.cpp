@@ -32,9 +32,10 @@ Character first_character(std::string_view text) {
   return {length, code};
 }
 
-/// Second half of the control characters, ends of lines, marks of direction, the byte-order mark.
+/// The last control characters, ends of lines, marks of direction, the byte-order mark: those that JSON leaves as they
+/// are, so that its text stays JSON.
 bool is_unseen(unsigned code) {
-  return (code >= 0x80 && code < 0xA0) || code == 0x061C || (code >= 0x200E && code <= 0x200F) ||
+  return (code >= 0x7F && code < 0xA0) || code == 0x061C || (code >= 0x200E && code <= 0x200F) ||
          (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
 }
 
@@ -43,7 +44,7 @@ std::string shown(std::string_view text, bool lines) {
   result.reserve(text.size());
   while (!text.empty()) {
     const auto [length, code] = first_character(text);
-    const bool control = code < 0x20 || code == 0x7F;
+    const bool control = code < 0x20;
     if (length == 0 || (control && !(lines && (code == '\n' || code == '\t'))))
       result += "\\x" + hexadecimal(static_cast<unsigned char>(text[0]), 2);
     else if (is_unseen(code))

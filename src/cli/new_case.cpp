@@ -81,7 +81,8 @@ ExitCode new_case(const NewOptions& options) {
     if (!options.json) say("wrote  {}\n", path.string());
   }
   if (options.json)
-    say("{}\n", nlohmann::ordered_json{{"written", written}}.dump(2));
+    say("{}\n", nlohmann::ordered_json{{"written", written}}.dump(2, ' ', false,
+                                                                  nlohmann::ordered_json::error_handler_t::replace));
   else
     say("next   gaussdrift run {}\n", (options.folder / (wanted + ".toml")).string());
   return ExitCode::ok;

@@ -81,7 +81,8 @@ void ProgressLine::show(const std::string& text) {
   last_ = now;
   terminal_ = terminal_ && rewrites_lines();  // a window may have been made narrow
   if (terminal_) {
-    note("\r\033[K{}", cut(text, columns() - 1));
+    put(stderr, "\r\033[K");
+    note("{}", cut(base::printable(text), columns() - 1));
     visible_ = true;
   } else {
     note("{}\n", text);
@@ -89,7 +90,7 @@ void ProgressLine::show(const std::string& text) {
 }
 
 void ProgressLine::clear() {
-  if (visible_) note("\r\033[K");
+  if (visible_) put(stderr, "\r\033[K");
   visible_ = false;
 }
 

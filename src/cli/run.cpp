@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/parallel.hpp"
+#include "base/printable.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
@@ -368,7 +369,7 @@ ExitCode run(const RunOptions& options) {
   std::string log;
   for (const std::string& warning : warnings) log += "warning: " + warning + "\n";
   for (const std::string& why : owed.missing()) log += "error: " + why + "\n";
-  owed.attempt([&] { write::write_text(folder / "log.txt", log + ending); });
+  owed.attempt([&] { write::write_text(folder / "log.txt", base::printable_lines(log + ending)); });
 
   for (const std::string& warning : warnings) note("warning: {}\n", warning);
   put(stdout, options.scene.json ? json : ending);

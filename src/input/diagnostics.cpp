@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "base/printable.hpp"
+
 namespace gaussdrift::input {
 namespace {
 
@@ -15,20 +17,40 @@ std::size_t character_count(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return !continues_character(c); }));
 }
 
-/// Control characters would garble a terminal; tabs stay, because the caret line repeats them.
-std::string printable(std::string_view line) {
-  std::string shown(line);
-  for (char& c : shown)
-    if ((static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F) c = '?';
-  return shown;
+/// Of a message or note: names in it may be as long as the file.
+std::string told(const std::string& text) {
+  constexpr std::size_t longest = 2000;
+  return base::printable(base::shortened(text, longest));
 }
 
-/// Blanks as wide as `before`, then carets under `marked`.
+/// Blanks as wide as `before`, then carets under `marked`; tabs stay, so that they reach as far as in the line.
 std::string caret_line(std::string_view before, std::string_view marked) {
   std::string carets;
   for (char c : before)
     if (!continues_character(c)) carets += c == '\t' ? '\t' : ' ';
   return carets + std::string(std::max<std::size_t>(1, character_count(marked)), '^');
+}
+
+/// A line of the file as it is shown, and the carets below it: printable, and of a long line what is around the place.
+struct Shown {
+  std::string line, carets;
+};
+
+Shown shown(std::string_view line, std::size_t column, std::size_t length) {
+  constexpr std::size_t around = 100;  // bytes
+  std::string_view before = line.substr(0, std::min(column, line.size()));
+  const std::string_view marked = line.substr(before.size(), length),
+                         after = line.substr(before.size() + marked.size());
+  std::string left;
+  if (before.size() > around) {
+    before.remove_prefix(before.size() - around);
+    while (!before.empty() && continues_character(before.front())) before.remove_prefix(1);
+    left = "...";
+  }
+  left += base::printable_lines(before);
+  const std::string middle = base::printable_lines(base::shortened(marked, around));
+  const std::string right = base::printable_lines(base::shortened(after, marked.size() > around ? 0 : around));
+  return {left + middle + right, caret_line(left, middle)};
 }
 
 }  // namespace
@@ -84,18 +106,18 @@ std::string Diagnostics::layout(const Entry& entry) const {
   const Place& place = entry.place;
   const std::string_view line = source_.line(place);
   const std::string_view before = line.substr(0, std::min(place.column, line.size()));
-  const std::string carets = caret_line(before, source_.text(place));
-  std::string text = fmt::format("{}: {}\n", entry.kind, printable(entry.message));
+  const Shown lines = shown(line, place.column, source_.text(place).size());
+  std::string text = fmt::format("{}: {}\n", entry.kind, told(entry.message));
   std::string margin = "  ";
   if (place.override_index >= 0) {
-    text += fmt::format("  --> --set {}\n            {}\n", printable(line), carets);
+    text += fmt::format("  --> --set {}\n            {}\n", lines.line, lines.carets);
   } else {
     const std::string number = std::to_string(place.line);
     margin = std::string(number.size(), ' ');
-    text += fmt::format("{0}--> {1}:{2}:{3}\n{0} |\n{2} | {4}\n{0} | {5}\n", margin, source_.name(), place.line,
-                        character_count(before) + 1, printable(line), carets);
+    text += fmt::format("{0}--> {1}:{2}:{3}\n{0} |\n{2} | {4}\n{0} | {5}\n", margin, base::printable(source_.name()),
+                        place.line, character_count(before) + 1, lines.line, lines.carets);
   }
-  if (!entry.note.empty()) text += fmt::format("{} = {}\n", margin, printable(entry.note));
+  if (!entry.note.empty()) text += fmt::format("{} = {}\n", margin, told(entry.note));
   return text;
 }
 
@@ -112,7 +134,7 @@ std::string Diagnostics::error_text() const {
     text += layout(entry) + "\n";
     in_overrides = in_overrides || entry.place.override_index >= 0;
   }
-  return text + fmt::format("{} error{} in {}{}", errors(), errors() == 1 ? "" : "s", source_.name(),
+  return text + fmt::format("{} error{} in {}{}", errors(), errors() == 1 ? "" : "s", base::printable(source_.name()),
                             in_overrides ? " and --set" : "");
 }
 

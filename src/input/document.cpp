@@ -8,6 +8,8 @@
 #include <sstream>
 #include <tuple>
 
+#include "base/printable.hpp"
+
 namespace gaussdrift::input {
 namespace {
 
@@ -224,7 +226,7 @@ std::string Value::description() const {
     case Kind::list:
       return "a list";
     case Kind::text:
-      return fmt::format("the string \"{}\"", text.size() <= 40 ? text : text.substr(0, 37) + "...");
+      return "the string " + base::in_quotes(text, 40);
     case Kind::whole:
       return fmt::format("the number {}", whole);
     case Kind::number:

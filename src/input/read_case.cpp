@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/lattice.hpp"
+#include "base/printable.hpp"
 #include "base/suggest.hpp"
 #include "base/text_file.hpp"
 #include "expression/expression.hpp"
@@ -42,6 +43,13 @@ std::string without_backticks(std::string_view text) {
   std::string plain(text);
   std::erase(plain, '`');
   return plain;
+}
+
+/// Titles go to terminals, pages and pictures.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return base::printable(text);
 }
 
 std::string meaning_note(const Key& key) { return fmt::format("{}: {}", key.name, without_backticks(key.meaning)); }
@@ -83,8 +91,8 @@ class Reader {
     check_names();
     read_version();
     check_tables();
-    scene.title = text("case", "title");
-    scene.cite = text("case", "cite");
+    scene.title = one_line(text("case", "title"));
+    scene.cite = one_line(text("case", "cite"));
     read_params(scene.params);
     read_domain(scene.domain);
     read_velocity(scene.velocity);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/printable.hpp"
 #include "render/panel.hpp"
 #include "render/picture.hpp"
 #include "study/written_densities.hpp"
@@ -33,7 +34,7 @@ std::string read_text(const fs::path& file) {
 
 std::string escaped(const std::string& text) {
   std::string safe;
-  for (const char c : text) {
+  for (const char c : base::printable_lines(text)) {
     if (c == '&')
       safe += "&amp;";
     else if (c == '<')

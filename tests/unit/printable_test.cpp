@@ -9,7 +9,7 @@ namespace {
 TEST(Printable, ShowsControlCharactersAndForeignBytesAsNumbers) {
   EXPECT_EQ(printable("plain text, 100 %"), "plain text, 100 %");
   EXPECT_EQ(printable("\x1b[31mred\x07"), "\\x1b[31mred\\x07");
-  EXPECT_EQ(printable(std::string_view("a\0b\x7f", 4)), "a\\x00b\\x7f");
+  EXPECT_EQ(printable(std::string_view("a\0b\x7f", 4)), "a\\x00b\\u007f");
   EXPECT_EQ(printable("one\ntwo\tthree"), "one\\x0atwo\\x09three");
   EXPECT_EQ(printable_lines("one\ntwo\tthree\r"), "one\ntwo\tthree\\x0d");
 }
