@@ -98,6 +98,21 @@ struct Values {
   Points<d> field;            // d x targets
 };
 
+/// What one evaluation does, counted.
+struct Work {
+  double pairs = 0;             // of a source and a target
+  double substitute_pairs = 0;  // of a substitute charge and a target, or of a source and a substitute target
+  double couplings = 0;         // of two clusters
+};
+
+/// Where the seconds of one evaluation went.
+struct Seconds {
+  double forward = 0;   // from charges to clusters
+  double coupling = 0;  // between clusters
+  double backward = 0;  // from clusters to targets
+  double leaves = 0;    // pair by pair; in `tree` also the substitute charges, in `direct` everything
+};
+
 struct Choice {
   Kernel kernel = Kernel::coulomb;
   Method method = Method::direct;
@@ -106,6 +121,7 @@ struct Choice {
   double seconds = 0;    // predicted for one evaluation and its share of the plan, one thread
   std::size_t sources = 0;
   std::size_t targets = 0;
+  Work work;
   // tree and symmetric only
   int degree = 0;  // highest degree of the interpolating polynomials
   std::size_t leaf_size = 0;
@@ -145,8 +161,10 @@ class Plan {
   Plan(Plan&&) noexcept;
   Plan& operator=(Plan&&) noexcept;
 
-  /// charges  N, finite. Throws InvalidArgument, RangeError.
-  Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges) const;
+  /// charges  N, finite
+  /// seconds  told where the time went, if it is not null
+  /// Throws InvalidArgument, RangeError.
+  Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds* seconds = nullptr) const;
 
   const Choice& choice() const;
 

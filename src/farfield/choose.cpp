@@ -41,6 +41,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
     choice.method = Method::direct;
     choice.bound = error_of(Precision::full);
     choice.seconds = direct_seconds;
+    choice.work = {.pairs = pairs};
     return std::make_unique<Direct>(problem, options.threads);
   };
   const bool any = options.method == Method::automatic;
@@ -97,6 +98,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   std::shared_ptr<const Operators<d>> operators;  // a single cluster needs none
   if (choice.clusters > 1) operators = Operators<d>::get(degrees, couple, options.threads);
   Partition partition = make_partition<d>(tree, costs.nodes(), couple, options.threads);
+  choice.work = work_of<d>(partition, tree, costs.nodes());
   typename Clustered<d>::Parts parts{std::move(tree), std::move(partition), std::move(operators), precisions,
                                      options.threads};
   std::unique_ptr<Clustered<d>> clustered;

@@ -24,7 +24,8 @@ double Clustered<d>::evaluation_bytes() const {
 }
 
 template <int d>
-void Clustered<d>::evaluate(const Buffer<double>& charges, Sums& sums) const {
+void Clustered<d>::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& seconds) const {
+  Laps laps;
   const auto& sources = tree_.sources().original;
   const auto& targets = tree_.targets().original;
   Buffer<double> sorted(sources.size() + padding);
@@ -35,9 +36,12 @@ void Clustered<d>::evaluate(const Buffer<double>& charges, Sums& sums) const {
   for (std::size_t l = 0; l < d; ++l) found.field[l].assign(targets.size() + padding, 0.0);
 
   if (operators_) {
-    add_all(sorted, forward<d>(tree_, *operators_, sorted, threads_), found);
+    const PerCluster moments = forward<d>(tree_, *operators_, sorted, threads_);
+    seconds.forward = laps.lap();
+    add_all(sorted, moments, found, seconds);
   } else {
     add_at_leaves(sorted, {}, found);
+    seconds.leaves = laps.lap();
   }
 
   for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -68,8 +72,11 @@ void Clustered<d>::add_at_leaves(const Buffer<double>& charges, const PerCluster
 }
 
 template <int d>
-void TreeMethod<d>::add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const {
+void TreeMethod<d>::add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums,
+                            Seconds& seconds) const {
+  Laps laps;
   this->add_at_leaves(charges, moments, sums);
+  seconds.leaves = laps.lap();
 }
 
 template <int d>
@@ -79,15 +86,20 @@ double SymmetricMethod<d>::evaluation_bytes() const {
 }
 
 template <int d>
-void SymmetricMethod<d>::add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const {
+void SymmetricMethod<d>::add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums,
+                                 Seconds& seconds) const {
+  Laps laps;
   PerCluster coefficients(this->tree_.clusters().size() * this->operators_->functions());
   std::fill(coefficients.begin(), coefficients.end(), 0.0);
   gaussdrift::base::parallel_for(this->partition_.couplings.size(), this->threads_,
                                  [&](std::size_t c) { couple(this->partition_.couplings[c], moments, coefficients); });
   add_from_points(charges, coefficients);
+  seconds.coupling = laps.lap();
   backward<d>(this->tree_, *this->operators_, coefficients, d == 3 ? -1 : 1, this->problem_.potential, this->threads_,
               sums);
+  seconds.backward = laps.lap();
   this->add_at_leaves(charges, moments, sums);
+  seconds.leaves = laps.lap();
 }
 
 // In units of the clusters' side h: 1/(h r) = 1/h 1/r and ln(h r) = ln h + ln r.

@@ -23,12 +23,13 @@ class Clustered : public Summation {
   };
   Clustered(const Problem& problem, Parts parts);
 
-  void evaluate(const Buffer<double>& charges, Sums& sums) const final;
+  void evaluate(const Buffer<double>& charges, Sums& sums, Seconds& seconds) const final;
   double evaluation_bytes() const override;
 
  protected:
   /// Charges and sums in the order of the tree.
-  virtual void add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const = 0;
+  virtual void add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums,
+                       Seconds& seconds) const = 0;
 
   /// Runs pair by pair, and smaller clusters of sources by substitute charges, at all leaves of targets.
   void add_at_leaves(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const;
@@ -48,7 +49,7 @@ class TreeMethod : public Clustered<d> {
   using Clustered<d>::Clustered;
 
  protected:
-  void add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const override;
+  void add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums, Seconds& seconds) const override;
 };
 
 template <int d>
@@ -58,7 +59,7 @@ class SymmetricMethod : public Clustered<d> {
   double evaluation_bytes() const override;
 
  protected:
-  void add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const override;
+  void add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums, Seconds& seconds) const override;
 
  private:
   void couple(const CouplingChunk& chunk, const PerCluster& moments, PerCluster& coefficients) const;

@@ -6,7 +6,8 @@
 
 namespace farfield::detail {
 
-void Direct::evaluate(const Buffer<double>& charges, Sums& sums) const {
+void Direct::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& seconds) const {
+  Laps laps;
   constexpr std::size_t piece = 128;  // targets; a source serves all of them while it is in the cache
   const Coordinates& target = problem_.target_points();
   const Range all{0, problem_.sources};
@@ -29,6 +30,7 @@ void Direct::evaluate(const Buffer<double>& charges, Sums& sums) const {
     job.potential = problem_.potential ? sums.potential.data() : nullptr;
     fastest_kernels().pairs(job);
   });
+  seconds.leaves = laps.lap();
 }
 
 }  // namespace farfield::detail

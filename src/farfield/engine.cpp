@@ -109,7 +109,7 @@ Engine<d>::Engine(Kernel kernel, const Eigen::Ref<const Points<d>>& sources, con
 }
 
 template <int d>
-Values<d> Engine<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges) const {
+Values<d> Engine<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds& seconds) const {
   check_charges(charges, problem_.sources);
   const std::size_t targets = problem_.targets,
                     outputs = static_cast<std::size_t>(problem_.dimension() + problem_.potential);
@@ -130,7 +130,7 @@ Values<d> Engine<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges) 
   if (problem_.potential) sums.potential.assign(targets + padding, 0.0);
   for (std::size_t l = 0; l < static_cast<std::size_t>(problem_.dimension()); ++l)
     sums.field[l].assign(targets + padding, 0.0);
-  summation_->evaluate(scaled, sums);
+  summation_->evaluate(scaled, sums, seconds);
 
   // Back to the caller's units: 1/r and 1/r^2 in 3D; ln r, which knows its unit already, and 1/r in 1D and 2D.
   const bool inverse = problem_.interaction == Interaction::inverse;

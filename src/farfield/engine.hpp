@@ -18,7 +18,7 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges) const;
+  Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds& seconds) const;
   const Choice& choice() const { return choice_; }
 
  private:

@@ -228,6 +228,28 @@ Partition make_partition(const Tree<d>& tree, std::size_t enough, bool couple, i
   return Maker<d>(tree, enough, couple, threads).make();
 }
 
+template <int d>
+Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes) {
+  Work work;
+  const auto& clusters = tree.clusters();
+  const auto nodes_of = static_cast<double>(nodes);
+  for (const CouplingChunk& chunk : partition.couplings) work.couplings += static_cast<double>(chunk.pairs.size());
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    const auto targets = static_cast<double>(clusters[i].target_count());
+    for (std::size_t n = 0; n < partition.runs.count(i); ++n) {
+      const Range& run = partition.runs.first(i)[n];
+      work.pairs += targets * static_cast<double>(run.end - run.begin);
+    }
+    work.substitute_pairs += targets * nodes_of * static_cast<double>(partition.from_clusters.count(i));
+    for (std::size_t n = 0; n < partition.from_points.count(i); ++n)
+      work.substitute_pairs +=
+          nodes_of * static_cast<double>(clusters[partition.from_points.first(i)[n]].source_count());
+  }
+  return work;
+}
+
+template Work work_of<2>(const Partition&, const Tree<2>&, std::size_t);
+template Work work_of<3>(const Partition&, const Tree<3>&, std::size_t);
 template Partition make_partition<2>(const Tree<2>&, std::size_t, bool, int);
 template Partition make_partition<3>(const Tree<3>&, std::size_t, bool, int);
 

@@ -52,4 +52,8 @@ struct Partition {
 template <int d>
 Partition make_partition(const Tree<d>& tree, std::size_t enough, bool couple, int threads);
 
+/// What is done for one evaluation, with so many nodes in place of a cluster.
+template <int d>
+Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes);
+
 }  // namespace farfield::detail

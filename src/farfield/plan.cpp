@@ -21,8 +21,11 @@ template <int d>
 Plan<d>& Plan<d>::operator=(Plan&&) noexcept = default;
 
 template <int d>
-Values<d> Plan<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges) const {
-  return engine_->evaluate(charges);
+Values<d> Plan<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds* seconds) const {
+  Seconds spent;
+  Values<d> values = engine_->evaluate(charges, spent);
+  if (seconds) *seconds = spent;
+  return values;
 }
 
 template <int d>

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 
 #include "farfield/buffer.hpp"
+#include "farfield/farfield.hpp"
 #include "farfield/kernels.hpp"
 
 namespace farfield::detail {
@@ -32,11 +34,25 @@ struct Sums {
   Coordinates field;
 };
 
+/// Seconds since the last lap.
+class Laps {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = now - last_;
+    last_ = now;
+    return passed.count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
 /// Sums for charges (padded, by source); what a method has prepared.
 class Summation {
  public:
   virtual ~Summation() = default;
-  virtual void evaluate(const Buffer<double>& charges, Sums& sums) const = 0;
+  virtual void evaluate(const Buffer<double>& charges, Sums& sums, Seconds& seconds) const = 0;
   virtual double evaluation_bytes() const = 0;
 };
 

@@ -7,12 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "farfield/farfield.hpp"
+
 namespace gaussdrift::study {
 
 struct CoulombTime {
   std::optional<double> published_seconds, published_error;
-  std::optional<double> seconds;  // plan and one evaluation, potential and force
-  std::optional<double> error;    // of the forces, root of the sum of squares, relative to that of the forces
+  std::optional<double> published_forward, published_coupling;  // of tree: its seconds in two parts
+  std::optional<double> seconds;                                // plan and one evaluation, potential and force
+  double setup = 0;                                             // of these, the plan
+  farfield::Seconds parts;                                      // and the evaluation
+  farfield::Work work;                                          // of one evaluation
+  std::optional<double> error;  // of the forces, root of the sum of squares, relative to that of the forces
 };
 
 struct CoulombRow {
@@ -23,7 +29,11 @@ struct CoulombRow {
 struct CoulombReproduction {
   std::vector<CoulombRow> rows;
   std::vector<std::string> disagreements;  // where an error is larger than the published one
-  std::optional<double> growth;            // exponent p of seconds ~ N^p by symmetric, from the first to the last row
+  // Exponents p of N^p by symmetric, from an eighth of the last row's particles to these; none without such a row.
+  struct Growth {
+    double seconds = 0, pairs = 0, couplings = 0;
+  };
+  std::optional<Growth> growth;
   int threads = 1;
   double seconds = 0;
 };
