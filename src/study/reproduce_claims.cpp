@@ -134,6 +134,34 @@ class ConeDensity {
   Eigen::MatrixXd weights_, exact_;
 };
 
+/// Numbers of chapters 3 and 4 that follow from a formula.
+void formulas(const Printed& printed, std::vector<Claim>& claims) {
+  constexpr double p = 8, n = 2, sources = 10000, boxes = (2 * n + 1) * (2 * n + 1);
+  const double even = std::ceil(p * p * sources / (sources - boxes * p * p));
+  claims.push_back({printed.section("break_even"), "break-even",
+                    "d = 2, p = 8, n = 2: evaluations from which 10 000 sources pay; p^d N / (N - (2n+1)^d p^d)",
+                    printed.text("break_even"), even, even == printed("break_even"), "by arithmetic"});
+  for (const auto& [name, terms, nu] :
+       {std::tuple{"factor_of_the_bound_p8_nu2", 8, 2}, {"factor_of_the_bound_p9_nu3", 9, 3}}) {
+    const double factor = fgtd::hermite_bound<3>(1.0 / nu, terms, all_boxes, {0, 1, 2}).value() * std::pow(2.0, 1.5);
+    claims.push_back(
+        {printed.section(name), fmt::format("bound, nu = {}", nu),
+         fmt::format("(3.5) over Q for p = {}, nu = {}, alpha = (0,1,2), sigma = 2, as a power of ten", terms, nu),
+         printed.text(name), factor, std::floor(std::log10(factor)) == std::round(std::log10(printed(name))),
+         "by arithmetic; the bounds of Table 4.1 are smaller than this factor times Q"});
+  }
+  const double r = std::sqrt(10000.0 / 2) / 4;
+  claims.push_back({printed.section("box_scale_of_10000"), "r of 10 000",
+                    "r of 4 boxes an axis for sigma = 10 000: sqrt(sigma/2)/4", printed.text("box_scale_of_10000"), r,
+                    std::abs(r - printed("box_scale_of_10000")) <= 0.5e-4,
+                    "by arithmetic; (3.5) says nothing for r >= 1"});
+  const double grids = fgtd::hermite_bound<2>(0.25, 9, 20, {}).value();
+  claims.push_back({printed.section("error_of_grids"), "error of grids",
+                    "error below Q 1e-8 for p = 9, r = 0.25, n = 20, d = 2, alpha = 0 by (3.5), over Q",
+                    printed.text("error_of_grids"), grids, grids < printed("error_of_grids"),
+                    "of that order, not below; what is measured is far smaller (Table 4.7)"});
+}
+
 void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
   const double r = printed("box_scale"), n = printed("neighbours_of_figures");
   const double bound = box_error(r, n), left = measured_box_error(r, static_cast<int>(n));
@@ -280,6 +308,7 @@ ClaimsReproduction reproduce_claims(const ClaimsOptions& options,
   const base::Stopwatch watch;
   const Printed printed;
   ClaimsReproduction result;
+  formulas(printed, result.claims);
   choice_of_parameters(printed, result.claims);
   if (progress) progress("the rotating cone");
   rotating_cone(printed, options, result.claims);
@@ -287,14 +316,23 @@ ClaimsReproduction reproduce_claims(const ClaimsOptions& options,
   return result;
 }
 
+namespace {
+
+std::string shown(double value) {
+  const bool whole = value == std::round(value) && value < 1e7;
+  return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, value > 1 ? 6 : 3);
+}
+
+}  // namespace
+
 std::string to_text(const ClaimsReproduction& result) {
   std::string text = "Schroeder 2006, what the text claims outside its tables: printed, and computed here\n\n";
   std::size_t hold = 0, fail = 0;
   for (const Claim& claim : result.claims) {
     const char* verdict = !claim.holds ? "" : *claim.holds ? "holds" : "does not hold";
     if (claim.holds) ++(*claim.holds ? hold : fail);
-    text += fmt::format("{:<6} {:<22} {:>10} {:>10.4g}  {}\n       {}\n", claim.section, claim.name,
-                        claim.printed.empty() ? "-" : claim.printed, claim.computed, verdict, claim.what);
+    text += fmt::format("{:<6} {:<22} {:>10} {:>10}  {}\n       {}\n", claim.section, claim.name,
+                        claim.printed.empty() ? "-" : claim.printed, shown(claim.computed), verdict, claim.what);
     if (!claim.note.empty()) text += "       " + claim.note + "\n";
   }
   return text +
