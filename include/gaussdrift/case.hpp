@@ -46,9 +46,10 @@ struct NamedVelocity {
 };
 /// file = "...": data on a grid (docs/cases.md), already read.
 struct FileVelocity {
-  std::filesystem::path file;  // absolute
-  std::string array;           // as written; empty: the only one
-  std::string interpolation, outside;
+  std::filesystem::path file;       // absolute
+  std::vector<std::string> arrays;  // as written: one, or one a component; empty: the only one
+  std::string interpolation, outside, missing;
+  std::optional<double> missing_value;
   std::shared_ptr<const GridData> data;
 };
 /// gaussians = "...": divergence-free Gaussians at the points of a table, already read and fitted.
@@ -74,9 +75,10 @@ struct ShapeDensity {
 };
 /// file = "...": data on a grid, already read.
 struct FileDensity {
-  std::filesystem::path file;  // absolute
-  std::string array;           // as written; empty: the only one
-  std::string interpolation, outside;
+  std::filesystem::path file;       // absolute
+  std::vector<std::string> arrays;  // as written: one; empty: the only one
+  std::string interpolation, outside, missing;
+  std::optional<double> missing_value;
   std::shared_ptr<const GridData> data;
 };
 using DensitySpec = std::variant<ExpressionDensity, ShapeDensity, FileDensity>;
@@ -99,6 +101,7 @@ struct TimeSpec {
 
 struct EvaluateSpec {
   int per_axis = 200;           // n_ge on the longest axis
+  double spacing = 0;           // of the points on all axes; 0: per_axis says it
   double tolerance = 1e-8;      // of the Gauss transform, relative to max |rho| at that output
   std::string method = "auto";  // auto, or a method of fgtd by name
 };

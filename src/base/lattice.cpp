@@ -12,18 +12,24 @@ std::vector<double> Lattice::nodes(int axis) const {
 }
 
 Lattice make_lattice(int dimension, const Vector& min, const Vector& max, int per_axis) {
-  Lattice lattice;
-  lattice.dimension = dimension;
   double longest = 0;
   for (int k = 0; k < dimension; ++k) longest = std::max(longest, max[k] - min[k]);
-  lattice.spacing = longest / (per_axis - 1);
+  Lattice lattice = make_lattice_with_spacing(dimension, min, max, longest / (per_axis - 1));
+  for (int k = 0; k < dimension; ++k)
+    if (max[k] - min[k] == longest) lattice.origin[k] = min[k];
+  return lattice;
+}
+
+Lattice make_lattice_with_spacing(int dimension, const Vector& min, const Vector& max, double spacing) {
+  Lattice lattice;
+  lattice.dimension = dimension;
+  lattice.spacing = spacing;
   for (int k = 0; k < dimension; ++k) {
     const double length = max[k] - min[k];
     // A length that is a multiple of the spacing up to rounding keeps its last point.
     const double steps = std::floor(length / lattice.spacing * (1 + 1e-12) + 1e-12);
     lattice.points[k] = static_cast<std::size_t>(steps) + 1;
     lattice.origin[k] = min[k] + 0.5 * (length - steps * lattice.spacing);
-    if (length == longest) lattice.origin[k] = min[k];
   }
   return lattice;
 }

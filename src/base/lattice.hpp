@@ -24,5 +24,8 @@ struct Lattice {
 /// The lattice with `per_axis` >= 2 points on the longest axis of [min, max], spacing L/(per_axis - 1); the other axes
 /// get floor(L_k / spacing) + 1 points, centred.
 Lattice make_lattice(int dimension, const Vector& min, const Vector& max, int per_axis);
+/// The same with this spacing, which may be no longer than the longest axis: that one is filled evenly from its middle
+/// too.
+Lattice make_lattice_with_spacing(int dimension, const Vector& min, const Vector& max, double spacing);
 
 }  // namespace gaussdrift

@@ -11,10 +11,12 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/output_name.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "cli/wrong_words.hpp"
 #include "input/read_case.hpp"
+#include "read/grid_file.hpp"
 
 namespace gaussdrift::cli {
 
@@ -223,6 +225,13 @@ ExitCode dispatch(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw CommandLineError(explained(app, error));
   }
+  if (sum_verb->parsed()) check_table_name(sum_options.out);
+  constexpr std::string_view results =
+      "a run leaves a folder with ParaView files (density.pvd), pictures (PNG) and tables (CSV)";
+  check_folder_name(run_options.folder, results);
+  check_folder_name(study_options.folder, "a study leaves a folder with tables (CSV) and charts (PNG)");
+  check_folder_name(render_options.out, "pictures are written into a folder, as surface_0000.png and so on");
+  check_folder_name(reproduce_options.folder, "pictures are written into a folder");
   if (new_verb->parsed()) return new_case(new_options);
   if (explain_verb->parsed()) return explain(explain_options);
   if (run_verb->parsed()) {
@@ -242,6 +251,7 @@ ExitCode dispatch(int argc, char** argv) {
 }  // namespace
 
 int main_verbs(int argc, char** argv) {
+  read::silence_vtk();
   try {
     const ExitCode code = dispatch(argc, argv);
     const Delivery delivered = delivery();

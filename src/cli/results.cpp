@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -50,6 +51,18 @@ std::size_t output_at(double wanted, const std::vector<study::WrittenOutput>& ou
 /// Names of files need not be UTF-8, JSON must.
 std::string laid_out(const nlohmann::ordered_json& document) {
   return document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+/// "50 x 50 points from (0, 0) with spacing 0.02".
+std::string described(const Lattice& lattice) {
+  std::vector<std::size_t> points;
+  std::vector<double> origin;
+  for (int k = 0; k < lattice.dimension; ++k) {
+    points.push_back(lattice.points[k]);
+    origin.push_back(lattice.origin[k]);
+  }
+  return fmt::format("{} points from ({:.10g}) with spacing {:.10g}", fmt::join(points, " x "), fmt::join(origin, ", "),
+                     lattice.spacing);
 }
 
 std::string in_text(std::optional<double> time) { return time ? fmt::format("t = {:g}", *time) : "no time"; }
@@ -137,13 +150,21 @@ ExitCode compare(const CompareOptions& options) {
   if (a.size() != b.size())
     throw FileError(fmt::format("{} has {} outputs, {} has {}: compare runs with the same output times",
                                 options.first.string(), a.size(), options.second.string(), b.size()));
+  const bool files = !fs::is_directory(options.first) && !fs::is_directory(options.second);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   double worst = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const std::optional<double> time = a[i].time, other = b[i].time;
-    if (time && other && std::abs(*time - *other) > 1e-9 * std::max(std::abs(*time), std::abs(*other)))
+    const bool at_other_time =
+        time && other && std::abs(*time - *other) > 1e-9 * std::max(std::abs(*time), std::abs(*other));
+    if (at_other_time && !files)
       throw FileError(
-          fmt::format("output {} is at {} in the one and at {} in the other", i, in_text(time), in_text(other)));
+          fmt::format("output {} is at t = {} in the one and at t = {} in the other: compare runs with the "
+                      "same output times, or two files",
+                      i, base::told_apart(*time, *other), base::told_apart(*other, *time)));
+    if (at_other_time)  // has it come back?
+      note("warning: the times differ: {} is at t = {}, {} at t = {}\n", a[i].file.string(),
+           base::told_apart(*time, *other), b[i].file.string(), base::told_apart(*other, *time));
     const DensityGrid x = study::read_density(a[i].file, "rho"), y = study::read_density(b[i].file, "rho");
     const auto apart_by = [&](int k) {
       return std::abs(x.lattice.origin[static_cast<std::size_t>(k)] - y.lattice.origin[static_cast<std::size_t>(k)]);
@@ -152,15 +173,14 @@ ExitCode compare(const CompareOptions& options) {
     if (x.lattice.points != y.lattice.points || std::abs(x.lattice.spacing - y.lattice.spacing) > same * 1e-3 ||
         apart_by(0) > same || apart_by(1) > same || apart_by(2) > same)
       throw FileError(fmt::format(
-          "{} and {} are on different grids; run one of them with the domain and evaluate.per_axis of the other",
-          a[i].file.string(), b[i].file.string()));
+          "{} and {} are on different grids, {} and {}; run one of them with the domain and [evaluate] of the other",
+          a[i].file.string(), b[i].file.string(), described(x.lattice), described(y.lattice)));
     const ErrorNorms norms = gaussdrift::compare(x.rho, y.rho);
     const double linf = std::isnan(norms.linf) ? (x.rho == y.rho ? 0.0 : INFINITY) : norms.linf;
     worst = std::max(worst, linf);
-    rows.push_back({{"t", time ? nlohmann::ordered_json(*time) : nlohmann::ordered_json(nullptr)},
-                    {"L1", norms.l1},
-                    {"L2", norms.l2},
-                    {"Linf", linf}});
+    const auto number = [](std::optional<double> t) { return t ? nlohmann::ordered_json(*t) : nullptr; };
+    rows.push_back({{"t", number(time)}, {"L1", norms.l1}, {"L2", norms.l2}, {"Linf", linf}});
+    if (at_other_time) rows.back()["t_second"] = number(other);
     if (!options.json) say("{:<14} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", in_text(time), norms.l1, norms.l2, linf);
   }
   const bool apart = options.tolerance >= 0 && !(worst <= options.tolerance);

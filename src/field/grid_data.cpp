@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/number.hpp"
+
 namespace gaussdrift {
 
 std::size_t GridData::points() const {
@@ -68,8 +70,9 @@ GridInterpolator::Stencil GridInterpolator::stencil(int k, double x) const {
   const auto& axis = data_->axis[k];
   const std::size_t cells = axis.size() - 1;
   Stencil result;
-  bool flat = false;                                             // clamped: no slope along this axis
-  const double rounding = 1e-12 * (axis.back() - axis.front());  // a point on the surface is inside
+  bool flat = false;  // clamped: no slope along this axis
+  // A point on the surface is inside, also where the coordinates are rounded.
+  const double rounding = std::max(1e-12 * (axis.back() - axis.front()), data_->rounding[k]);
   if (!(x >= axis.front() - rounding && x <= axis.back() + rounding)) {
     result.lost = outside_ == Outside::error || std::isnan(x);
     if (result.lost || outside_ == Outside::zero) return result;
@@ -206,21 +209,25 @@ void GridInterpolator::add_divergence(double t, const PointsView& x, double* sum
 
 std::string GridInterpolator::why_lost(const Vector& x) const {
   for (int k = 0; k < data_->dimension; ++k)
-    if (stencil(k, x[k]).lost)
+    if (stencil(k, x[k]).lost) {
+      const double least = data_->axis[k].front(), most = data_->axis[k].back();
       return fmt::format(
-          "{} = {:.6g} is outside of {}, which reaches from {:.6g} to {:.6g}: say what stands there with outside = "
-          "\"clamp\" or \"zero\", take data of a larger region, shorten time.end, or move the density",
-          "xyz"[k], x[k], data_ -> name, data_ -> axis[k].front(), data_->axis[k].back());
+          "{} = {} is outside of {}, which reaches from {} to {}: say what stands there with outside = \"clamp\" or "
+          "\"zero\", take data of a larger region, shorten time.end, or move the density",
+          "xyz"[k], base::told_apart(x[k], least, most), data_ -> name, base::told_apart(least, x[k]),
+          base::told_apart(most, x[k]));
+    }
   return "";
 }
 
 std::string GridInterpolator::describe() const {
   std::vector<std::size_t> sizes;
   for (int k = 0; k < data_->dimension; ++k) sizes.push_back(data_->axis[k].size());
-  return fmt::format("{} on {} points{}, {}, outside: {}", data_->name, fmt::join(sizes, " x "),
+  return fmt::format("{} on {} points{}, {}, outside: {}{}{}", data_->name, fmt::join(sizes, " x "),
                      data_->times.size() == 1 ? "" : fmt::format(" at {} times", data_->times.size()),
                      interpolation_names[static_cast<std::size_t>(interpolation_)],
-                     outside_names[static_cast<std::size_t>(outside_)]);
+                     outside_names[static_cast<std::size_t>(outside_)], data_->filled.empty() ? "" : ", ",
+                     data_->filled);
 }
 
 }  // namespace gaussdrift

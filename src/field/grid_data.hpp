@@ -17,10 +17,12 @@ struct GridData {
   std::string name;                                     // "u of wind.pvd", for messages
   int dimension = 2;                                    // 2 or 3
   std::array<std::vector<double>, max_dimension> axis;  // coordinates, ascending, at least 2 on each axis
+  std::array<double, max_dimension> rounding{};         // by how much coordinates may be wrong
   std::vector<double> times;                            // ascending; one: the same at all times
   std::size_t components = 1;
   std::vector<std::vector<double>>
-      values;  // [time][point * components + component], points with the first axis fastest
+      values;          // [time][point * components + component], points with the first axis fastest
+  std::string filled;  // "12 of 100 values missing, taken as zero"; empty: none are
 
   std::size_t points() const;
 };

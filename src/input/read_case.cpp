@@ -707,9 +707,11 @@ class Reader {
   template <class FileSpec>
   FileSpec grid_file(std::string_view table_name, const Value& value, int least_components, int most_components) {
     FileSpec spec;
-    spec.array = text(table_name, "array");
+    spec.arrays = array_names(table_name, most_components);
     spec.interpolation = choice(table_name, "interpolation");
     spec.outside = choice(table_name, "outside");
+    spec.missing = choice(table_name, "missing");
+    if (const auto mark = number(table_name, "missing_value")) spec.missing_value = mark->number;
     if (value.kind != Kind::text) {
       wrong_type(value, label_of(find_key(table_name, "file")), "the name of a file in a string");
       return spec;
@@ -717,13 +719,45 @@ class Reader {
     if (!dimension_) return spec;
     spec.file = std::filesystem::absolute(folder_ / value.text).lexically_normal();
     try {
-      spec.data = read::read_grid(spec.file, spec.array, dimension_, static_cast<std::size_t>(least_components),
-                                  static_cast<std::size_t>(most_components));
+      const auto missing = std::find(read::missing_names.begin(), read::missing_names.end(), spec.missing);
+      spec.data =
+          read::read_grid(spec.file, {.arrays = spec.arrays,
+                                      .dimension = dimension_,
+                                      .least_components = static_cast<std::size_t>(least_components),
+                                      .most_components = static_cast<std::size_t>(most_components),
+                                      .missing = static_cast<read::Missing>(missing - read::missing_names.begin()),
+                                      .missing_value = spec.missing_value,
+                                      .decays = most_components == 1});
       grid_files_.push_back({value.place, spec.data});
     } catch (const read::GridFileError& error) {
       diagnostics_.error(value.place, error.what(), error.remedy());
     }
     return spec;
+  }
+
+  /// "array", or "arrays" where several have one component each.
+  std::vector<std::string> array_names(std::string_view table_name, int most_components) {
+    const Entry* single = find(table_name, "array");
+    const Entry* several = most_components > 1 ? find(table_name, "arrays") : nullptr;
+    if (single && several) {
+      diagnostics_.error(comes_before(single->place, several->place) ? several->place : single->place,
+                         fmt::format("[{}] has both \"array\" and \"arrays\"", table_name),
+                         "\"array\" names one array with all components, \"arrays\" one for each");
+      return {};
+    }
+    if (!several) {
+      const std::string name = text(table_name, "array");
+      return name.empty() ? std::vector<std::string>{} : std::vector{name};
+    }
+    const Key& key = find_key(table_name, "arrays");
+    std::vector<std::string> names;
+    for (const Value& item : several->value.items) names.push_back(item.kind == Kind::text ? item.text : "");
+    if (several->value.kind != Kind::list || std::find(names.begin(), names.end(), "") != names.end()) {
+      wrong_type(several->value, label_of(key), "a list of names in strings");
+      return {};
+    }
+    if (dimension_) has_entries(several->value, key, "name");
+    return names;
   }
 
   /// Divergence-free Gaussians, read and fitted at once so that everything wrong with them has its place in the case
@@ -877,7 +911,7 @@ class Reader {
 
   void warn_thin(const Lattice& lattice, const Number& count) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(lattice.dimension); ++k)
-      if (lattice.points[k] == 1)
+      if ((one_particle_across_[k] = lattice.points[k] == 1))
         diagnostics_.warning(count.written->place,
                              fmt::format("the domain is narrower along {} than the spacing {:.3g}: one particle across",
                                          "xyz"[k], lattice.spacing),
@@ -908,12 +942,11 @@ class Reader {
       return std::nullopt;
     }
     const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, to_int(count));
-    double size = 1, farthest = 0;
+    double size = 1;
     std::vector<std::size_t> points;
     for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k) {
       points.push_back(lattice.points[k]);
       size *= static_cast<double>(lattice.points[k]);
-      farthest = std::max({farthest, std::abs(domain.min[k]), std::abs(domain.max[k])});
     }
     if (size > largest_lattice) {
       diagnostics_.error(place,
@@ -922,14 +955,22 @@ class Reader {
                          "lower per_axis");
       return std::nullopt;
     }
-    if (farthest + lattice.spacing / 8 == farthest) {
-      diagnostics_.error(place,
-                         fmt::format("the spacing {:.3g} of the {} is lost to rounding at coordinates like {}",
-                                     lattice.spacing, what, farthest),
-                         "move the domain towards the origin, or lower per_axis");
-      return std::nullopt;
-    }
+    if (lost_to_rounding(what, domain, lattice.spacing, place, "lower per_axis")) return std::nullopt;
     return lattice;
+  }
+
+  /// Complains about a spacing that coordinates of the domain cannot show.
+  bool lost_to_rounding(const std::string& what, const Domain& domain, double spacing, const Place& place,
+                        const std::string& remedy) {
+    double farthest = 0;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k)
+      farthest = std::max({farthest, std::abs(domain.min[k]), std::abs(domain.max[k])});
+    if (farthest + spacing / 8 != farthest) return false;
+    diagnostics_.error(
+        place,
+        fmt::format("the spacing {:.3g} of the {} is lost to rounding at coordinates like {}", spacing, what, farthest),
+        "move the domain towards the origin, or " + remedy);
+    return true;
   }
 
   void read_time(TimeSpec& time) {
@@ -953,12 +994,69 @@ class Reader {
   }
 
   void read_evaluate(EvaluateSpec& evaluate, const Domain& domain) {
-    if (const auto count = per_axis("evaluate", "a lattice has at least two points an axis")) {
-      make_checked_lattice("evaluation lattice", domain, *count);
+    const Entry *spacing = find("evaluate", "spacing"), *points = find("evaluate", "per_axis");
+    if (spacing && points &&
+        spacing->place.override_index != points->place.override_index)  // the later one replaces the other
+      (spacing->place.override_index > points->place.override_index ? points : spacing) = nullptr;
+    if (spacing && points)
+      exactly_one("evaluate", {"per_axis", "spacing"});
+    else if (spacing)
+      read_spacing(evaluate, domain);
+    else if (const auto count = per_axis("evaluate", "a lattice has at least two points an axis")) {
+      if (const auto lattice = make_checked_lattice("evaluation lattice", domain, *count))
+        warn_narrow(*lattice, domain, count->written ? count->written->place : source_.end());
       evaluate.per_axis = to_int(*count);
     }
     if (const auto tolerance = number("evaluate", "tolerance")) evaluate.tolerance = tolerance->number;
     evaluate.method = choice("evaluate", "method");
+  }
+
+  void read_spacing(EvaluateSpec& evaluate, const Domain& domain) {
+    const auto spacing = number("evaluate", "spacing");
+    if (!spacing || !domain_valid_) return;
+    const Place& place = spacing->written->place;
+    double longest = 0, size = 1;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k) {
+      longest = std::max(longest, domain.max[k] - domain.min[k]);
+      size *= std::floor((domain.max[k] - domain.min[k]) / spacing->number) + 1;
+    }
+    if (spacing->number > longest)
+      diagnostics_.error(place,
+                         fmt::format("evaluate.spacing = {} is longer than the domain, {}", spacing->number, longest),
+                         "a lattice has at least two points on the longest axis");
+    else if (!(size <= largest_lattice))
+      diagnostics_.error(place,
+                         fmt::format("the evaluation lattice would have {:.3g} points; at most {} are possible", size,
+                                     static_cast<long long>(largest_lattice)),
+                         "raise evaluate.spacing");
+    else if (lost_to_rounding("evaluation lattice", domain, spacing->number, place, "raise evaluate.spacing"))
+      return;
+    else
+      evaluate.spacing = spacing->number;
+  }
+
+  /// A handful of points across a long domain shows nothing of what is there.
+  void warn_narrow(const Lattice& lattice, const Domain& domain, const Place& place) {
+    const auto dimension = static_cast<std::size_t>(lattice.dimension);
+    const auto begin = lattice.points.begin(), end = begin + lattice.dimension;
+    const auto fewest = static_cast<std::size_t>(std::min_element(begin, end) - begin);
+    const std::size_t most = *std::max_element(begin, end);
+    if (lattice.points[fewest] >= 8 || most < 10 * lattice.points[fewest]) return;
+    if (one_particle_across_[fewest]) return;  // then there is nothing to show
+    const double spacing = (domain.max[fewest] - domain.min[fewest]) / 20;
+    std::vector<std::size_t> now, then;
+    double size = 1;
+    for (std::size_t k = 0; k < dimension; ++k) {
+      now.push_back(lattice.points[k]);
+      then.push_back(static_cast<std::size_t>((domain.max[k] - domain.min[k]) / spacing * (1 + 1e-12)) + 1);
+      size *= static_cast<double>(then.back());
+    }
+    diagnostics_.warning(place,
+                         fmt::format("the evaluation lattice has {} points, only {} along {}", fmt::join(now, " x "),
+                                     lattice.points[fewest], "xyz"[fewest]),
+                         size <= 1e7 ? fmt::format("[evaluate] spacing = {:.3g} instead of per_axis has {} points",
+                                                   spacing, fmt::join(then, " x "))
+                                     : "raise evaluate.per_axis, or give evaluate.spacing instead");
   }
 
   void read_output(OutputSpec& output, const TimeSpec& time) {
@@ -1235,7 +1333,8 @@ class Reader {
   std::vector<std::string> later_params_;  // not read yet
   int dimension_ = 0;                      // 0: not known because of an error
   bool domain_valid_ = false;
-  Box box_;                      // the domain, if it is valid
+  Box box_;  // the domain, if it is valid
+  std::array<bool, max_dimension> one_particle_across_{};
   std::string_view part_table_;  // of a table that may be repeated: the part that is being read
   std::string part_label_;
   const Value* part_ = nullptr;

@@ -12,6 +12,7 @@
 #include "field/grid_data.hpp"
 #include "field/named_fields.hpp"
 #include "field/shapes.hpp"
+#include "read/missing_data.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -164,6 +165,11 @@ std::vector<Key> written_keys() {
        .meaning = "name of the array in the file; may be left out if there is one",
        .with = "file"},
       {.table = "velocity",
+       .name = "arrays",
+       .type = Type::texts,
+       .meaning = "names of arrays with one component each, `[\"u\", \"v\"]`, instead of `array`",
+       .with = "file"},
+      {.table = "velocity",
        .name = "interpolation",
        .type = Type::choice,
        .fallback = "linear",
@@ -176,6 +182,21 @@ std::vector<Key> written_keys() {
        .fallback = "error",
        .choices = {outside_names.begin(), outside_names.end()},
        .meaning = "outside the grid: an error, the value of the nearest point of its surface, or zero",
+       .with = "file"},
+      {.table = "velocity",
+       .name = "missing",
+       .type = Type::choice,
+       .fallback = "error",
+       .choices = {read::missing_names.begin(), read::missing_names.end()},
+       .meaning = "where the file has no value: an error; `zero`, a coast; `nearest`, the mean of the nearest points "
+                  "that have one; `keep` takes all numbers as they are. Missing is what is not finite, what "
+                  "`vtkGhostType` or `vtkValidPointMask` hide, what an attribute `_FillValue` or `missing_value` says, "
+                  "and numbers that programs use for it, such as 1e20 or -9999, or that lie far outside the rest",
+       .with = "file"},
+      {.table = "velocity",
+       .name = "missing_value",
+       .type = Type::number,
+       .meaning = "a number that marks missing data, besides the marks that are recognised",
        .with = "file"},
 
       {.table = "velocity",
@@ -259,6 +280,18 @@ std::vector<Key> written_keys() {
        .choices = {outside_names.begin(), outside_names.end()},
        .meaning = "outside the grid: an error, the value of the nearest point of its surface, or zero",
        .with = "file"},
+      {.table = "density",
+       .name = "missing",
+       .type = Type::choice,
+       .fallback = "error",
+       .choices = {read::missing_names.begin(), read::missing_names.end()},
+       .meaning = "where the file has no value: as for velocities",
+       .with = "file"},
+      {.table = "density",
+       .name = "missing_value",
+       .type = Type::number,
+       .meaning = "a number that marks missing data, besides the marks that are recognised",
+       .with = "file"},
 
       {.table = "particles",
        .name = "per_axis",
@@ -327,7 +360,14 @@ std::vector<Key> written_keys() {
        .fallback = "200",
        .range = {2, infinity},
        .symbol = "n_ge",
-       .meaning = "evaluation points on the longest axis"},
+       .meaning = "evaluation points on the longest axis; the spacing is the same on all axes"},
+      {.table = "evaluate",
+       .name = "spacing",
+       .type = Type::number,
+       .range = {0, infinity, true},
+       .unit = "length",
+       .symbol = "h_e",
+       .meaning = "of the evaluation points, on all axes, instead of `per_axis`: for domains that are long and narrow"},
       {.table = "evaluate",
        .name = "tolerance",
        .type = Type::number,
@@ -610,6 +650,8 @@ std::string type_text(const Key& key) {
   switch (key.type) {
     case Type::text:
       return "a string";
+    case Type::texts:
+      return "a list of strings";
     case Type::number:
       return "a number or an expression";
     case Type::whole:

@@ -12,6 +12,7 @@ namespace gaussdrift::input {
 
 enum class Type {
   text,         // a string
+  texts,        // a list of strings
   number,       // a number or an expression of params, pi, e
   whole,        // the same, without a fraction
   numbers,      // a list of numbers

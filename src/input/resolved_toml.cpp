@@ -77,9 +77,12 @@ class Writer {
   template <class FileSpec>
   void file(const FileSpec& spec) {
     entry("file", data_file(spec.file));
-    if (!spec.array.empty()) entry("array", written(spec.array));
+    if (spec.arrays.size() == 1) entry("array", written(spec.arrays[0]));
+    if (spec.arrays.size() > 1) entry("arrays", written(spec.arrays));
     entry("interpolation", written(spec.interpolation));
     entry("outside", written(spec.outside));
+    entry("missing", written(spec.missing));
+    if (spec.missing_value) entry("missing_value", written(*spec.missing_value));
   }
   void gaussians(const GaussianVelocitySpec& spec) {
     entry("gaussians", data_file(spec.file));
@@ -176,7 +179,10 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
   out.entry("method", written(scene.time.method));
   if (scene.time.method == "dopri5") out.entry("tolerance", written(scene.time.tolerance));
   out.table("evaluate");
-  out.entry("per_axis", fmt::format("{}", scene.evaluate.per_axis));
+  if (scene.evaluate.spacing > 0)
+    out.entry("spacing", written(scene.evaluate.spacing));
+  else
+    out.entry("per_axis", fmt::format("{}", scene.evaluate.per_axis));
   out.entry("tolerance", written(scene.evaluate.tolerance));
   out.entry("method", written(scene.evaluate.method));
   out.table("output");

@@ -31,6 +31,8 @@ Json value_schema(const Key& key) {
     case Type::text:
     case Type::expression:
       return {{"type", "string"}};
+    case Type::texts:
+      return list_of({{"type", "string"}});
     case Type::number:
       return number_schema("number", key.range);
     case Type::whole:

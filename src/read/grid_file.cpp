@@ -2,278 +2,305 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkDataSet.h>
-#include <vtkFieldData.h>
-#include <vtkImageData.h>
-#include <vtkMatrix3x3.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkRectilinearGrid.h>
-#include <vtkSmartPointer.h>
-#include <vtkVersion.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLImageDataReader.h>
-#include <vtkXMLRectilinearGridReader.h>
-#include <vtkXMLUtilities.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cctype>
 #include <cmath>
-#include <fstream>
-#include <optional>
+#include <limits>
 
-#include "base/text_file.hpp"
+#include "read/vtk_description.hpp"
+#include "read/vtk_grid.hpp"
 
 namespace gaussdrift::read {
 
 namespace {
 
-constexpr double most_numbers = 268435456;  // 2 GiB
-// Before a file is opened: the same numbers as text, three times as long, and a line for each of a million times.
-constexpr double largest_data_file = 3 * 8 * most_numbers, largest_series_file = 2e8;
-
 std::string name_of(const std::filesystem::path& file) { return file.filename().string(); }
 
-void check_readable(const std::filesystem::path& file, const std::string& context) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw GridFileError(fmt::format("there is no file {}{}", file.string(), context),
-                        "paths are relative to the folder of the case file");
-  if (const std::string other = base::what_else_it_is(file); !other.empty())
-    throw GridFileError(fmt::format("{}{} is {}, not a file of data", file.string(), context, other));
-  if (!std::filesystem::is_regular_file(file, error))
-    throw GridFileError(fmt::format("{}{} is a pipe", file.string(), context),
-                        "data on a grid are read several times: write them to a file");
-  if (!std::ifstream(file, std::ios::binary))
-    throw GridFileError(fmt::format("the file {}{} cannot be read", file.string(), context));
-  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  const double most = file.extension() == ".pvd" ? largest_series_file : largest_data_file;
-  if (!error && static_cast<double>(bytes) > most)
-    throw GridFileError(fmt::format("{}{} has {:.3g} MB; at most {:.3g} MB are read", file.string(), context,
-                                    static_cast<double>(bytes) / 1e6, most / 1e6),
-                        "leave times or points out");
-}
-
-/// VTK's complaints instead of lines on stderr.
-class Complaints {
- public:
-  explicit Complaints(vtkObject* source) {
-    command_->SetClientData(this);
-    command_->SetCallback([](vtkObject*, unsigned long, void* self, void* text) {
-      static_cast<Complaints*>(self)->any_ = true;
-      (void)text;
-    });
-    source->AddObserver(vtkCommand::ErrorEvent, command_);
-    source->AddObserver(vtkCommand::WarningEvent, command_);
-  }
-  bool any() const { return any_; }
-
- private:
-  vtkNew<vtkCallbackCommand> command_;
-  bool any_ = false;
-};
-
-std::vector<SeriesEntry> series(const std::filesystem::path& file) {
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.string().c_str()));
-  vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
-  if (!collection)
-    throw GridFileError(fmt::format("{} is not a ParaView series: it has no <Collection>", name_of(file)));
-  std::vector<SeriesEntry> entries;
-  for (int k = 0; k < collection->GetNumberOfNestedElements(); ++k) {
-    vtkXMLDataElement* item = collection->GetNestedElement(k);
-    if (std::string(item->GetName()) != "DataSet") continue;
-    const char* name = item->GetAttribute("file");
-    const char* stamp = item->GetAttribute("timestep");
-    SeriesEntry entry;
-    const std::string text = stamp ? stamp : "0";
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), entry.time);
-    if (!name || read.ec != std::errc() || !std::isfinite(entry.time))
-      throw GridFileError(fmt::format("entry {} of {} has no file or no time", k + 1, name_of(file)));
-    entry.file = file.parent_path() / name;
-    if (!entries.empty() && entry.time <= entries.back().time)
-      throw GridFileError(
-          fmt::format("the times of {} do not ascend: {} after {}", name_of(file), entry.time, entries.back().time));
-    entries.push_back(entry);
-  }
-  if (entries.empty()) throw GridFileError(fmt::format("the series {} is empty", name_of(file)));
-  return entries;
-}
-
-struct Grid {
-  std::array<std::vector<double>, max_dimension> axis;
-  vtkSmartPointer<vtkDataSet> data;
-};
-
-template <class Reader>
-vtkSmartPointer<vtkDataSet> updated(const std::filesystem::path& file) {
-  vtkNew<Reader> reader;
-  const Complaints complaints(reader);
-  reader->SetFileName(file.string().c_str());
-  if (!reader->CanReadFile(file.string().c_str()))
-    throw GridFileError(fmt::format("{} is not a file of the kind that its name says", name_of(file)));
-  reader->Update();
-  if (complaints.any() || reader->GetErrorCode() != 0)
-    throw GridFileError(fmt::format("{} is damaged: VTK cannot read it to its end", name_of(file)));
-  return reader->GetOutput();
-}
-
-Grid read_one(const std::filesystem::path& file) {
-  const std::string kind = file.extension().string();
-  Grid grid;
-  if (kind == ".vti") {
-    grid.data = updated<vtkXMLImageDataReader>(file);
-    auto* image = vtkImageData::SafeDownCast(grid.data);
-    const double *origin = image->GetOrigin(), *spacing = image->GetSpacing();
-    const int* extent = image->GetExtent();
-    const auto* turned = image->GetDirectionMatrix();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (turned->GetElement(i, j) != (i == j ? 1 : 0))
-          throw GridFileError(fmt::format("the image {} is turned against the axes", name_of(file)));
-    for (int k = 0; k < 3; ++k)
-      for (int i = extent[2 * k]; i <= extent[2 * k + 1]; ++i) grid.axis[k].push_back(origin[k] + spacing[k] * i);
-  } else if (kind == ".vtr") {
-    grid.data = updated<vtkXMLRectilinearGridReader>(file);
-    auto* rectilinear = vtkRectilinearGrid::SafeDownCast(grid.data);
-    vtkDataArray* coordinates[] = {rectilinear->GetXCoordinates(), rectilinear->GetYCoordinates(),
-                                   rectilinear->GetZCoordinates()};
-    for (int k = 0; k < 3; ++k)
-      for (vtkIdType i = 0; coordinates[k] && i < coordinates[k]->GetNumberOfTuples(); ++i)
-        grid.axis[k].push_back(coordinates[k]->GetComponent(i, 0));
-  } else {
-    throw GridFileError(fmt::format("{} has the ending \"{}\"", name_of(file), kind),
-                        "known files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of these)");
-  }
-  for (const auto& axis : grid.axis)
-    for (std::size_t i = 0; i < axis.size(); ++i)
-      if (!std::isfinite(axis[i]) || (i > 0 && axis[i] <= axis[i - 1]))
-        throw GridFileError(fmt::format("the coordinates of {} do not ascend", name_of(file)));
-  return grid;
-}
-
-void check_shape(const Grid& grid, const std::filesystem::path& file, int dimension) {
-  const auto& axis = grid.axis;
-  const bool flat = axis[2].size() <= 1;
-  if (axis[0].size() < 2 || axis[1].size() < 2 || (dimension == 3 && flat) || (dimension == 2 && !flat))
-    throw GridFileError(fmt::format("the grid of {} has {} x {} x {} points, but the domain has {} dimensions",
-                                    name_of(file), axis[0].size(), axis[1].size(), axis[2].size(), dimension),
-                        dimension == 2 ? "a 2D grid has 1 point along z" : "a 3D grid has at least 2 points an axis");
-}
-
-vtkDataArray* find_array(vtkDataSet* data, const std::filesystem::path& file, const std::string& name) {
-  vtkPointData* fields = data->GetPointData();
-  std::vector<std::string> known;
-  for (int k = 0; k < fields->GetNumberOfArrays(); ++k)
-    if (fields->GetArrayName(k)) known.push_back(fmt::format("\"{}\"", fields->GetArrayName(k)));
-  if (name.empty() && fields->GetNumberOfArrays() == 1 && fields->GetArray(0)) return fields->GetArray(0);
-  const std::string list = known.empty() ? "it has no point data" : fmt::format("it has {}", fmt::join(known, ", "));
-  if (name.empty())
+VtkGrid open_grid(const std::filesystem::path& file) {
+  check_readable(file);
+  if (const std::string kind = file.extension().string(); kind != ".vti" && kind != ".vtr") {
+    const std::string way = way_to_read(file);
     throw GridFileError(
-        fmt::format("{} does not have exactly one array; say which one is meant: {}", name_of(file), list),
-        "array = \"...\"");
-  if (vtkDataArray* found = fields->GetArray(name.c_str())) return found;
-  if (data->GetCellData()->HasArray(name.c_str()))
-    throw GridFileError(fmt::format("the array \"{}\" of {} belongs to cells, not to points", name, name_of(file)),
-                        "ParaView's filter Cell Data to Point Data makes point data of it");
-  throw GridFileError(fmt::format("{} has no array \"{}\"; {}", name_of(file), name, list));
+        kind == ".pvd" ? fmt::format("{} is a series of files; one file is needed here", name_of(file))
+        : kind.empty() ? fmt::format("{} has no ending", name_of(file))
+                       : fmt::format("{} has the ending \"{}\"", name_of(file), kind),
+        fmt::format("{}known files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of these)",
+                    way.empty() ? "" : way + "; "));
+  }
+  return VtkGrid(file);
 }
 
-void check_count(vtkDataArray* values, std::size_t points, const std::filesystem::path& file,
-                 const std::string& array) {
-  if (static_cast<std::size_t>(values->GetNumberOfTuples()) != points)
-    throw GridFileError(fmt::format("{} is damaged: the array \"{}\" has {} values for {} points", name_of(file), array,
-                                    values->GetNumberOfTuples(), points));
+std::string with_components(const ArrayInfo& array) {
+  return fmt::format("\"{}\" ({}{})", array.name,
+                     array.components == 1 ? "1 component" : fmt::format("{} components", array.components),
+                     array.on_cells ? ", of cells" : "");
+}
+
+/// Arrays of one component that could be those of a vector, by the names that are usual.
+std::vector<std::string> parts_of_a_vector(const std::vector<ArrayInfo>& arrays, std::size_t count) {
+  std::vector<std::string> scalars;
+  for (const ArrayInfo& array : arrays)
+    if (array.components == 1) scalars.push_back(array.name);
+  static const std::vector<std::vector<std::string>> usual{{"u", "v", "w"},    {"U", "V", "W"},    {"vx", "vy", "vz"},
+                                                           {"ux", "uy", "uz"}, {"Vx", "Vy", "Vz"}, {"uo", "vo", "wo"},
+                                                           {"u10", "v10"}};
+  for (const auto& names : usual) {
+    if (names.size() < count) continue;
+    const std::vector<std::string> some(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count));
+    if (std::all_of(some.begin(), some.end(), [&](const std::string& name) {
+          return std::find(scalars.begin(), scalars.end(), name) != scalars.end();
+        }))
+      return some;
+  }
+  return scalars.size() == count ? scalars : std::vector<std::string>{};
+}
+
+std::string in_quotes(const std::vector<std::string>& names) {
+  return fmt::format("[\"{}\"]", fmt::join(names, "\", \""));
+}
+
+/// What could be written instead.
+std::string array_remedy(const std::vector<ArrayInfo>& arrays, const GridRequest& request) {
+  for (const ArrayInfo& array : arrays)
+    if (array.components >= request.least_components && array.components <= request.most_components)
+      return fmt::format("for example array = \"{}\"", array.name);
+  if (const auto parts = parts_of_a_vector(arrays, request.least_components);
+      request.least_components > 1 && !parts.empty())
+    return fmt::format("arrays = {} takes the components from arrays of their own", in_quotes(parts));
+  return "";
+}
+
+/// Those that are asked for; complains if they are not there or do not fit.
+std::vector<ArrayInfo> chosen(const VtkGrid& grid, const std::filesystem::path& file, const GridRequest& request) {
+  const std::vector<ArrayInfo>& arrays = grid.arrays();
+  std::vector<std::string> shown;
+  for (const ArrayInfo& array : arrays) shown.push_back(with_components(array));
+  const std::string list =
+      shown.empty() ? "it has no arrays with names" : fmt::format("it has {}", fmt::join(shown, ", "));
+  if (request.arrays.empty()) {
+    if (arrays.size() == 1 && arrays[0].components >= request.least_components &&
+        arrays[0].components <= request.most_components)
+      return {arrays[0]};
+    if (arrays.size() != 1)
+      throw GridFileError(
+          fmt::format("{} does not have exactly one array; say which one is meant: {}", name_of(file), list),
+          array_remedy(arrays, request));
+  }
+  std::vector<ArrayInfo> found;
+  const std::vector<std::string> names = request.arrays.empty() ? std::vector{arrays[0].name} : request.arrays;
+  for (const std::string& name : names) {
+    const auto same = [&](bool cells) {
+      return std::find_if(arrays.begin(), arrays.end(),
+                          [&](const ArrayInfo& array) { return array.name == name && array.on_cells == cells; });
+    };
+    auto array = same(false);
+    if (array == arrays.end()) array = same(true);
+    if (array == arrays.end())
+      throw GridFileError(fmt::format("{} has no array \"{}\"; {}", name_of(file), name, list),
+                          array_remedy(arrays, request));
+    found.push_back(*array);
+  }
+  std::size_t components = 0;
+  for (const ArrayInfo& array : found) {
+    components += array.components;
+    if (found.size() > 1 && array.components != 1)
+      throw GridFileError(fmt::format("the array \"{}\" of {} has {} components, needed: 1 of each of several arrays",
+                                      array.name, name_of(file), array.components));
+    if (array.on_cells != found[0].on_cells)
+      throw GridFileError(fmt::format("of {}, \"{}\" belongs to cells and \"{}\" to points", name_of(file),
+                                      (array.on_cells ? array : found[0]).name,
+                                      (array.on_cells ? found[0] : array).name));
+  }
+  if (components < request.least_components || components > request.most_components)
+    throw GridFileError(
+        fmt::format("the array{} {} of {} {} {} component{}, needed: {}", found.size() > 1 ? "s" : "",
+                    found.size() > 1 ? in_quotes(names) : fmt::format("\"{}\"", names[0]), name_of(file),
+                    found.size() > 1 ? "have" : "has", components, components == 1 ? "" : "s",
+                    request.least_components == request.most_components
+                        ? fmt::format("{}", request.least_components)
+                        : fmt::format("{} or {}", request.least_components, request.most_components)),
+        array_remedy(arrays, request));
+  return found;
+}
+
+void check_shape(const VtkGrid& grid, const std::filesystem::path& file, int dimension) {
+  const auto& points = grid.points();
+  const bool flat = points[2] == 1;
+  std::string thin;
+  for (int k = 0; k < dimension; ++k)
+    if (points[static_cast<std::size_t>(k)] == 1) thin = fmt::format(": 1 point along {} is no grid", "xyz"[k]);
+  if (!thin.empty() || (dimension == 2 && !flat))
+    throw GridFileError(fmt::format("the grid of {} has {} x {} x {} points, but the domain has {} dimensions{}",
+                                    name_of(file), points[0], points[1], points[2], dimension,
+                                    dimension == 3 && flat && points[0] > 1 && points[1] > 1 ? "" : thin),
+                        dimension == 2
+                            ? "a 2D grid lies in the plane of x and y: it has 1 point along z, and at least 2 "
+                              "along x and y; ParaView's filter Extract Subset takes a layer out"
+                            : "a 3D grid has at least 2 points along each axis");
+}
+
+/// Where the numbers of the file go: axes ascend, and data of cells stand at their middles.
+struct Layout {
+  std::array<std::vector<double>, max_dimension> axis;
+  std::array<std::vector<std::size_t>, max_dimension> from;  // index along the axis of the file
+  std::array<std::size_t, max_dimension> length{1, 1, 1};    // of the axis of the file
+  std::array<double, max_dimension> rounding{};
+
+  std::size_t source(std::size_t point, int dimension) const {
+    std::size_t index = 0, stride = 1;
+    for (int k = 0; k < dimension; ++k) {
+      index += from[k][point % axis[k].size()] * stride;
+      point /= axis[k].size();
+      stride *= length[k];
+    }
+    return index;
+  }
+};
+
+Layout layout_of(const VtkGrid& grid, int dimension, bool cells) {
+  Layout layout;
+  for (int k = 0; k < dimension; ++k) {
+    std::vector<double> x = grid.axis(static_cast<std::size_t>(k));
+    const bool descends = x.size() > 1 && x.front() > x.back();
+    if (descends) std::reverse(x.begin(), x.end());
+    const bool middles = cells && x.size() > 1;
+    const std::size_t length = layout.length[k] = x.size() - (middles ? 1 : 0);
+    auto& from = layout.from[k];
+    for (std::size_t i = 0; i < length; ++i) from.push_back(descends ? length - 1 - i : i);
+    if (middles) {
+      auto& axis = layout.axis[k];
+      axis.push_back(x.front());
+      for (std::size_t i = 0; i < length; ++i) axis.push_back(x[i] + (x[i + 1] - x[i]) / 2);
+      axis.push_back(x.back());
+      from.insert(from.begin(), from.front());
+      from.push_back(from.back());
+    } else {
+      layout.axis[k] = x;
+    }
+    double narrowest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < x.size(); ++i) narrowest = std::min(narrowest, x[i] - x[i - 1]);
+    layout.rounding[k] = std::min(grid.rounding(static_cast<std::size_t>(k)), narrowest / 10);
+  }
+  return layout;
+}
+
+/// "u", or "[u, v]".
+std::string title_of(const std::vector<ArrayInfo>& arrays) {
+  std::vector<std::string> names;
+  for (const ArrayInfo& array : arrays) names.push_back(array.name);
+  return names.size() == 1 ? names[0] : fmt::format("[{}]", fmt::join(names, ", "));
+}
+
+/// Coordinates that differ by no more than they are rounded are the same.
+bool same_grid(const GridData& a, const Layout& b) {
+  for (int k = 0; k < a.dimension; ++k) {
+    if (a.axis[k].size() != b.axis[k].size()) return false;
+    for (std::size_t i = 0; i < a.axis[k].size(); ++i)
+      if (!(std::abs(a.axis[k][i] - b.axis[k][i]) <= a.rounding[k] + b.rounding[k])) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
-std::string vtk_version() { return vtkVersion::GetVTKVersion(); }
-
-std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
-  check_readable(file, "");
-  return series(file);
+std::string way_to_read(const std::filesystem::path& file) {
+  std::string kind = file.extension().string();
+  if (kind.empty()) kind = file.filename().string();
+  if (!kind.empty() && kind[0] == '.') kind.erase(0, 1);
+  std::transform(kind.begin(), kind.end(), kind.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto is = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(), [&](const char* name) { return kind == name; });
+  };
+  if (is({"nc", "nc4", "cdf", "netcdf", "grib", "grb", "grib2", "h5", "hdf", "hdf5"}))
+    return "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
+  if (is({"png", "jpg", "jpeg", "tif", "tiff", "bmp", "gif"}))
+    return "ParaView opens the picture as image data: save it as .vti, with the coordinates that its pixels should "
+           "have";
+  if (is({"vtk", "vts", "vtu", "vtp", "vtm", "pvti", "pvtr", "pvts", "pvtu", "xmf", "xdmf", "foam", "case", "vtkhdf"}))
+    return "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
+  if (is({"csv", "txt", "dat"})) return "scattered points of a velocity are read from a table by gaussians = \"...\"";
+  return "";
 }
 
 GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array) {
-  check_readable(file, "");
-  const Grid grid = read_one(file);
+  VtkGrid grid = open_grid(file);
+  const std::vector<ArrayInfo> arrays = chosen(grid, file, {.arrays = {array}});
+  grid.load(arrays);
   GridSnapshot result;
-  const int dimension = result.dimension = grid.axis[2].size() > 1 ? 3 : 2;
-  check_shape(grid, file, dimension);
-  vtkDataArray* values = find_array(grid.data, file, array);
+  result.dimension = grid.points()[2] > 1 ? 3 : 2;
+  Layout layout = layout_of(grid, result.dimension, arrays[0].on_cells);
   std::size_t points = 1;
-  for (int k = 0; k < dimension; ++k) {
-    result.axis[k] = grid.axis[k];
-    points *= grid.axis[k].size();
-  }
-  if (values->GetNumberOfComponents() != 1)
-    throw GridFileError(fmt::format("the array \"{}\" of {} has {} components, needed: 1", array, name_of(file),
-                                    values->GetNumberOfComponents()));
-  check_count(values, points, file, array);
+  for (int k = 0; k < result.dimension; ++k) points *= layout.axis[k].size();
   result.values.resize(points);
-  for (std::size_t i = 0; i < points; ++i) result.values[i] = values->GetComponent(static_cast<vtkIdType>(i), 0);
-  if (vtkDataArray* stamp = grid.data->GetFieldData()->GetArray("TimeValue");
-      stamp && stamp->GetNumberOfTuples() > 0 && std::isfinite(stamp->GetComponent(0, 0)))
-    result.time = stamp->GetComponent(0, 0);
+  for (std::size_t p = 0; p < points; ++p)
+    result.values[p] = grid.values()[0].numbers[layout.source(p, result.dimension)];
+  result.axis = std::move(layout.axis);
+  if (const double time = grid.field_number("TimeValue"); std::isfinite(time)) result.time = time;
   return result;
 }
 
-std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const std::string& array, int dimension,
-                                          std::size_t least_components, std::size_t most_components) {
-  check_readable(file, "");
+std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const GridRequest& request) {
   const bool is_series = file.extension() == ".pvd";
-  const std::vector<SeriesEntry> entries = is_series ? series(file) : std::vector<SeriesEntry>{{file, 0}};
+  const std::vector<SeriesEntry> entries = is_series ? read_series(file) : std::vector<SeriesEntry>{{file, 0, 0}};
   auto result = std::make_shared<GridData>();
-  result->dimension = dimension;
+  const int dimension = result->dimension = request.dimension;
+  HiddenPoints hidden;
+  std::vector<std::string> names;
+  std::vector<double> fills;
+  if (request.missing_value) fills.push_back(*request.missing_value);
   for (const SeriesEntry& entry : entries) {
-    check_readable(entry.file, is_series ? fmt::format(", of the series {}", name_of(file)) : "");
-    const Grid grid = read_one(entry.file);
+    if (std::error_code error; is_series && !std::filesystem::exists(entry.file, error))
+      throw GridFileError(fmt::format("there is no file {}, which line {} of {} names for t = {}", entry.file.string(),
+                                      entry.line, name_of(file), entry.time),
+                          "paths in a series are relative to its folder");
+    VtkGrid grid = open_grid(entry.file);
     check_shape(grid, entry.file, dimension);
-    vtkDataArray* values = find_array(grid.data, entry.file, array);
-    const auto components = static_cast<std::size_t>(values->GetNumberOfComponents());
-    if (components < least_components || components > most_components)
-      throw GridFileError(fmt::format(
-          "the array \"{}\" of {} has {} component{}, needed: {}", values->GetName() ? values->GetName() : "",
-          name_of(entry.file), components, components == 1 ? "" : "s",
-          least_components == most_components ? fmt::format("{}", least_components)
-                                              : fmt::format("{} or {}", least_components, most_components)));
+    const std::vector<ArrayInfo> arrays = chosen(grid, entry.file, request);
+    std::size_t components = 0;
+    for (const ArrayInfo& array : arrays) components += array.components;
+    double numbers = double(components) * double(entries.size());
+    for (const std::size_t length : grid.points()) numbers *= static_cast<double>(length);
+    if (numbers > most_numbers)
+      throw GridFileError(fmt::format("{} holds {:.3g} numbers at {} times; at most {:.3g} are read", name_of(file),
+                                      numbers, entries.size(), most_numbers),
+                          "leave times or points out");
+    grid.load(arrays);
+    const bool cells = arrays[0].on_cells;
+    Layout layout = layout_of(grid, dimension, cells);
     if (result->times.empty()) {
-      result->name = fmt::format("{} of {}", values->GetName() ? values->GetName() : "the array", name_of(file));
+      result->name = fmt::format("{} of {}", title_of(arrays), name_of(file));
       result->components = components;
-      for (int k = 0; k < dimension; ++k) result->axis[k] = grid.axis[k];
-      const double numbers = static_cast<double>(result->points()) * double(components) * double(entries.size());
-      if (numbers > most_numbers)
-        throw GridFileError(fmt::format("{} holds {:.3g} numbers at {} times; at most {:.3g} are read", name_of(file),
-                                        numbers, entries.size(), most_numbers),
-                            "leave times or points out");
+      result->axis = layout.axis;
+      result->rounding = layout.rounding;
     }
-    for (int k = 0; k < dimension; ++k)
-      if (grid.axis[k] != result->axis[k] || components != result->components)
-        throw GridFileError(
-            fmt::format("the grid of {} differs from that of {}", name_of(entry.file), name_of(entries.front().file)),
-            "all times of a series share one grid");
-    std::vector<double> numbers(result->points() * components);
-    check_count(values, result->points(), entry.file, array);
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      numbers[i] = values->GetComponent(static_cast<vtkIdType>(i / components), static_cast<int>(i % components));
-      if (std::isfinite(numbers[i])) continue;
-      std::vector<double> place;
-      std::size_t rest = i / components;
-      for (int k = 0; k < dimension; ++k) {
-        place.push_back(result->axis[k][rest % result->axis[k].size()]);
-        rest /= result->axis[k].size();
-      }
+    if (components != result->components || !same_grid(*result, layout))
       throw GridFileError(
-          fmt::format("{} is {} at ({}) in {}", result->name, numbers[i], fmt::join(place, ", "), name_of(entry.file)),
-          "every value must be finite");
+          fmt::format("the grid of {} differs from that of {}", name_of(entry.file), name_of(entries.front().file)),
+          "all times of a series share one grid");
+    std::vector<double> values(result->points() * components);
+    const std::vector<std::uint8_t>& mask = grid.hidden(cells);
+    std::vector<std::uint8_t> hides(mask.empty() ? 0 : result->points());
+    for (std::size_t p = 0; p < result->points(); ++p) {
+      const std::size_t source = layout.source(p, dimension);
+      double* at = values.data() + p * components;
+      for (const ArrayValues& array : grid.values()) {
+        const std::size_t count = arrays.size() == 1 ? components : 1;
+        at = std::copy_n(array.numbers.data() + source * count, count, at);
+      }
+      if (!hides.empty()) hides[p] = mask[source];
     }
+    for (const ArrayValues& array : grid.values())
+      fills.insert(fills.end(), array.fill_values.begin(), array.fill_values.end());
     result->times.push_back(entry.time);
-    result->values.push_back(std::move(numbers));
+    result->values.push_back(std::move(values));
+    hidden.push_back(std::move(hides));
+    names.push_back(name_of(entry.file));
   }
+  const bool keep = request.missing == Missing::keep;
+  settle_missing(*result, hidden, keep ? Marks{} : recognise_marks(*result, fills, request.decays), request.missing,
+                 names);
   return result;
 }
 

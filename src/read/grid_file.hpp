@@ -1,41 +1,41 @@
 // Data on grids from ParaView files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of them).
-// grid_file.cpp is the one place that reads with VTK.
+// What a file holds is vtk_grid.hpp's matter; here it becomes numbers on axes that ascend.
 #pragma once
 
 #include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "field/grid_data.hpp"
+#include "read/grid_file_error.hpp"
+#include "read/missing_data.hpp"
 
 namespace gaussdrift::read {
 
-/// A file that cannot be used: what is wrong, and what to do about it.
-class GridFileError : public std::runtime_error {
- public:
-  explicit GridFileError(const std::string& message, std::string remedy = {})
-      : std::runtime_error(message), remedy_(std::move(remedy)) {}
-  const std::string& remedy() const { return remedy_; }
-
- private:
-  std::string remedy_;
+/// What is wanted of a file.
+struct GridRequest {
+  std::vector<std::string> arrays{};  // one array, or one for each component; none: the only array of the file
+  int dimension = 2;
+  std::size_t least_components = 1, most_components = 1;
+  Missing missing = Missing::error;       // what stands where the file has no value
+  std::optional<double> missing_value{};  // marks missing data, besides the marks that are recognised
+  bool decays = false;                    // the data span many powers of ten by nature, as densities do
 };
 
-/// Reads point data `array` (empty: the only array) in `dimension` dimensions; a grid one layer thick along z is 2D.
-/// least_components, most_components: what the array may have. At most 2 GiB of numbers are read.
-/// Throws GridFileError: no such file or array, not VTK's XML, wrong number of components or dimensions, values that
-/// are not finite, grids of a series that differ.
-std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const std::string& array, int dimension,
-                                          std::size_t least_components, std::size_t most_components);
+/// A grid one layer thick along z is 2D. Axes that descend are turned round. Data of cells stand at the middles of the
+/// cells, and in the outer half of the outermost cells their value holds. At most 2 GiB of numbers are read.
+/// Throws GridFileError: no such file or array, not VTK's XML, wrong number of components or dimensions, numbers that
+/// are not numbers, pieces that leave gaps, missing data that are not asked for, grids of a series that differ.
+std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const GridRequest& request);
 
 /// One file of a series, the times ascending.
 struct SeriesEntry {
   std::filesystem::path file;
   double time = 0;
+  std::size_t line = 0;  // of the series that names it
 };
 /// The files that a .pvd lists, relative to its folder. Throws GridFileError.
 std::vector<SeriesEntry> read_series(const std::filesystem::path& file);
@@ -43,14 +43,20 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& file);
 /// An array with one component of one .vti or .vtr, as it is: values may be NaN.
 struct GridSnapshot {
   int dimension = 2;                                    // 2 where the grid is one layer thick along z, else 3
-  std::array<std::vector<double>, max_dimension> axis;  // coordinates, ascending
+  std::array<std::vector<double>, max_dimension> axis;  // coordinates, ascending; one on an axis is possible
   std::vector<double> values;                           // first axis fastest
   std::optional<double> time;                           // the file's TimeValue
 };
 /// Throws GridFileError as read_grid() does.
 GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array);
 
+/// What can be done with a file that has this ending ("nc", ".png"); empty where nothing is known.
+std::string way_to_read(const std::filesystem::path& file);
+
 /// Of the library that runs: "9.1.0".
 std::string vtk_version();
+
+/// From now on VTK's own log is silent: what is wrong is said by errors.
+void silence_vtk();
 
 }  // namespace gaussdrift::read

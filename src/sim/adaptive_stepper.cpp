@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "sim/lost_velocity.hpp"
 #include "sim/stepper.hpp"
 #include "time/runge_kutta.hpp"
 
@@ -107,6 +108,14 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
       std::string place;
       for (std::size_t k = 0; k < dimension; ++k)
         place += fmt::format("{}{:.6g}", k ? ", " : "", particles.position[k][worst.particle]);
+      Vector x{};
+      for (std::size_t k = 0; k < dimension; ++k) x[k] = particles.position[k][worst.particle];
+      if (const std::string reason = why_path_ends(velocity_, time, particles.dimension, x, 1e-6 * options_.length);
+          !reason.empty())
+        throw NumericalError(
+            fmt::format("in step {} at t = {:.10g} particle {} at ({}) comes to where there is no "
+                        "velocity: {}",
+                        steps_before + 1, time, particles.id[worst.particle], place, reason));
       throw NumericalError(fmt::format(
           "no step is short enough for time.tolerance = {:g} in step {} at t = {:.10g}: particle {} at ({}) moves too "
           "fast, or the velocity is not finite there; guard the expression, raise the tolerance or shorten time.end",

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/parallel.hpp"
+#include "sim/lost_velocity.hpp"
 #include "time/adaptive.hpp"
 
 namespace gaussdrift {
@@ -165,9 +166,17 @@ class Characteristics : public Reference {
     if (result.reached) return;
     // One point can keep the others from arriving; many steps are a property of all of them.
     if (count > 1 && !result.exhausted) return trace_halves(state, begun, count, from, report);
+    if (report.untraced == 0) report.trouble = why_lost(state, count, result);
     state.assign(state.size(), nan);
-    if (report.untraced == 0) report.trouble = result.trouble;
     report.untraced += count;
+  }
+
+  std::string why_lost(const std::vector<double>& state, std::size_t count, const time::AdaptiveResult& result) const {
+    Vector x{};
+    for (int k = 0; k < lattice_.dimension; ++k) x[k] = state[static_cast<std::size_t>(k) * count];
+    const std::string reason =
+        why_path_ends(velocity_, result.time, lattice_.dimension, x, -1e-6 * longest_side(lattice_));
+    return reason.empty() ? result.trouble : "on its way back in time " + reason;
   }
 
   void trace_halves(std::vector<double>& state, const std::vector<double>& begun, std::size_t count, double from,

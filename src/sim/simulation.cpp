@@ -84,7 +84,10 @@ Scene make_scene(const Case& description, int threads) {
   if (const auto& reaction = description.effects.reaction)
     scene.reaction_rate = std::make_unique<WrittenScalar>(reaction->rate, domain.dimension, description.params);
   scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
-  scene.evaluation = make_lattice(domain.dimension, domain.min, domain.max, description.evaluate.per_axis);
+  const EvaluateSpec& evaluate = description.evaluate;
+  scene.evaluation = evaluate.spacing > 0
+                         ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, evaluate.spacing)
+                         : make_lattice(domain.dimension, domain.min, domain.max, evaluate.per_axis);
   scene.core_radius = description.particles.overlap * scene.seeding.spacing;
   scene.cutoff =
       make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius, description.particles.width_ratio);

@@ -59,10 +59,14 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
       if (!std::isfinite(square)) {
         if (t > 0) continue;  // particles will have moved by then; the run itself watches them
         std::string place;
-        for (int k = 0; k < sample.dimension; ++k)
-          place += fmt::format("{}{:.6g}", k ? ", " : "", sample.position[k][j]);
-        throw NumericalError(fmt::format(
-            "the velocity is not finite at t = {:.6g}, ({}); guard the expression or move the density", t, place));
+        Vector x{};
+        for (int k = 0; k < sample.dimension; ++k) {
+          x[k] = sample.position[k][j];
+          place += fmt::format("{}{:.6g}", k ? ", " : "", x[k]);
+        }
+        const std::string reason = scene.velocity->why_not_finite(t, x);
+        throw NumericalError(fmt::format("the velocity is not finite at t = {:.6g}, ({}); {}", t, place,
+                                         reason.empty() ? "guard the expression or move the density" : reason));
       }
       result.largest_speed = std::max(result.largest_speed, std::sqrt(square));
     }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "read/grid_file.hpp"
 
 namespace gaussdrift::study {
@@ -64,7 +65,11 @@ DensityGrid read_density(const fs::path& file, const std::string& array) {
   read::GridSnapshot data = snapshot(file, array);
   DensityGrid density;
   density.lattice.dimension = data.dimension;
-  const double spacing = density.lattice.spacing = data.axis[0][1] - data.axis[0][0];
+  double spacing = 0;  // of the first axis that has one
+  for (int k = 0; k < data.dimension && spacing == 0; ++k)
+    if (const auto& nodes = data.axis[static_cast<std::size_t>(k)]; nodes.size() > 1) spacing = nodes[1] - nodes[0];
+  if (spacing == 0) throw FileError(fmt::format("the grid of {} is a single point", file.string()));
+  density.lattice.spacing = spacing;
   for (int k = 0; k < data.dimension; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     const std::vector<double>& nodes = data.axis[axis];
@@ -74,8 +79,11 @@ DensityGrid read_density(const fs::path& file, const std::string& array) {
     const double rounding = 1e-6 * spacing + 1e-15 * std::max(std::abs(nodes.front()), std::abs(nodes.back()));
     for (std::size_t i = 1; i < nodes.size(); ++i)
       if (!(std::abs(nodes[i] - nodes[i - 1] - spacing) <= rounding))
-        throw FileError(
-            fmt::format("the grid of {} is not equally spaced, the same on all axes, as densities are", file.string()));
+        throw FileError(fmt::format(
+            "the grid of {} is not equally spaced, the same on all axes, as densities are: {} between points {} and {} "
+            "along {}, {} elsewhere",
+            file.string(), base::told_apart(nodes[i] - nodes[i - 1], spacing), i, i + 1, "xyz"[k],
+            base::told_apart(spacing, nodes[i] - nodes[i - 1])));
   }
   density.rho = std::move(data.values);
   return density;

@@ -1,75 +1,16 @@
 // Velocities and densities from ParaView files: what is read, and the promised message for everything wrong with a
 // file.
-#include "read/grid_file.hpp"
-
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
-#include "cases.hpp"
 #include "field/gridded.hpp"
+#include "grid_files.hpp"
 #include "sim/simulation.hpp"
 
 namespace gaussdrift::input {
 namespace {
-
-namespace fs = std::filesystem;
-
-class GridFile : public ::testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("gaussdrift_grid_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// nx x ny (x nz) points on [-1, 1]^d with one array, values as text.
-  void write_vti(const std::string& name, int nx, int ny, int nz, const std::string& array, int components,
-                 const std::string& values, const std::string& kind = "PointData") {
-    std::ofstream(folder_ / name)
-        << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"0 "
-        << nx - 1 << " 0 " << ny - 1 << " 0 " << nz - 1 << "\" Origin=\"-1 -1 " << (nz > 1 ? -1 : 0) << "\" Spacing=\""
-        << 2. / (nx - 1) << " " << 2. / (ny - 1) << " " << (nz > 1 ? 2. / (nz - 1) : 1) << "\"><Piece Extent=\"0 "
-        << nx - 1 << " 0 " << ny - 1 << " 0 " << nz - 1 << "\"><" << kind << "><DataArray type=\"Float64\" Name=\""
-        << array << "\" NumberOfComponents=\"" << components << "\" format=\"ascii\">" << values << "</DataArray></"
-        << kind << "></Piece></ImageData></VTKFile>\n";
-  }
-
-  /// f at the points of an n x n grid on [-1, 1]^2, two components.
-  template <class F>
-  static std::string sampled(int n, F f) {
-    std::ostringstream text;
-    text.precision(17);
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        const auto [u, v] = f(-1 + 2. * i / (n - 1), -1 + 2. * j / (n - 1));
-        text << u << " " << v << " ";
-      }
-    return text.str();
-  }
-
-  void write_series(const std::string& name, const std::string& entries) {
-    std::ofstream(folder_ / name) << "<VTKFile type=\"Collection\"><Collection>" << entries
-                                  << "</Collection></VTKFile>\n";
-  }
-
-  std::string case_with(const std::string& velocity) const { return with(cone, "u = [\"-y\", \"x\"]", velocity); }
-
-  std::string message(const std::string& velocity) const {
-    try {
-      parse_case(case_with(velocity), folder_ / "cone.toml", {"time.end=1", "output.times=[1]"});
-    } catch (const CaseError& error) {
-      return error.what();
-    }
-    return "";
-  }
-
-  fs::path folder_;
-};
 
 constexpr auto turning = [](double x, double y) { return std::pair(-y, x); };
 
@@ -141,7 +82,7 @@ TEST_F(GridFile, IsReadFromASeriesAndInSpace) {
   write_vti("a.vti", 3, 3, 1, "u", 2, sampled(3, [](double, double) { return std::pair(0., 1.); }));
   write_vti("b.vti", 3, 3, 1, "u", 2, sampled(3, [](double, double) { return std::pair(4., 1.); }));
   write_series("wind.pvd", "<DataSet timestep=\"0\" file=\"a.vti\"/><DataSet timestep=\"2\" file=\"b.vti\"/>");
-  const auto data = read::read_grid(folder_ / "wind.pvd", "u", 2, 2, 3);
+  const auto data = read::read_grid(folder_ / "wind.pvd", vector_of("u"));
   EXPECT_EQ(data->times, (std::vector<double>{0, 2}));
   const GridInterpolator grid(data, Interpolation::linear, Outside::error);
   const double x = 0.3, y = 0.1;
@@ -151,18 +92,17 @@ TEST_F(GridFile, IsReadFromASeriesAndInSpace) {
   EXPECT_NEAR(u, 1, 1e-15);
   EXPECT_NEAR(v, 1, 1e-15);
   write_vti("solid.vti", 2, 2, 2, "rho", 1, "0 1 2 3 4 5 6 7");
-  EXPECT_EQ(read::read_grid(folder_ / "solid.vti", "", 3, 1, 1)->values[0][5], 5);
+  EXPECT_EQ(read::read_grid(folder_ / "solid.vti", {.dimension = 3})->values[0][5], 5);
 }
 
 TEST_F(GridFile, ThatCannotBeUsedIsRefusedWithItsPlaceInTheCase) {
   write_vti("wind.vti", 3, 3, 1, "u", 2, sampled(3, turning));
   write_vti("hole.vti", 3, 3, 1, "u", 2, "0 0 0 0 0 0 0 0 0 nan 0 0 0 0 0 0 0 0");
-  write_vti("cells.vti", 2, 2, 1, "u", 2, "0 0", "CellData");
   write_vti("thick.vti", 2, 2, 2, "u", 2, "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0");
   write_vti("rho.vti", 2, 2, 1, "rho", 1, "0 0 0 0");
   std::ofstream(folder_ / "damaged.vti")
       << "<VTKFile type=\"ImageData\" version=\"1.0\"><ImageData WholeExtent=\"0 1 0";
-  std::ofstream(folder_ / "text.txt") << "u v\n";
+  for (const char* name : {"text.txt", "wind.nc", "wind.png"}) std::ofstream(folder_ / name) << "u v\n";
   write_series("empty.pvd", "");
   write_series("lost.pvd", "<DataSet timestep=\"0\" file=\"nowhere.vti\"/>");
   write_series("back.pvd", "<DataSet timestep=\"1\" file=\"wind.vti\"/><DataSet timestep=\"0\" file=\"wind.vti\"/>");
@@ -179,14 +119,15 @@ TEST_F(GridFile, ThatCannotBeUsedIsRefusedWithItsPlaceInTheCase) {
       {"file = \"wind.vti\"\noutside = \"clam\"",
        "unknown value \"clam\" for velocity.outside; did you mean \"clamp\"?"},
       {"file = \"wind.vti\"\ninterpolation = \"cubc\"", "did you mean \"cubic\"?"},
-      {"file = \"hole.vti\"", "u of hole.vti is nan at (0, 0) in hole.vti"},
-      {"file = \"cells.vti\"\narray = \"u\"", "the array \"u\" of cells.vti belongs to cells, not to points"},
+      {"file = \"hole.vti\"", "u of hole.vti has no value at (0, 0): nan is there (1 of 9 values are missing)"},
       {"file = \"thick.vti\"", "the grid of thick.vti has 2 x 2 x 2 points, but the domain has 2 dimensions"},
       {"file = \"rho.vti\"", "the array \"rho\" of rho.vti has 1 component, needed: 2 or 3"},
       {"file = \"damaged.vti\"", "damaged.vti is "},
+      {"file = \"wind.nc\"", "ParaView opens the file: apply its filter Resample To Image and save the data as .vti"},
+      {"file = \"wind.png\"", "ParaView opens the picture as image data: save it as .vti"},
       {"file = \"text.txt\"", "text.txt has the ending \".txt\""},
       {"file = \"empty.pvd\"", "the series empty.pvd is empty"},
-      {"file = \"lost.pvd\"", "nowhere.vti, of the series lost.pvd"},
+      {"file = \"lost.pvd\"", "nowhere.vti, which line 1 of lost.pvd names for t = 0"},
       {"file = \"back.pvd\"", "the times of back.pvd do not ascend: 0 after 1"},
       {"file = \"short.pvd\"", "u of short.pvd covers the times 0 to 0.5, but the run goes from 0 to 1"},
       {"file = \"mixed.pvd\"", "the grid of other.vti differs from that of wind.vti"},

@@ -26,6 +26,17 @@ TEST(Lattice, KeepsThePointThatRoundingWouldLose) {
   EXPECT_EQ(lattice.points[1], 4u);
 }
 
+TEST(Lattice, WithASpacingCoversALongDomainAndIsCentred) {
+  const Lattice channel = make_lattice_with_spacing(2, {0, 0, 0}, {10000, 100, 0}, 5);
+  EXPECT_EQ(channel.points, (std::array<std::size_t, 3>{2001, 21, 1}));
+  EXPECT_EQ(channel.spacing, 5);
+  EXPECT_EQ(channel.coordinate(1, 20), 100);
+  const Lattice rest = make_lattice_with_spacing(2, {0, 0, 0}, {1, 0.5, 0}, 0.3);
+  EXPECT_EQ(rest.points, (std::array<std::size_t, 3>{4, 2, 1}));
+  EXPECT_NEAR(rest.coordinate(0, 0), 0.05, 1e-15);  // a few roundings of 1
+  EXPECT_NEAR(rest.coordinate(0, 3), 0.95, 1e-15);
+}
+
 TEST(Lattice, CountsAllAxesInThreeDimensions) {
   const Lattice lattice = make_lattice(3, {0, 0, 0}, {1, 0.5, 0.25}, 9);
   EXPECT_EQ(lattice.points, (std::array<std::size_t, 3>{9, 5, 3}));

@@ -1,0 +1,47 @@
+// Names for results whose ending asks for a kind of file that is not written: what is possible instead.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/error.hpp"
+
+namespace gaussdrift::cli {
+
+/// The ending in small letters if it is that of data, pictures or documents; else nothing.
+inline std::string known_ending(const std::filesystem::path& name) {
+  constexpr std::array<std::string_view, 28> known{".nc",   ".nc4", ".h5",  ".hdf5", ".vti", ".vtr", ".vtp",
+                                                   ".vtu",  ".vtk", ".vts", ".pvd",  ".csv", ".txt", ".json",
+                                                   ".png",  ".jpg", ".gif", ".jpeg", ".tif", ".bmp", ".svg",
+                                                   ".tiff", ".pdf", ".mp4", ".avi",  ".npy", ".npz", ".html"};
+  std::string ending = name.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(known.begin(), known.end(), ending) != known.end() ? ending : "";
+}
+
+/// Results fill a folder; a folder that is there already may be called as it likes.
+inline void check_folder_name(const std::filesystem::path& out, std::string_view what) {
+  std::error_code error;
+  if (known_ending(out).empty() || std::filesystem::is_directory(out, error)) return;
+  throw CommandLineError(fmt::format("--out {}: {}; give the name of a folder, such as {}", out.string(), what,
+                                     std::filesystem::path(out).replace_extension().string()));
+}
+
+/// Values are written as a table.
+inline void check_table_name(const std::filesystem::path& out) {
+  const std::string ending = known_ending(out);
+  if (ending.empty() || ending == ".csv" || ending == ".txt") return;
+  throw CommandLineError(
+      fmt::format("--out {}: values are written as a table in text (CSV), which ParaView, spreadsheets and NumPy read; "
+                  "give a name such as {}",
+                  out.string(), std::filesystem::path(out).replace_extension(".csv").string()));
+}
+
+}  // namespace gaussdrift::cli
