@@ -5,6 +5,7 @@
   * a section or equation of a page of docs/ that is not there
   * a case of cases/ without a row in README's table, or a table that a blank line breaks
   * two pages of docs/changes or docs/decisions with one number
+  * a number under "then" in docs/reproduce.md that is not the one of tests/reference
 Usage: check_docs.py <source folder>"""
 import os
 import re
@@ -64,6 +65,48 @@ def headings(text):
 
 def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.replace("`", "").lower()).replace(" ", "-")
+
+
+def digit(text):
+    """One unit of the last digit of a number."""
+    mantissa, _, exponent = text.partition("e")
+    return 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+
+
+def quoted_tables(page):
+    """Tables of docs/reproduce.md that quote published numbers: (number, [(name of a row, numbers under "then")])."""
+    for number, block in re.findall(r"^\*\*Table ([0-9.]+),.*?^```\n(.*?)^```", page, re.M | re.S):
+        lines = block.splitlines()
+        kinds = [cells.split() for cells in lines[1].split("|")[1:]]
+        rows = []
+        for line in lines[2:]:
+            name, *cells = line.split("|")
+            then = [cell.split()[0] for cell, kind in zip(cells, kinds) if kind[:1] == ["then"] and cell.split()]
+            rows.append((name.split()[-1], then))
+        yield number, rows
+
+
+def misquoted(root, page):
+    """Numbers of docs/reproduce.md that are not those of tests/reference, in the order of its columns."""
+    for number, rows in quoted_tables(page):
+        with open(os.path.join(root, f"tests/reference/schroeder-table-{number}.csv"), encoding="utf-8") as table:
+            printed = [line.strip().split(",") for line in table][1:]
+        unit = 1e4 if number == "3.5" else 1  # hundredths of a second as microseconds
+        for name, then in rows:
+            same = [cells for cells in printed if cells[0] == name or
+                    (re.match(r"[0-9]", name) and re.match(r"[0-9]", cells[0]) and float(cells[0]) == float(name))]
+            if len(same) != 1:
+                yield f"Table {number} has no row {name}"
+                continue
+            left = same[0][1:]
+            for shown in then:
+                while left and not (shown == left[0] if "-" in (shown, left[0]) else
+                                    abs(float(shown) - unit * float(left[0])) <= 0.5001 * digit(shown)):
+                    left.pop(0)
+                if not left:
+                    yield f"Table {number}, {name}: {shown} is not printed there"
+                    break
+                left.pop(0)
 
 
 def check(root):
@@ -160,7 +203,9 @@ def check(root):
         if end == ".toml" and rows.count(case) != 1:
             faults.append(f"README.md: the table of cases has {rows.count(case)} rows of cases/{name}, not one")
 
-    # Numbers.
+    faults += [f"docs/reproduce.md: {fault}" for fault in misquoted(root, pages["docs/reproduce.md"])]
+
+    # Numbers of pages.
     for folder in ("docs/changes", "docs/decisions"):
         numbers = {}
         for name in sorted(os.listdir(os.path.join(root, folder))):

@@ -136,8 +136,10 @@ std::string to_text(const ConeReproduction& result) {
     for (const Moment& moment : moments) text += cell(find(52, overlap, 300, moment.name));
     text += "\n";
   }
-  text += fmt::format("\n{} heights, largest difference {:.1e} (agreement: at most {:.0e}), {:.1f} s\n",
-                      result.heights.size(), result.worst_difference, cone_agreement, result.seconds);
+  text += fmt::format(
+      "\ncompared: {} heights, equal digits; largest difference {:.1e} (printed to 1e-6, agreement: at most {:.0e}); "
+      "{:.1f} s\n",
+      result.heights.size(), result.worst_difference, cone_agreement, result.seconds);
   return text;
 }
 

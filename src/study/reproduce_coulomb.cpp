@@ -104,7 +104,8 @@ std::string to_text(const CoulombReproduction& result) {
   };
   std::string text = fmt::format(
       "Boerm 2022, fast methods for many-particle systems: published, and computed on {} {} (seconds; error relative "
-      "to the forces)\n",
+      "to the forces)\ncompared: errors, at most the published error; seconds are of another machine and not "
+      "compared\n",
       result.threads, result.threads == 1 ? "thread" : "threads");
   text += fmt::format("{:>9} |{:^18} |{:^36} |{:^36} |\n", "", "all pairs", "tree", "symmetric");
   text += fmt::format("{:>9} |{:>9}{:>9} |{:>9}{:>9}{:>9}{:>9} |{:>9}{:>9}{:>9}{:>9} | {}\n", "particles", "pub. s",

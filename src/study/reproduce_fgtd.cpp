@@ -84,7 +84,8 @@ int power_of_ten(double x) {
 }
 
 std::string to_string(Comparison comparison) {
-  constexpr std::array names{"none", "arithmetic", "digits", "order of magnitude", "at most"};
+  constexpr std::array names{"nothing", "arithmetic", "equal digits", "order of magnitude",
+                             "at most the published error"};
   return names[static_cast<std::size_t>(comparison)];
 }
 

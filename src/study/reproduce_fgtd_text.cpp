@@ -67,7 +67,7 @@ std::string comparisons_of(const Table& table) {
   std::string text;
   for (std::size_t k = 0; k < comparisons.size(); ++k)
     if (counts[k] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k], to_string(comparisons[k]));
-  return text.empty() ? "nothing, seconds of another machine" : text;
+  return text.empty() ? "nothing, as all is seconds" : text;
 }
 
 std::string to_text(const Table& table) {
@@ -122,13 +122,13 @@ std::string to_text(const FgtdReproduction& result) {
   std::string text = fmt::format(
       "then: as printed (a 3.05 GHz Pentium 4, 2006); now: method hermite with the same parameters; auto: method "
       "automatic asked for that error; times on {} thread{}; ! does not agree\n"
-      "compared: arithmetic: follows from a formula and measures nothing, the same number or power of ten; digits: all "
-      "that are printed; order of magnitude: between a third of the printed power of ten and {} times its end; at "
-      "most: "
-      "at most {} times the end of the printed power of ten\n\n",
+      "compared: arithmetic: a formula gives the same number or power of ten, nothing is measured; equal digits: all "
+      "that "
+      "are printed; order of magnitude: between a third of the printed power of ten and {} times its end; at most the "
+      "published error: {} times the end of its power of ten; seconds are of another machine and not compared\n\n",
       result.threads, result.threads == 1 ? "" : "s", error_slack, error_slack);
   for (const Table& table : result.tables) text += to_text(table) + "\n";
-  text += fmt::format("{} numbers compared", result.compared);
+  text += fmt::format("{} number{} compared", result.compared, result.compared == 1 ? "" : "s");
   const char* separator = ": ";
   for (std::size_t k = 0; k < comparisons.size(); ++k) {
     if (result.by_kind[k] == 0) continue;

@@ -46,6 +46,8 @@ FAULTS = [
     ("src/effect/remesh_kernel.cpp", "equation (4)", "equation (40)", "docs/method.md has no equation 40"),
     ("docs/method.md", "    (2)   X_j'", "    (1)   X_j'", "equation 1 is there 2 times"),
     ("README.md", "| [decay]", "\n| [decay]", "the table of cases has 0 rows of cases/decay.toml"),
+    ("docs/reproduce.md", "N = 8000    |      1e4 4.5e4", "N = 8000    |      1e3 4.5e4", "Table 4.1, 8000: 1e3 is not"),
+    ("docs/reproduce.md", "N = 8000   |    141", "N = 8001   |    141", "Table 6.1 has no row 8001"),
     ("README.md", "| [decay](cases/decay.toml)", "| [decay](cases/swirl.toml)", "0 rows of cases/decay.toml"),
 ]
 for name, old, new, said in FAULTS:
