@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/lattice.hpp"
+#include "base/number.hpp"
 #include "base/printable.hpp"
 #include "base/suggest.hpp"
 #include "base/text_file.hpp"
@@ -729,10 +730,28 @@ class Reader {
                                       .missing_value = spec.missing_value,
                                       .decays = most_components == 1});
       grid_files_.push_back({value.place, spec.data});
+      if (spec.outside == "error" && most_components == 1) check_covers_domain(*spec.data, value.place);
     } catch (const read::GridFileError& error) {
       diagnostics_.error(value.place, error.what(), error.remedy());
     }
     return spec;
+  }
+
+  /// Particles start in the whole domain, so a density must be known there.
+  void check_covers_domain(const GridData& data, const Place& place) {
+    for (int k = 0; domain_valid_ && k < dimension_; ++k) {
+      const double least = data.axis[k].front(), most = data.axis[k].back();
+      const double rounding = std::max(data.rounding[k], 1e-12 * (most - least));
+      const auto axis = static_cast<std::size_t>(k);
+      if (box_.min[axis] >= least - rounding && box_.max[axis] <= most + rounding) continue;
+      diagnostics_.error(
+          place,
+          fmt::format("{} reaches from {} to {} along {}, the domain from {} to {}", data.name,
+                      base::told_apart(least, box_.min[axis]), base::told_apart(most, box_.max[axis]), "xyz"[k],
+                      base::told_apart(box_.min[axis], least), base::told_apart(box_.max[axis], most)),
+          "outside = \"zero\" or \"clamp\" says what stands beyond the data; or make the domain smaller");
+      return;
+    }
   }
 
   /// "array", or "arrays" where several have one component each.
@@ -1366,6 +1385,15 @@ ReadResult read_case(const std::filesystem::path& file, const std::vector<std::s
   std::error_code error;
   if (!std::filesystem::exists(file, error))
     throw FileError(fmt::format("the case file {} cannot be read: there is no such file", file.string()));
+  const std::string kind = file.extension().string();
+  if (kind == ".vti" || kind == ".vtr" || kind == ".pvd")
+    throw InputError(
+        fmt::format("{0} is data on a grid, not a case; a case reads it by file = \"{0}\" in [velocity] or "
+                    "[density] (gaussdrift new gridded_wind writes one)",
+                    file.string()));
+  if (const std::string way = read::way_to_read(file); !way.empty() && kind != ".txt" && kind != ".dat")
+    throw InputError(
+        fmt::format("{} is not a case but data; {}, which a case reads by file = \"...\"", file.string(), way));
   const std::string text = base::read_text_file(file, "a case file", largest_case_file);
   return parse_case(text, file, overrides, threads);
 }

@@ -237,7 +237,7 @@ GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string&
   for (std::size_t p = 0; p < points; ++p)
     result.values[p] = grid.values()[0].numbers[layout.source(p, result.dimension)];
   result.axis = std::move(layout.axis);
-  if (const double time = grid.field_number("TimeValue"); std::isfinite(time)) result.time = time;
+  if (const double time = grid.time(); std::isfinite(time)) result.time = time;
   return result;
 }
 

@@ -169,6 +169,7 @@ struct VtkGrid::Parts {
   std::vector<ArrayValues> values;
   std::array<std::vector<double>, 3> axis;
   std::array<double, 3> rounding{};
+  double time = 0;
   std::array<std::vector<std::uint8_t>, 2> hidden;  // points, cells
 
   template <class Reader>
@@ -205,6 +206,13 @@ struct VtkGrid::Parts {
       throw GridFileError(fmt::format("{} is damaged: the array \"{}\" has {} values for {} {}", name_of(file), name,
                                       array->GetNumberOfTuples(), count, cells ? "cells" : "points"));
     return array;
+  }
+
+  /// Of a field array with one number; NaN where there is none.
+  double field_number(const std::string& name) const {
+    vtkDataArray* array = data->GetFieldData()->GetArray(name.c_str());
+    return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0)
+                                                   : std::numeric_limits<double>::quiet_NaN();
   }
 
   void read_axes() {
@@ -364,14 +372,15 @@ void VtkGrid::load(const std::vector<ArrayInfo>& wanted) {
         values.fill_values = about.fill_values[i];
     for (const char* name : {"_FillValue", "missing_value"})
       for (const std::string& key : {std::string(name), array.name + name})
-        if (const double fill = field_number(key); !std::isnan(fill)) values.fill_values.push_back(fill);
+        if (const double fill = parts.field_number(key); !std::isnan(fill)) values.fill_values.push_back(fill);
     parts.values.push_back(std::move(values));
   }
+  parts.time = parts.field_number("TimeValue");
+  parts.data = nullptr;  // they are many bytes
+  parts.checks = nullptr;
+  parts.reader = nullptr;
 }
 
-double VtkGrid::field_number(const std::string& name) const {
-  vtkDataArray* array = parts_->data->GetFieldData()->GetArray(name.c_str());
-  return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0) : std::numeric_limits<double>::quiet_NaN();
-}
+double VtkGrid::time() const { return parts_->time; }
 
 }  // namespace gaussdrift::read

@@ -45,8 +45,8 @@ class VtkGrid {
   double rounding(std::size_t k) const;
   /// Points (or cells) that the file hides: 1 for those. Empty where there is no mask.
   const std::vector<std::uint8_t>& hidden(bool cells) const;
-  /// A field array with one number, as "TimeValue" is; NaN where there is none.
-  double field_number(const std::string& name) const;
+  /// The field array TimeValue; NaN where there is none.
+  double time() const;
 
  private:
   struct Parts;

@@ -31,7 +31,9 @@ read::GridSnapshot snapshot(const fs::path& file, const std::string& array) {
   try {
     return read::read_snapshot(file, array);
   } catch (const read::GridFileError& error) {
-    throw FileError(error.what());
+    // Paths of cases are relative to them; these are not.
+    const bool tells = !error.remedy().empty() && fs::exists(file);
+    throw FileError(tells ? fmt::format("{}; {}", error.what(), error.remedy()) : std::string(error.what()));
   }
 }
 

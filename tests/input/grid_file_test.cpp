@@ -12,6 +12,26 @@
 namespace gaussdrift::input {
 namespace {
 
+TEST_F(GridFile, OfADensityCoversTheDomainOrSaysWhatStandsBeyond) {
+  write_vti("rho.vti", 3, 3, 1, "rho", 1, "1 1 1 1 1 1 1 1 1 ");
+  const auto refusal_with = [&](const std::string& outside, const std::string& override) -> std::string {
+    const std::string shape = "shape = \"wendland\"\ncenter = [0.5, 0]\nradius = \"R\"\nheight = 1.5";
+    const std::string file = "file = \"rho.vti\"\noutside = \"" + outside + "\"";
+    try {
+      parse_case(with(cone, shape, file), folder_ / "cone.toml", {override, "output.times=[0]"});
+    } catch (const CaseError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal_with("error", "domain.max=[1,1]"), "");
+  EXPECT_EQ(refusal_with("zero", "domain.max=[1,1.0000001]"), "");
+  const std::string text = refusal_with("error", "domain.max=[1,1.0000001]");
+  EXPECT_NE(text.find("rho of rho.vti reaches from -1 to 1 along y, the domain from -1 to 1.0000001"),
+            std::string::npos)
+      << text;
+}
+
 constexpr auto turning = [](double x, double y) { return std::pair(-y, x); };
 
 TEST_F(GridFile, IsReadAndSurvivesTheWayToAFileAndBack) {

@@ -82,6 +82,24 @@ TEST(Wind, ThatIsDamagedIsToldInTheProgramsOwnWordsAlone) {
   for (const char* word : {"ERR|", "vtkXML", ".cxx"}) EXPECT_EQ(run.err.find(word), std::string::npos) << run.err;
 }
 
+TEST(Wind, ThatAParticleLeavesIsNamedWithTheAxisByEveryMethod) {
+  const ScratchFolder folder;
+  write_file(folder / "coast.toml", coast);
+  write_file(folder / "wind.vti", wind("-1"));
+  const std::string reason = " is outside of wind of wind.vti, which reaches from -1 to 1: say what stands there";
+  for (const char* method : {"rk4", "dopri5"}) {
+    const Outcome run = gaussdrift_in(
+        folder, std::string("run coast.toml --force --set velocity.outside=error --set time.method=") + method);
+    EXPECT_EQ(run.exit_code, 4);
+    EXPECT_NE(run.err.find("x = -1.0"), std::string::npos) << method << ": " << run.err;
+    EXPECT_NE(run.err.find(reason), std::string::npos) << method << ": " << run.err;
+  }
+  const Outcome check = gaussdrift_in(
+      folder, "check coast.toml --set velocity.outside=error --set domain.min=[-2,-1] --set density.center=[-1.2,0]");
+  EXPECT_EQ(check.exit_code, 4);
+  EXPECT_NE(check.err.find(reason), std::string::npos) << check.err;
+}
+
 TEST(Wind, OfAnotherKindIsAnsweredWithWhatIsPossible) {
   const ScratchFolder folder;
   for (const char* kind : {"nc", "png", "vtu"}) {
@@ -93,6 +111,10 @@ TEST(Wind, OfAnotherKindIsAnsweredWithWhatIsPossible) {
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_NE(run.err.find("ParaView opens the "), std::string::npos) << run.err;
   }
+  EXPECT_NE(gaussdrift_in(folder, "run wind.nc").err.find("wind.nc is not a case but data; ParaView opens"),
+            std::string::npos);
+  EXPECT_NE(gaussdrift_in(folder, "compare wind.png wind.png").err.find("ParaView opens the picture"),
+            std::string::npos);
   write_file(folder / "a.toml", small_case);
   for (const char* out : {"run a.toml --out a.nc", "run a.toml --out a.png", "study a.toml --out a.pdf",
                           "render a --out a.png", "sum --sources a.csv --sigma 1 --out a.nc"}) {
