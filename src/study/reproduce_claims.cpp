@@ -312,6 +312,8 @@ ClaimsReproduction reproduce_claims(const ClaimsOptions& options,
   choice_of_parameters(printed, result.claims);
   if (progress) progress("the rotating cone");
   rotating_cone(printed, options, result.claims);
+  std::stable_sort(result.claims.begin(), result.claims.end(),
+                   [](const Claim& a, const Claim& b) { return a.section < b.section; });
   result.seconds = watch.seconds();
   return result;
 }
