@@ -23,17 +23,19 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
     throw GridFileError(fmt::format("{} is not a ParaView series: it has no <Collection>", name),
                         "a .pvd lists one file a time: <DataSet timestep=\"0\" file=\"a.vti\"/>");
   std::vector<SeriesEntry> entries;
+  LineCounter lines(file);
   bool timeless = false;
   for (int k = 0; k < collection->GetNumberOfNestedElements(); ++k) {
     vtkXMLDataElement* item = collection->GetNestedElement(k);
     if (std::string_view(item->GetName()) != "DataSet") continue;
-    const std::string place = line_of(file, item);
+    const std::size_t line = lines.line(item);
+    const std::string place = fmt::format("{}:{}", name, line);
     const char* data = item->GetAttribute("file");
     const char* stamp = item->GetAttribute("timestep");
     if (!data || !*data) throw GridFileError(fmt::format("{}: this <DataSet> has no file", place));
     SeriesEntry entry;
     entry.file = file.parent_path() / data;
-    entry.line = static_cast<std::size_t>(*base::read_number<long>(place.substr(place.rfind(':') + 1)));
+    entry.line = line;
     if (stamp) {
       const auto time = base::read_number<double>(stamp);
       if (!time || !std::isfinite(*time))
@@ -43,7 +45,8 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
       entry.time = *time;
     }
     if (!entries.empty() && (!stamp || timeless))
-      throw GridFileError(fmt::format("{}: {} has no timestep", line_of(file, stamp ? collection : item), data),
+      throw GridFileError(fmt::format("{}:{}: {} has no timestep", name, stamp ? entries.back().line : line,
+                                      stamp ? entries.back().file.filename().string() : data),
                           "every file of a series of several has its own: timestep=\"0.5\"");
     timeless = !stamp;
     if (!entries.empty() && entry.time == entries.back().time)

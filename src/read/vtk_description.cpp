@@ -214,17 +214,19 @@ void check_readable(const std::filesystem::path& file) {
                         "leave times or points out");
 }
 
-std::string line_of(const std::filesystem::path& file, vtkXMLDataElement* element) {
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<char> block(65536);
-  auto left = std::max<long long>(0, element->GetXMLByteIndex());
-  long long line = 1;
-  while (left > 0 && stream) {
-    stream.read(block.data(), std::min<std::streamsize>(left, static_cast<std::streamsize>(block.size())));
-    line += std::count(block.begin(), block.begin() + stream.gcount(), '\n');
-    left -= stream.gcount();
+LineCounter::LineCounter(const std::filesystem::path& file) : stream_(file, std::ios::binary), block_(65536) {}
+
+std::size_t LineCounter::line(vtkXMLDataElement* element) {
+  for (const auto index = element->GetXMLByteIndex(); at_ < index && stream_;) {
+    stream_.read(block_.data(), std::min<std::streamsize>(index - at_, static_cast<std::streamsize>(block_.size())));
+    lines_ += static_cast<std::size_t>(std::count(block_.begin(), block_.begin() + stream_.gcount(), '\n'));
+    at_ += stream_.gcount();
   }
-  return fmt::format("{}:{}", file.filename().string(), line);
+  return lines_;
+}
+
+std::string line_of(const std::filesystem::path& file, vtkXMLDataElement* element) {
+  return fmt::format("{}:{}", file.filename().string(), LineCounter(file).line(element));
 }
 
 bool Description::covered(bool cells) const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,19 @@ Description describe_grid(vtkXMLDataElement* grid, const std::filesystem::path& 
 
 /// Throws GridFileError unless the file is there and can be read.
 void check_readable(const std::filesystem::path& file);
+
+/// The lines of elements that are asked for in the order of the file.
+class LineCounter {
+ public:
+  explicit LineCounter(const std::filesystem::path& file);
+  std::size_t line(vtkXMLDataElement* element);
+
+ private:
+  std::ifstream stream_;
+  std::vector<char> block_;
+  long long at_ = 0;
+  std::size_t lines_ = 1;
+};
 
 /// "wind.vti:3": the line of an element of the file.
 std::string line_of(const std::filesystem::path& file, vtkXMLDataElement* element);

@@ -22,7 +22,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 #include "read/grid_file_error.hpp"
@@ -183,9 +185,23 @@ struct VtkGrid::Parts {
     checks = checked;
     selections = checked->selections();
     reader = checked;
-    if (!reader->CanReadFile(file.string().c_str()))
-      throw GridFileError(fmt::format("{} is not a file of the kind that its name says", name_of(file)));
-    reader->UpdateInformation();
+    run([&] {
+      if (!reader->CanReadFile(file.string().c_str()))
+        throw GridFileError(fmt::format("{} is not a file of the kind that its name says", name_of(file)));
+      reader->UpdateInformation();
+    });
+  }
+
+  /// VTK's work, with what came of it. Lengths that are nonsense end in exceptions of the library.
+  template <class Work>
+  void run(const Work& work) const {
+    try {
+      work();
+    } catch (const std::length_error&) {
+      throw GridFileError(fmt::format("{} is damaged: its lengths are impossible", name_of(file)));
+    } catch (const std::bad_alloc&) {
+      throw GridFileError(fmt::format("{} is damaged, or too large for the memory", name_of(file)));
+    }
     check();
   }
 
@@ -353,8 +369,7 @@ void VtkGrid::load(const std::vector<ArrayInfo>& wanted) {
       selection->EnableArray(array.name.c_str());
     }
   }
-  parts.reader->Update();
-  parts.check();
+  parts.run([&] { parts.reader->Update(); });
   parts.data = parts.reader->GetOutputAsDataSet();
   parts.read_axes();
   parts.read_masks();
