@@ -299,19 +299,20 @@ Description describe_grid(vtkXMLDataElement* grid, const std::filesystem::path& 
   return result;
 }
 
-void check_ascii(const std::filesystem::path& file, vtkXMLDataElement* array, std::size_t count) {
+std::vector<double> numbers_in_text(const std::filesystem::path& file, vtkXMLDataElement* array) {
   std::ifstream stream(file, std::ios::binary);
   stream.seekg(array->GetXMLByteIndex());
   stream.ignore(std::numeric_limits<std::streamsize>::max(), '>');
   std::vector<char> block(65536);
   std::string word;
-  std::size_t found = 0;
+  std::vector<double> numbers;
   const auto take = [&] {
     if (word.empty()) return;
-    ++found;
-    if (!base::read_number<double>(word))
+    const auto number = base::read_number<double>(word);
+    if (!number)
       throw GridFileError(fmt::format("{}: {} is not a number: value {} of the array \"{}\"", line_of(file, array),
-                                      shown(word), found, or_empty(array->GetAttribute("Name"))));
+                                      shown(word), numbers.size() + 1, or_empty(array->GetAttribute("Name"))));
+    numbers.push_back(*number);
     word.clear();
   };
   for (bool inside = true; inside && stream;) {
@@ -327,9 +328,7 @@ void check_ascii(const std::filesystem::path& file, vtkXMLDataElement* array, st
     }
   }
   take();
-  if (found != count)
-    throw GridFileError(fmt::format("{}: the array \"{}\" has {} numbers here; the extent needs {}",
-                                    line_of(file, array), or_empty(array->GetAttribute("Name")), found, count));
+  return numbers;
 }
 
 }  // namespace gaussdrift::read

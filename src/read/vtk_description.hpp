@@ -51,7 +51,7 @@ class LineCounter {
 /// "wind.vti:3": the line of an element of the file.
 std::string line_of(const std::filesystem::path& file, vtkXMLDataElement* element);
 
-/// Throws GridFileError unless the text between the tags of a DataArray with format="ascii" is `count` numbers.
-void check_ascii(const std::filesystem::path& file, vtkXMLDataElement* array, std::size_t count);
+/// The numbers between the tags of a DataArray with format="ascii". Throws GridFileError where a word is none.
+std::vector<double> numbers_in_text(const std::filesystem::path& file, vtkXMLDataElement* array);
 
 }  // namespace gaussdrift::read

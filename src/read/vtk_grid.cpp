@@ -103,6 +103,37 @@ class CheckedReader : public Base, public Checks {
     });
   }
 
+  // VTK reads text up to the first word that it does not understand.
+  int ReadArrayValues(vtkXMLDataElement* item, vtkIdType first_of_array, vtkAbstractArray* array, vtkIdType first,
+                      vtkIdType count, vtkXMLReader::FieldType type) override {
+    auto* numbers = vtkDataArray::SafeDownCast(array);
+    if (!numbers || !is_text(item)) return Base::ReadArrayValues(item, first_of_array, array, first, count, type);
+    return kept([&] {
+      const std::vector<double>& values = text(item);
+      if (first + count > static_cast<vtkIdType>(values.size())) fail(item, "fewer", first + count);
+      const int components = numbers->GetNumberOfComponents();
+      const int type_of_words = numbers->GetDataType();
+      const bool whole = type_of_words != VTK_FLOAT && type_of_words != VTK_DOUBLE;
+      // Text may be a little above the largest number of Float32, as 3.4028235e38 is. The largest whole numbers of 64
+      // bits are no doubles.
+      constexpr double largest = std::numeric_limits<float>::max(), rounding = 1 + 3e-8,
+                       largest_whole = 0x1.fffffffffffffp+62;
+      for (vtkIdType i = 0; i < count; ++i) {
+        double value = values[static_cast<std::size_t>(first + i)];
+        if (whole ? !(value == std::floor(value) && value >= numbers->GetDataTypeMin() &&
+                      value <= numbers->GetDataTypeMax())
+                  : type_of_words == VTK_FLOAT && std::isfinite(value) && std::abs(value) > largest * rounding)
+          throw GridFileError(fmt::format("{}: {} in the array \"{}\" is no number of its type {}",
+                                          line_of(*file, item), value, name_in(item), item->GetAttribute("type")));
+        if (type_of_words == VTK_FLOAT && std::isfinite(value)) value = std::clamp(value, -largest, largest);
+        if (whole) value = std::min(value, largest_whole);
+        const vtkIdType at = first_of_array + i;
+        numbers->SetComponent(at / components, static_cast<int>(at % components), value);
+      }
+      return 1;
+    });
+  }
+
   // Of one piece. VTK takes as many numbers as it needs and says nothing of those that are left: then the extent is
   // wrong, or one of them has a comma.
   int ReadPieceData() override {
@@ -134,23 +165,43 @@ class CheckedReader : public Base, public Checks {
   }
 
  private:
+  static const char* name_in(vtkXMLDataElement* item) {
+    const char* name = item->GetAttribute("Name");
+    return name ? name : "";
+  }
+
+  static bool is_text(vtkXMLDataElement* item) {
+    const char* format = item->GetAttribute("format");
+    return !item->GetAttribute("offset") && !(format && std::string_view(format) == "binary");
+  }
+
+  /// Kept, for pieces of a grid are read row by row.
+  const std::vector<double>& text(vtkXMLDataElement* item) {
+    if (item != text_of_) text_ = numbers_in_text(*file, item), text_of_ = item;
+    return text_;
+  }
+
+  [[noreturn]] void fail(vtkXMLDataElement* item, const char* more_or_fewer, vtkIdType count) const {
+    throw GridFileError(fmt::format("{}: the array \"{}\" has {} numbers than the {} that the extent needs",
+                                    line_of(*file, item), name_in(item), more_or_fewer, count));
+  }
+
   void check_length(vtkXMLDataElement* item, std::size_t count) {
     const auto type = word_type(item->GetAttribute("type") ? item->GetAttribute("type") : "");
     if (!type || count == 0) return;
     std::array<double, 2> numbers{};  // more than two words of any type
-    const char* format = item->GetAttribute("format");
-    std::size_t found = 0;
-    if (vtkTypeInt64 offset = 0; item->GetAttribute("offset") && item->GetScalarAttribute("offset", offset))
+    std::size_t found = 0;            // of two, beginning with the last one that is needed
+    if (is_text(item))
+      found = text(item).size() - (count - 1);
+    else if (vtkTypeInt64 offset = 0; item->GetAttribute("offset") && item->GetScalarAttribute("offset", offset))
       found = this->XMLParser->ReadAppendedData(offset, numbers.data(), count - 1, 2, *type);
-    else if (format && std::string_view(format) == "binary")
-      found = this->XMLParser->ReadInlineData(item, 0, numbers.data(), count - 1, 2, *type);
     else
-      return check_ascii(*file, item, count);
-    if (found != 1)
-      throw GridFileError(fmt::format(
-          "{}: the array \"{}\" has {} numbers than the {} that the extent needs", line_of(*file, item),
-          item->GetAttribute("Name") ? item->GetAttribute("Name") : "", found > 1 ? "more" : "fewer", count));
+      found = this->XMLParser->ReadInlineData(item, 0, numbers.data(), count - 1, 2, *type);
+    if (found != 1) fail(item, found > 1 ? "more" : "fewer", static_cast<vtkIdType>(count));
   }
+
+  vtkXMLDataElement* text_of_ = nullptr;
+  std::vector<double> text_;
 };
 
 bool is_mask(const std::string& name) {
