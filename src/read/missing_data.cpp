@@ -18,38 +18,19 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Fill values of netCDF (9.96921e36), CF files and models (1e20, 1e30, ...), GrADS, Ferret (-1e34), Vis5D (1e35), and
 // the largest numbers of the types. No wind and few densities have these sizes, so one of them is enough.
-constexpr std::array huge_marks{1e19,
-                                1e20,
-                                2e20,
-                                9e20,
-                                9.99e20,
-                                9.999e20,
-                                1e21,
-                                1e25,
-                                1e30,
-                                1e31,
-                                1e32,
-                                -9e33,
-                                9e33,
-                                1e34,
-                                1e35,
-                                1e36,
-                                9.9692099683868690e36,
-                                9.96921e36,
-                                1e37,
-                                1e38,
-                                double(std::numeric_limits<float>::max()),
-                                1e100,
-                                1e300,
-                                std::numeric_limits<double>::max()};
+constexpr double largest_single = std::numeric_limits<float>::max(),
+                 largest_double = std::numeric_limits<double>::max();
+constexpr std::array huge_marks{
+    1e19,       1e20, 2e20, 9e20,           9.99e20, 9.999e20, 1e21,          1e25,
+    1e30,       1e31, 1e32, 9e33,           1e34,    1e35,     1e36,          9.9692099683868690e36,
+    9.96921e36, 1e37, 1e38, largest_single, 1e100,   1e300,    largest_double};
 // As large as real numbers may be: they count only where the rest is far smaller.
 constexpr std::array modest_marks{999.,   9999.,  99999., 999999., 9999999.,    999.9,       9999.9,     8888.,
                                   88888., 32767., 32768., 65535.,  2147483647., 2147483648., 4294967295.};
-constexpr double smallest_huge = 1e19, far_above_rest = 4;
+constexpr double smallest_huge = 9e18, far_above_rest = 4;
 
 /// The same number, or as a file in single precision has it.
 bool is(double value, double mark) {
-  constexpr double largest_single = std::numeric_limits<float>::max();
   return value == mark || (std::abs(mark) <= largest_single && value == double(float(mark)));
 }
 bool is_either_sign(double value, double mark) { return is(std::abs(value), std::abs(mark)); }
@@ -143,7 +124,8 @@ Marks recognise_marks(const GridData& data, std::vector<double> named, bool deca
   Marks marks{std::move(named), {}, {}};
   std::vector<double> modest;
   Exponents exponents{};
-  double largest = 0;  // of the rest
+  double largest = 0;   // of the rest
+  bool others = false;  // there is a rest
   const auto add = [](std::vector<double>& list, double mark) {
     if (std::find(list.begin(), list.end(), mark) == list.end()) list.push_back(mark);
   };
@@ -160,12 +142,17 @@ Marks recognise_marks(const GridData& data, std::vector<double> named, bool deca
       } else {
         ++exponents[exponent_of(value)];
         largest = std::max(largest, size);
+        others = true;
       }
     }
+  if (decays && !others) {  // a density of 1e20 everywhere is one
+    marks.common.clear();
+    return marks;
+  }
   if (!decays || !marks.common.empty())
     if (const auto gap = find_gap(exponents)) marks.far_out = gap->above, largest = gap->below;
   for (const double mark : modest)
-    if (largest > 0 && mark > far_above_rest * largest) add(marks.common, mark);
+    if ((largest > 0 || !decays) && mark > far_above_rest * largest) add(marks.common, mark);
   return marks;
 }
 

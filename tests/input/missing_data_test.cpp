@@ -63,6 +63,13 @@ TEST_F(MissingData, IsKnownByItsMarks) {
             std::string::npos);
 }
 
+TEST_F(MissingData, IsKnownWhereAllElseIsStill) {
+  write_image("still.vti", 2, 2, data(array("u", 2, "0 0 -9999 -9999 0 0 0 0")));
+  EXPECT_NE(refusal("still.vti", vector_of("u")).find("no value at (1, 0): -9999 is there"), std::string::npos);
+  write_image("still.vti", 2, 2, data(array("u", 2, "0 0 1e19 0 0 0 0 0", "Float32")));
+  EXPECT_NE(refusal("still.vti", vector_of("u")).find("no value at (1, 0): 1e+19 is there"), std::string::npos);
+}
+
 TEST_F(MissingData, IsMarkedByTheFileOrTheUser) {
   write_wind("wind.vti", "-7");
   EXPECT_EQ(settled("wind.vti"), -7);
@@ -119,6 +126,7 @@ TEST_F(MissingData, IsNotSeenInDataThatAreWhole) {
   EXPECT_EQ(accepted("999 999 1.2 1.2 ", 1, true), "");
   EXPECT_EQ(accepted("9999 9998 5000 100 ", 1, true), "");
   EXPECT_EQ(accepted("9999 9999 0 0 ", 1, true), "");
+  EXPECT_EQ(accepted("1e20 1e20 1e20 1e20 ", 1, true), "");
   EXPECT_EQ(accepted("1e3 1e3 10 1e2 1e-4 1 0 0 ", 2, false), "");
   EXPECT_EQ(accepted("1e7 1.1e7 1e7 0 -1e7 1e7 0 0 ", 2, false), "");
   EXPECT_EQ(accepted("1000 0 1 1 1 1 1 1 ", 2, false), "");
