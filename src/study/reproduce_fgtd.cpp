@@ -50,10 +50,6 @@ void quote(Table& table) {
     }
 }
 
-bool compared(const Column& column, const Entry& entry) {
-  return entry.published && entry.computed && comparison_of(column, entry) != Comparison::none;
-}
-
 void count_agreement(const Table& table, FgtdReproduction& result) {
   for (const Row& row : table.rows)
     for (std::size_t i = 0; i < row.entries.size(); ++i) {
@@ -61,7 +57,7 @@ void count_agreement(const Table& table, FgtdReproduction& result) {
       const Entry& entry = row.entries[i];
       const std::string place = fmt::format("Table {}, {}, {}", table.number, row.name, column.name);
       if (!entry.kept) result.disagreements.push_back(place + ": automatic breaks its promise");
-      if (!compared(column, entry)) continue;
+      if (!is_compared(column, entry)) continue;
       ++result.compared;
       const auto kind = std::find(comparisons.begin(), comparisons.end(), comparison_of(column, entry));
       ++result.by_kind[static_cast<std::size_t>(kind - comparisons.begin())];
@@ -93,9 +89,13 @@ Comparison comparison_of(const Column& column, const Entry& entry) {
   return entry.comparison.value_or(column.comparison);
 }
 
+bool is_compared(const Column& column, const Entry& entry) {
+  return entry.published && entry.computed && comparison_of(column, entry) != Comparison::none;
+}
+
 bool agrees(const Column& column, const Entry& entry) {
   if (!entry.kept) return false;
-  if (!compared(column, entry)) return true;
+  if (!is_compared(column, entry)) return true;
   const double then = *entry.published, now = *entry.computed;
   const int power = power_of_ten(then);
   switch (comparison_of(column, entry)) {
@@ -113,7 +113,7 @@ bool agrees(const Column& column, const Entry& entry) {
 }
 
 bool off(const Column& column, const Entry& entry) {
-  if (!compared(column, entry) || column.quantity == Quantity::count) return false;
+  if (!is_compared(column, entry) || column.quantity == Quantity::count) return false;
   const int away = power_of_ten(*entry.computed) - power_of_ten(*entry.published);
   return away > 0 || (away < 0 && comparison_of(column, entry) == Comparison::arithmetic);
 }

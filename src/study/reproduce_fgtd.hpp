@@ -73,6 +73,8 @@ struct Table {
 constexpr double error_slack = 1.25;
 
 Comparison comparison_of(const Column& column, const Entry& entry);
+/// Are both numbers there, and is there a comparison for them?
+bool is_compared(const Column& column, const Entry& entry);
 /// Does the computed number agree with the published one as the comparison says, and does automatic keep its promise?
 bool agrees(const Column& column, const Entry& entry);
 /// Is it compared, and a power of ten away from the published one, larger unless it follows by arithmetic?

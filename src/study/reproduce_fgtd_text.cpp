@@ -62,7 +62,7 @@ std::string comparisons_of(const Table& table) {
   for (const Row& row : table.rows)
     for (std::size_t i = 0; i < row.entries.size(); ++i)
       for (std::size_t k = 0; k < comparisons.size(); ++k)
-        counts[k] += row.entries[i].published && row.entries[i].computed &&
+        counts[k] += is_compared(table.columns[i], row.entries[i]) &&
                      comparison_of(table.columns[i], row.entries[i]) == comparisons[k];
   std::string text;
   for (std::size_t k = 0; k < comparisons.size(); ++k)
@@ -157,13 +157,14 @@ std::string to_json(const FgtdReproduction& result) {
       nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
       for (std::size_t i = 0; i < row.entries.size(); ++i) {
         const Entry& entry = row.entries[i];
+        const bool told = is_compared(table.columns[i], entry) || !entry.kept;
         numbers.push_back({{"column", table.columns[i].name},
                            {"quantity", name(table.columns[i].quantity)},
                            {"comparison", to_string(comparison_of(table.columns[i], entry))},
                            {"published", value(entry.published)},
                            {"computed", value(entry.computed)},
                            {"automatic", value(entry.automatic)},
-                           {"agrees", agrees(table.columns[i], entry)}});
+                           {"agrees", told ? nlohmann::ordered_json(agrees(table.columns[i], entry)) : nullptr}});
       }
       rows.push_back({{"row", row.name}, {"numbers", numbers}, {"note", row.note}});
     }

@@ -176,6 +176,11 @@ TEST(Reproduce, GivesOneTableAsJsonOrText) {
   ASSERT_EQ(document["tables"].size(), 1u);
   EXPECT_EQ(document["tables"][0]["table"], "4.6");
   EXPECT_EQ(document["tables"][0]["rows"].size(), 9u);
+  // What nobody published agrees with nothing: the promise of auto, and the largest sum.
+  const auto& numbers = document["tables"][0]["rows"][0]["numbers"];
+  EXPECT_EQ(numbers[0]["agrees"], true);
+  EXPECT_EQ(numbers[0]["comparison"], "order of magnitude");
+  EXPECT_TRUE(numbers[4]["agrees"].is_null());
   EXPECT_TRUE(document["disagreements"].empty());
   const Outcome text = gaussdrift_in(folder, "reproduce fgtd 3.2");
   EXPECT_EQ(text.exit_code, 0) << text.err;
@@ -196,8 +201,8 @@ TEST(Reproduce, DrawsTheFigureThatIsNamed) {
 
 TEST(Reproduce, RefusesATableThatThereIsNot) {
   const ScratchFolder folder;
-  for (const char* wrong : {"reproduce fgtd 4.9", "reproduce cone 4.6", "reproduce cone --full",
-                            "reproduce figures 9.9", "reproduce cone --out x"})
+  for (const char* wrong : {"reproduce fgtd 4.10", "reproduce claims 3.5", "reproduce cone 4.6",
+                            "reproduce cone --full", "reproduce figures 9.9", "reproduce cone --out x"})
     EXPECT_EQ(gaussdrift_in(folder, wrong).exit_code, 2) << wrong;
 }
 
