@@ -90,6 +90,7 @@ struct ParticleSpec {
   double overlap = 2;             // c: eps = c h
   std::string cutoff = "gauss2";  // gauss2 | gauss4 | gauss6 | gauss8 | two-gauss
   double width_ratio = 2;         // a of two-gauss: the second width is a eps
+  double threshold = 1e-12;       // part of the largest weight below which a lattice point has no particle
 };
 
 struct TimeSpec {

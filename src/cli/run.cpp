@@ -15,6 +15,7 @@
 #include "cli/verbs.hpp"
 #include "input/read_case.hpp"
 #include "render/picture_series.hpp"
+#include "sim/outside.hpp"
 #include "sim/simulation.hpp"
 #include "study/accuracy.hpp"
 #include "study/budget.hpp"
@@ -60,6 +61,7 @@ std::string one_line(const study::Budget& budget) {
                                                      {budget.smoothing, "smoothing"},
                                                      {budget.quadrature, "quadrature"},
                                                      {budget.transform, "Gauss transform"}};
+  if (budget.left_out > 0) causes.emplace_back(budget.left_out, "particles left out");
   std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (const auto& [value, name] : causes)
@@ -141,6 +143,13 @@ std::string place_text(const Vector& place, int dimension) {
   return text + ")";
 }
 
+std::string left_out_text(const Case& scene, const SeedReport& seeding) {
+  std::string parts = fmt::format("{:.1e} of the mass", seeding.carried.front().part());
+  if (seeding.carried.size() > 1) parts += fmt::format(", {:.1e} of the charge", seeding.carried.back().part());
+  return fmt::format("left out {} lattice points with less than {:g} of the largest weight: {} (particles.threshold)\n",
+                     seeding.left_out, scene.particles.threshold, parts);
+}
+
 std::string ending_text(const Case& scene, const RunSummary& summary, const study::Budget* budget,
                         std::optional<double> target, const fs::path& folder) {
   std::string text;
@@ -160,7 +169,11 @@ std::string ending_text(const Case& scene, const RunSummary& summary, const stud
     text += fmt::format("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights,
                         last.mass, worst, scene.evaluate.tolerance);
   }
-  if (!summary.frames.empty() && summary.frames.back().second.error) {
+  if (summary.seeding.left_out > 0) text += left_out_text(scene, summary.seeding);
+  if (!summary.frames.empty() && !summary.frames.back().second.no_norms.empty())
+    text +=
+        fmt::format("error  at t = {:.4g} {}\n", summary.frames.back().first, summary.frames.back().second.no_norms);
+  else if (!summary.frames.empty() && summary.frames.back().second.error) {
     const auto& [time, numbers] = summary.frames.back();
     const std::string where = numbers.compared < summary.grid_points
                                   ? fmt::format(", on {} of {} grid points", numbers.compared, summary.grid_points)
@@ -168,7 +181,13 @@ std::string ending_text(const Case& scene, const RunSummary& summary, const stud
     text += fmt::format("error  at t = {:.4g}, relative to the exact density{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n",
                         time, where, numbers.error->l1, numbers.error->l2, numbers.error->linf);
   }
-  if (target && !summary.frames.empty() && summary.frames.back().second.error) {
+  if (const auto* hardest = worst_output(summary.frames); hardest && hardest->first != summary.frames.back().first)
+    text += fmt::format("worst  at t = {:.4g}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", hardest->first,
+                        hardest->second.error->l1, hardest->second.error->l2, hardest->second.error->linf);
+  if (target && !summary.frames.empty() && !summary.frames.back().second.no_norms.empty()) {
+    text +=
+        fmt::format("target {:g}: not known whether it is met, {}\n", *target, summary.frames.back().second.no_norms);
+  } else if (target && !summary.frames.empty() && summary.frames.back().second.error) {
     const double achieved = summary.frames.back().second.error->linf;
     text += fmt::format("target {:g}: achieved {:.2e}{}\n", *target, achieved, achieved <= *target ? "" : ", MISSED");
   }
@@ -224,6 +243,12 @@ void add_accuracy_table(const Case& scene, const RunSummary& summary, const stud
                         nlohmann::ordered_json& more, int threads) {
   if (!last.any || last.particles.size() == 0) {
     more["accuracy_table_left_out"] = "no particles are left at the end";
+    return;
+  }
+  if (last.density.rho.empty() ||
+      *std::max_element(last.density.rho.begin(), last.density.rho.end(),
+                        [](double a, double b) { return std::abs(a) < std::abs(b); }) == 0) {
+    more["accuracy_table_left_out"] = "the last output is 0 on the whole grid";
     return;
   }
   constexpr std::array tolerances{1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
@@ -284,6 +309,8 @@ std::vector<std::string> warnings_of(const Case& scene, const RunSummary& summar
                     "error leave them out",
                     summary.reference.untraced, place_text(summary.reference.first_untraced, scene.domain.dimension),
                     summary.reference.trouble));
+  for (const std::string& text : {about_leaving(summary.frames), about_beyond(summary.beyond_at_start)})
+    if (!text.empty()) warnings.push_back(text);
   return warnings;
 }
 
@@ -355,6 +382,8 @@ ExitCode run(const RunOptions& options) {
     more["accuracy"] = {{"target", *target},
                         {"achieved", known ? nlohmann::ordered_json(error->linf) : nlohmann::ordered_json()},
                         {"met", known && error->linf <= *target}};
+    if (const std::string& why = summary.frames.back().second.no_norms; !why.empty())
+      more["accuracy"]["not_known"] = why;
   }
   if (!warnings.empty()) more["warnings"] = warnings;
   const std::string json = write::summary_json(scene, summary, more);

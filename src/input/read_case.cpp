@@ -880,6 +880,9 @@ class Reader {
       particles.per_axis = to_int(*count);
     }
     particles.cutoff = choice("particles", "cutoff");
+    // Reactions can raise weights that are next to nothing at the start.
+    if (const auto threshold = number("particles", "threshold"))
+      particles.threshold = threshold->written || !table("effects.reaction") ? threshold->number : 0;
     read_width_ratio(particles);
     if (const auto overlap = number("particles", "overlap")) {
       particles.overlap = overlap->number;

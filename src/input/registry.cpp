@@ -322,6 +322,14 @@ std::vector<Key> written_keys() {
        .range = {0.01, 100},
        .symbol = "a",
        .meaning = "widths of the pair two-gauss are eps and a eps; not 1"},
+      {.table = "particles",
+       .name = "threshold",
+       .type = Type::number,
+       .fallback = "1e-12",
+       .range = {0, 0.01},
+       .meaning = "lattice points with less than this part of the largest weight, and of the largest charge, have no "
+                  "particle; the run tells how many, and how much they would carry. 0, the default with "
+                  "`[effects.reaction]`, which can raise small weights: every point that carries anything"},
 
       {.table = "time",
        .name = "end",
@@ -591,7 +599,7 @@ const std::vector<Quantity>& quantities() {
        "particles.cutoff, particles.overlap"},
       {"x_j", "where particle j starts: a point of the lattice", "", "length", "particles.per_axis, domain"},
       {"X_j", "where particle j is at time t", "X_j' = u(X_j, t), X_j(0) = x_j", "length", "velocity"},
-      {"alpha_j", "weight of particle j, the mass that it carries; particles with alpha_j = 0 are left out",
+      {"alpha_j", "weight of particle j, the mass that it carries; particles.threshold leaves out the smallest",
        "alpha_j = h^d rho_0(x_j)", "density length^d", "density, particles.per_axis"},
       {"rho_eps^h", "the density of all blobs, which is what a run computes",
        "rho_eps^h(x, t) = sum_j alpha_j zeta_eps(x - X_j(t))", "density", ""},

@@ -173,6 +173,7 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
   out.entry("overlap", written(scene.particles.overlap));
   out.entry("cutoff", written(scene.particles.cutoff));
   if (scene.particles.cutoff == "two-gauss") out.entry("width_ratio", written(scene.particles.width_ratio));
+  out.entry("threshold", written(scene.particles.threshold));
   out.table("time");
   out.entry("end", written(scene.time.end));
   if (scene.time.step > 0) out.entry("step", written(scene.time.step));

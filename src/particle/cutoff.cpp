@@ -71,6 +71,20 @@ Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, dou
                              : laplacians_of_gaussian(order, dimension, core_radius);
 }
 
+double peak(const Cutoff& cutoff) {
+  double sum = 0;
+  for (const CutoffTerm& term : cutoff) {
+    // d^a/dx^a exp(-x^2/w^2) at 0 is (-1)^(a/2) a! / (a/2)! / w^a for even a, and 0 for odd a.
+    double value = term.coefficient;
+    for (const int order : term.derivative) {
+      const double sign = order % 2 != 0 ? 0 : order / 2 % 2 != 0 ? -1 : 1;
+      value *= sign * factorial(order) / factorial(order / 2) * std::pow(term.width, -order);
+    }
+    sum += value;
+  }
+  return sum;
+}
+
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread) {
   Cutoff wider = cutoff;
   for (CutoffTerm& term : wider) {

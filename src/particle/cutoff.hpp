@@ -36,6 +36,9 @@ Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, dou
 /// Order of the cutoff of that name (moments 1 .. order - 1 vanish). Throws std::out_of_range.
 int cutoff_order(std::string_view name);
 
+/// zeta_eps(0), the largest |zeta_eps|: the Fourier transforms of all cutoffs are positive.
+double peak(const Cutoff& cutoff);
+
 /// The cutoff convolved with the Gaussian of variance spread/2 an axis: the square of every width grows by `spread`,
 /// its integral stays, and the coefficients of the derivatives stay those of the widths before (method.md, equation
 /// 13).

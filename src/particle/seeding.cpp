@@ -12,39 +12,92 @@ namespace gaussdrift {
 
 namespace {
 
-// One line of lattice points along the first axis, other indices fixed; what it carries is joined in the order of
-// lines.
-Particles seed_line(const Lattice& lattice, std::size_t line, const DensityFunction& rho_0) {
-  const std::size_t length = lattice.points[0];
-  const std::size_t j = line % lattice.points[1], k = line / lattice.points[1];
+// One line of lattice points along the first axis, other indices fixed.
+struct Line {
+  std::size_t first = 0;  // number of its first point
   std::array<std::vector<double>, max_dimension> x;
-  x[0] = lattice.nodes(0);
-  x[1].assign(length, lattice.coordinate(1, j));
-  x[2].assign(length, lattice.coordinate(2, k));
-  std::vector<double> rho(length, 0.0);
-  PointsView points{lattice.dimension, length, {}};
-  for (int a = 0; a < lattice.dimension; ++a) points.axis[a] = x[a].data();
-  rho_0(points, rho.data());
+  std::vector<std::vector<double>> weights;  // one array for each of the things carried
 
-  Particles carried;
-  carried.dimension = lattice.dimension;
+  std::size_t size() const { return x[0].size(); }
+};
+
+std::string place_text(const Line& line, std::size_t i, int dimension) {
+  std::string text = fmt::format("({}, {}", line.x[0][i], line.x[1][i]);
+  return text + (dimension == 3 ? fmt::format(", {})", line.x[2][i]) : ")");
+}
+
+Line weigh_line(const Lattice& lattice, std::size_t number, const std::vector<Carried>& carried) {
+  const std::size_t length = lattice.points[0];
+  Line line;
+  line.first = number * length;
+  line.x[0] = lattice.nodes(0);
+  line.x[1].assign(length, lattice.coordinate(1, number % lattice.points[1]));
+  line.x[2].assign(length, lattice.coordinate(2, number / lattice.points[1]));
+  PointsView points{lattice.dimension, length, {}};
+  for (int a = 0; a < lattice.dimension; ++a) points.axis[a] = line.x[a].data();
   const double cell = std::pow(lattice.spacing, lattice.dimension);
-  for (std::size_t i = 0; i < length; ++i) {
-    if (!std::isfinite(rho[i])) {
-      std::string place = fmt::format("({}, {}", x[0][i], x[1][i]);
-      place += lattice.dimension == 3 ? fmt::format(", {})", x[2][i]) : ")";
-      throw NumericalError(
-          fmt::format("the initial density is {} at {}; it must be finite on the whole domain: guard the expression, "
-                      "or move the domain",
-                      std::isnan(rho[i]) ? "nan" : fmt::format("{}", rho[i]), place));
+  for (const Carried& kind : carried) {
+    std::vector<double>& weights = line.weights.emplace_back(length, 0.0);
+    kind.density(points, weights.data());
+    for (std::size_t i = 0; i < length; ++i) {
+      if (!std::isfinite(weights[i]))
+        throw NumericalError(fmt::format(
+            "{} is {} at {}; it must be finite on the whole domain: guard the expression, or move the domain",
+            kind.name, std::isnan(weights[i]) ? "nan" : fmt::format("{}", weights[i]),
+            place_text(line, i, lattice.dimension)));
+      weights[i] *= cell;
     }
-    const double alpha = cell * rho[i];
-    if (alpha == 0) continue;
-    for (int a = 0; a < lattice.dimension; ++a) carried.position[a].push_back(x[a][i]);
-    carried.alpha.push_back(alpha);
-    carried.id.push_back(static_cast<std::int64_t>(line * length + i));
   }
-  return carried;
+  return line;
+}
+
+// What a line carries; parts are joined in the order of lines.
+struct Part {
+  Particles particles;
+  SeedReport report;
+};
+
+Part seed_line(const Lattice& lattice, std::size_t number, const std::vector<Carried>& carried,
+               const std::vector<double>& least) {
+  const Line line = weigh_line(lattice, number, carried);
+  Part part;
+  part.particles.dimension = lattice.dimension;
+  part.report.carried.resize(carried.size());
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    bool something = false, enough = false;
+    for (std::size_t q = 0; q < carried.size(); ++q) {
+      const double size = std::abs(line.weights[q][i]);
+      something = something || size > 0;
+      enough = enough || (size > 0 && size >= least[q]);
+    }
+    for (std::size_t q = 0; q < carried.size(); ++q) {
+      const double size = std::abs(line.weights[q][i]);
+      part.report.carried[q].all += size;
+      if (!enough) part.report.carried[q].left_out += size;
+    }
+    if (something && !enough) ++part.report.left_out;
+    if (!enough) continue;
+    for (int a = 0; a < lattice.dimension; ++a) part.particles.position[a].push_back(line.x[a][i]);
+    part.particles.alpha.push_back(line.weights.front()[i]);
+    part.particles.id.push_back(static_cast<std::int64_t>(line.first + i));
+  }
+  return part;
+}
+
+// The smallest weight of each kind that is enough. Lines are weighed twice, so that what is left out is never kept.
+std::vector<double> least_weights(const Lattice& lattice, const std::vector<Carried>& carried, double threshold,
+                                  std::size_t lines, int threads) {
+  std::vector<double> least(carried.size(), 0.0);
+  if (!(threshold > 0)) return least;
+  std::vector<std::vector<double>> largest(lines, least);
+  base::parallel_for(lines, threads, [&](std::size_t number) {
+    const Line line = weigh_line(lattice, number, carried);
+    for (std::size_t q = 0; q < carried.size(); ++q)
+      for (const double weight : line.weights[q]) largest[number][q] = std::max(largest[number][q], std::abs(weight));
+  });
+  for (const auto& of_line : largest)
+    for (std::size_t q = 0; q < carried.size(); ++q) least[q] = std::max(least[q], threshold * of_line[q]);
+  return least;
 }
 
 template <class T>
@@ -54,19 +107,34 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
-Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads) {
+Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, double threshold, int threads,
+               SeedReport* report) {
   const std::size_t lines = lattice.points[1] * lattice.points[2];
-  std::vector<Particles> parts(lines);
-  base::parallel_for(lines, threads, [&](std::size_t line) { parts[line] = seed_line(lattice, line, rho_0); });
+  const std::vector<double> least = least_weights(lattice, carried, threshold, lines, threads);
+  std::vector<Part> parts(lines);
+  base::parallel_for(lines, threads,
+                     [&](std::size_t number) { parts[number] = seed_line(lattice, number, carried, least); });
   Particles all;
   all.dimension = lattice.dimension;
-  for (Particles& part : parts) {
-    for (int a = 0; a < lattice.dimension; ++a) append(all.position[a], part.position[a]);
-    append(all.alpha, part.alpha);
-    append(all.id, part.id);
+  SeedReport total;
+  total.carried.resize(carried.size());
+  for (Part& part : parts) {
+    for (int a = 0; a < lattice.dimension; ++a) append(all.position[a], part.particles.position[a]);
+    append(all.alpha, part.particles.alpha);
+    append(all.id, part.particles.id);
+    total.left_out += part.report.left_out;
+    for (std::size_t q = 0; q < carried.size(); ++q) {
+      total.carried[q].all += part.report.carried[q].all;
+      total.carried[q].left_out += part.report.carried[q].left_out;
+    }
     part = {};
   }
+  if (report) *report = std::move(total);
   return all;
+}
+
+Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads) {
+  return seed(lattice, {{"the initial density", rho_0}}, 0, threads);
 }
 
 double largest_stretch(const Particles& particles, const Lattice& lattice) {

@@ -1,7 +1,9 @@
-// Particles at the start: one on every lattice point that carries weight.
+// Particles at the start: one on every lattice point that carries enough of something to matter.
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "base/lattice.hpp"
 #include "particle/particles.hpp"
@@ -11,8 +13,31 @@ namespace gaussdrift {
 /// values[i] = rho_0(x_i).
 using DensityFunction = std::function<void(const PointsView& x, double* values)>;
 
-/// alpha_j = h^d rho_0(x_j) on all points x_j of the lattice; only those with alpha_j != 0 are carried [Sch06, 5.3.4].
-/// Throws NumericalError naming the place where rho_0 is not finite.
+/// What particles carry from the start: its density, and its name for people.
+struct Carried {
+  std::string name;
+  DensityFunction density;
+};
+
+/// What was left out, of one of the things carried.
+struct LeftOut {
+  double all = 0;       // sum of |weights| on all lattice points
+  double left_out = 0;  // of those without a particle
+  double part() const { return all > 0 ? left_out / all : 0; }
+};
+
+struct SeedReport {
+  std::size_t left_out = 0;      // lattice points that have something and no particle
+  std::vector<LeftOut> carried;  // in the order of what is carried
+};
+
+/// The weight of a lattice point is h^d times a density there; `carried.front()` gives alpha_j. A point has a particle
+/// if one of its weights is not 0 and not below `threshold` times the largest weight of that kind [Sch06, 5.3.4].
+/// Throws NumericalError naming the place where a density is not finite.
+Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, double threshold, int threads,
+               SeedReport* report = nullptr);
+
+/// One density, and every point where it is not 0.
 Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads);
 
 /// The largest distance between particles that start on neighbouring lattice points, in lattice spacings: blobs of

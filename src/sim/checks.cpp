@@ -27,6 +27,13 @@ double quantity_of(CheckSpec::Quantity what, double mass_at_start, const FrameNu
   return nan;
 }
 
+std::string why_not_known(CheckSpec::Quantity what, const FrameNumbers& numbers) {
+  if (what == CheckSpec::Quantity::mass) return "the mass at the start is 0";
+  if (!numbers.no_norms.empty()) return numbers.no_norms;
+  if (numbers.untraced > 0) return fmt::format("the exact density is not known at {} grid points", numbers.untraced);
+  return numbers.error ? "it is not a number" : "the run was compared with nothing";
+}
+
 // How far a value lies beyond the limits: positive if it does. One that is no number is beyond all.
 double excess(const CheckSpec& check, double value) {
   if (std::isnan(value)) return std::numeric_limits<double>::infinity();
@@ -57,6 +64,15 @@ std::string to_string(CheckSpec::Quantity quantity) {
   return "";
 }
 
+const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames) {
+  const std::pair<double, FrameNumbers>* worst = nullptr;
+  for (const auto& frame : frames) {
+    const auto& error = frame.second.error;
+    if (error && std::isfinite(error->l1) && (!worst || error->l1 > worst->second.error->l1)) worst = &frame;
+  }
+  return worst;
+}
+
 std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass_at_start,
                                const std::vector<std::pair<double, FrameNumbers>>& frames) {
   std::vector<CheckResult> results;
@@ -65,19 +81,26 @@ std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass
     result.check = check;
     double worst = -std::numeric_limits<double>::infinity();
     bool seen = false;
+    std::string why = "no output is at this time";
     for (const auto& [time, numbers] : frames) {
       if (check.at && *check.at != time) continue;
       const double value = quantity_of(check.what, mass_at_start, numbers), beyond = excess(check, value);
       if (seen && beyond <= worst) continue;
       seen = true;
       worst = beyond, result.value = value, result.time = time;
+      why = why_not_known(check.what, numbers);
     }
     if (!seen) result.value = nan;
     result.passed = seen && worst <= 0;
+    if (std::isnan(result.value)) {
+      result.text = fmt::format("{} at t = {:.6g} must be {} but is not known: {}", to_string(check.what), result.time,
+                                limits_text(check), why);
+      results.push_back(std::move(result));
+      continue;
+    }
     // Enough digits that a value and the limit it missed do not look the same.
     result.text = fmt::format("{} = {:.15g} at t = {:.6g}, {} {}", to_string(check.what), result.value, result.time,
                               result.passed ? "is" : "must be", limits_text(check));
-    if (std::isnan(result.value)) result.text += "; it is not known there";
     results.push_back(std::move(result));
   }
   return results;

@@ -20,6 +20,9 @@ struct CheckResult {
 /// "Linf", "L1", "L2", "mass".
 std::string to_string(CheckSpec::Quantity quantity);
 
+/// The output whose L1 is largest: a flow that turns back makes the last one look well. Null where no norm is a number.
+const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames);
+
 /// One result a check, over all outputs or the one it names. A norm that is not known, or that leaves out points
 /// without a past, fails. `frames`: time and numbers of each output, the first one being the start that "mass" is
 /// relative to.

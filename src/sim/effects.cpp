@@ -1,10 +1,7 @@
 #include "sim/effects.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "base/error.hpp"
 #include "effect/charge.hpp"
 #include "effect/core_spreading.hpp"
 #include "effect/particle_exchange.hpp"
@@ -19,20 +16,11 @@ namespace gaussdrift {
 namespace {
 
 /// A charge density of its own, times the volume of a particle, at the places of the particles.
-std::function<std::vector<double>(const Particles&)> charges_by(const std::string& density, const Case& description,
-                                                                double cell) {
-  const auto field = std::make_shared<const WrittenScalar>(density, description.domain.dimension, description.params);
-  return [field, cell](const Particles& particles) {
+std::function<std::vector<double>(const Particles&)> charges_by(const ScalarField& density, double cell) {
+  return [&density, cell](const Particles& particles) {
     std::vector<double> charges(particles.size(), 0.0);
-    field->add(0, particles.view(), charges.data());
-    for (std::size_t j = 0; j < charges.size(); ++j) {
-      charges[j] *= cell;
-      if (!std::isfinite(charges[j]))
-        throw NumericalError(
-            fmt::format("the charge of particle {} is {}; effects.charge.density must be finite wherever "
-                        "there is density at the start",
-                        particles.id[j], charges[j]));
-    }
+    density.add(0, particles.view(), charges.data());
+    for (double& charge : charges) charge *= cell;
     return charges;
   };
 }
@@ -65,7 +53,7 @@ Effects make_effects(const Case& description, const Scene& scene, Follow follow,
                             .dimension = dimension,
                             .threads = threads};
     if (!charge->density.empty()) {
-      options.own = charges_by(charge->density, description, cell);
+      options.own = charges_by(*scene.charge, cell);
       options.written = charge->density;
     }
     effects.push_back(std::make_unique<Charge>(std::move(options)));

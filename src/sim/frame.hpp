@@ -35,7 +35,10 @@ struct FrameNumbers {
   double evaluate_seconds = 0;     // preparing and evaluating the transform
   double stretch =
       0;  // largest distance of particles that start as lattice neighbours, in spacings; 0: they are replaced
+  double weight = 0;                // sum_j |alpha_j|
+  double outside = 0;               // part of sum |alpha_j| whose particles are outside the domain
   std::optional<ErrorNorms> error;  // only with a reference
+  std::string no_norms;             // why they are NaN, for people: nothing is left to compare; empty: they are numbers
   std::size_t compared = 0;         // grid points that the norms are taken over; a sample if fewer than the grid has
   std::size_t untraced = 0;         // grid points where the reference is not known; the norms leave them out
 };

@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "particle/seeding.hpp"
 #include "sim/make_fields.hpp"
+#include "sim/outside.hpp"
 #include "sim/stepper.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
@@ -27,14 +28,13 @@ namespace {
 
 FrameNumbers measure_frame(const Particles& particles, const DensityGrid& density) {
   FrameNumbers numbers;
-  double total = 0;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     numbers.mass += particles.alpha[j];
-    total += std::abs(particles.alpha[j]);
+    numbers.weight += std::abs(particles.alpha[j]);
     for (int k = 0; k < particles.dimension; ++k) numbers.centroid[k] += particles.alpha[j] * particles.position[k][j];
   }
   // Where positive and negative weights cancel there is no centre of mass.
-  const bool cancelled = std::abs(numbers.mass) <= 1e-12 * total;
+  const bool cancelled = std::abs(numbers.mass) <= 1e-12 * numbers.weight;
   for (int k = 0; k < particles.dimension; ++k)
     numbers.centroid[k] = cancelled ? std::numeric_limits<double>::quiet_NaN() : numbers.centroid[k] / numbers.mass;
   const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
@@ -83,6 +83,9 @@ Scene make_scene(const Case& description, int threads) {
   scene.density = make_density(description);
   if (const auto& reaction = description.effects.reaction)
     scene.reaction_rate = std::make_unique<WrittenScalar>(reaction->rate, domain.dimension, description.params);
+  if (const auto& charge = description.effects.charge; charge && !charge->density.empty())
+    scene.charge = std::make_unique<WrittenScalar>(charge->density, domain.dimension, description.params);
+  scene.threshold = description.particles.threshold;
   scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
   const EvaluateSpec& evaluate = description.evaluate;
   scene.evaluation = evaluate.spacing > 0
@@ -191,15 +194,23 @@ std::size_t points_compared(const Case& description, const Scene& scene, std::si
       std::max(least, static_cast<std::size_t>(std::min(affordable, static_cast<double>(shown ? whole : enough)))));
 }
 
-Particles seed_scene(const Scene& scene, int threads) {
-  Particles particles = seed(
-      scene.seeding, [&](const PointsView& x, double* values) { scene.density->add(x, values); }, threads);
-  if (particles.size() == 0)
+Particles seed_scene(const Scene& scene, int threads, SeedReport* report) {
+  std::vector<Carried> carried{
+      {"the initial density", [&](const PointsView& x, double* values) { scene.density->add(x, values); }}};
+  if (scene.charge)
+    carried.push_back(
+        {"effects.charge.density", [&](const PointsView& x, double* values) { scene.charge->add(0, x, values); }});
+  Particles particles = seed(scene.seeding, carried, scene.threshold, threads, report);
+  if (std::all_of(particles.alpha.begin(), particles.alpha.end(), [](double alpha) { return alpha == 0; }))
     throw InputError(
         "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or "
         "enlarge "
         "the density, or raise particles.per_axis");
   return particles;
+}
+
+double density_left_out(const Scene& scene, const SeedReport& report) {
+  return report.carried.front().left_out * peak(scene.cutoff);
 }
 
 std::size_t total_steps(const Case& description) {
@@ -222,9 +233,13 @@ Simulation::Simulation(const Case& description, int threads)
 
 void Simulation::prepare() {
   const base::Stopwatch seeding;
-  particles_ = seed_scene(scene_, threads_);
+  particles_ = seed_scene(scene_, threads_, &seeding_);
   seed_seconds_ = seeding.seconds();
   mass_at_start_ = std::accumulate(particles_.alpha.begin(), particles_.alpha.end(), 0.0);
+  largest_at_start_ = 0;
+  for (const double alpha : particles_.alpha) largest_at_start_ = std::max(largest_at_start_, std::abs(alpha));
+  largest_at_start_ /= std::pow(scene_.seeding.spacing, scene_.seeding.dimension);
+  beyond_at_start_ = part_beyond(scene_.density->mass(), particles_, scene_.seeding);
   carrier_.begin(particles_);
   velocity_at_particles(0);
   if (reference_) compared_ = points_compared(case_, scene_, particles_.size(), threads_);
@@ -279,6 +294,7 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   frame.velocity = velocity_wanted ? &velocity : nullptr;
   frame.density = &density;
   frame.numbers = measure_frame(particles_, density);
+  frame.numbers.outside = part_outside(particles_, case_.domain);
   frame.numbers.transform_error = report.measured_error;
   frame.numbers.transform_tolerance = report.requested_tolerance;
   frame.numbers.evaluate_seconds = report.evaluate_seconds;
@@ -299,6 +315,7 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
         frame.numbers.compared = sample.points.size();
       }
       frame.numbers.untraced = traced.untraced;
+      judge_norms(exact, frame.numbers);
       if (summary.reference.untraced == 0)
         summary.reference = traced;
       else
@@ -307,6 +324,19 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   }
   summary.frames.emplace_back(time, frame.numbers);
   for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->frame(frame); });
+}
+
+// Norms relative to next to nothing say nothing.
+void Simulation::judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const {
+  double largest = -1;
+  for (const double value : exact) largest = std::max(largest, std::abs(value));  // not of NaN
+  if (largest < 0) {
+    numbers.no_norms = "the exact density is not known anywhere";
+  } else if (largest == 0 || (is_all(numbers.outside) && is_nothing(largest, largest_at_start_))) {
+    numbers.no_norms = why_nothing_is_left(numbers.outside, numbers.weight);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    numbers.error = ErrorNorms{nan, nan, nan};
+  }
 }
 
 RunSummary Simulation::run() {
@@ -321,6 +351,8 @@ RunSummary Simulation::run() {
   summary.stages.add("seed", seed_seconds_);
   summary.lattice_points = scene_.seeding.size();
   summary.particles = particles_.size();
+  summary.seeding = seeding_;
+  summary.beyond_at_start = beyond_at_start_;
   summary.grid_points = scene_.evaluation.size();
   summary.spacing = scene_.seeding.spacing;
   summary.core_radius = scene_.core_radius;

@@ -15,6 +15,7 @@
 #include "field/velocity.hpp"
 #include "gaussdrift/case.hpp"
 #include "particle/cutoff.hpp"
+#include "particle/seeding.hpp"
 #include "sim/carrier.hpp"
 #include "sim/checks.hpp"
 #include "sim/density.hpp"
@@ -28,9 +29,11 @@ struct Scene {
   std::unique_ptr<VelocityField> velocity;
   std::unique_ptr<InitialDensity> density;
   std::unique_ptr<ScalarField> reaction_rate;  // u0; null without [effects.reaction]
+  std::unique_ptr<ScalarField> charge;         // its density at the start; null where the charge is the weight
   Lattice seeding;                             // where particles start
   Lattice evaluation;                          // where rho is summed
   double core_radius = 0;                      // eps = c h
+  double threshold = 0;                        // particles.threshold
   Cutoff cutoff;
 };
 
@@ -64,8 +67,13 @@ double work_of_exact_rate(const Scene& scene);
 /// second), and as many as that allows if not, at least 1024. Where no file shows it, at most 4096.
 std::size_t points_compared(const Case& description, const Scene& scene, std::size_t particles, int threads);
 
-/// Particles of the scene at t = 0. Throws NumericalError where rho_0 is not finite, InputError if it is 0 everywhere.
-Particles seed_scene(const Scene& scene, int threads);
+/// Particles of the scene at t = 0: every lattice point with density or charge that exceeds the threshold. The report
+/// tells of both, in that order. Throws NumericalError where one is not finite, InputError if rho_0 is 0 everywhere.
+Particles seed_scene(const Scene& scene, int threads, SeedReport* report = nullptr);
+
+/// The largest density that the blobs of all points left out can have together, anywhere and at any time, if weights
+/// stay.
+double density_left_out(const Scene& scene, const SeedReport& report);
 
 /// The times on which steps land exactly: outputs, and time.end.
 std::vector<double> landings(const Case& description);
@@ -93,6 +101,8 @@ struct EffectSummary {
 /// What a run did, for summary.json and the closing lines.
 struct RunSummary {
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0;
+  SeedReport seeding;              // what has no particle
+  double beyond_at_start = 0;      // part of the mass of rho_0 that lies outside the domain, where its mass is known
   std::size_t steps_rejected = 0;  // tried and taken back by a method that chooses its steps
   double spacing = 0, core_radius = 0;
   int threads = 1;
@@ -132,6 +142,7 @@ class Simulation {
   std::vector<double> velocity_at_particles(double time) const;
   void carry(double from, double to, RunSummary& summary);
   void show_frame(int index, double time, RunSummary& summary);
+  void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
 
   const Case case_;
   int threads_;
@@ -139,8 +150,10 @@ class Simulation {
   Carrier carrier_;
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
-  double seed_seconds_ = 0, mass_at_start_ = 0;
-  std::size_t compared_ = 0;  // grid points an output
+  SeedReport seeding_;
+  double seed_seconds_ = 0, mass_at_start_ = 0, beyond_at_start_ = 0;
+  double largest_at_start_ = 0;  // of |rho_0| on the lattice
+  std::size_t compared_ = 0;     // grid points an output
   std::vector<std::unique_ptr<Observer>> observers_;
   std::function<void(const Progress&)> progress_;
   base::Stopwatch watch_;

@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "sim/exact_paths.hpp"
+#include "sim/outside.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
 #include "time/schedule.hpp"
@@ -211,10 +212,11 @@ double round_below(double x) {
 }
 
 void find_dominating(Budget& budget) {
-  const std::array<std::pair<const char*, double>, 4> causes{{{"time stepping", budget.time_stepping},
+  const std::array<std::pair<const char*, double>, 5> causes{{{"time stepping", budget.time_stepping},
                                                               {"smoothing", budget.smoothing},
                                                               {"quadrature", budget.quadrature},
-                                                              {"Gauss transform", budget.transform}}};
+                                                              {"Gauss transform", budget.transform},
+                                                              {"particles left out", budget.left_out}}};
   const auto largest =
       std::max_element(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   budget.dominates = largest->first;
@@ -224,7 +226,7 @@ void find_dominating(Budget& budget) {
 void give_advice(const Case& description, const Scene& scene, const Particles& start,
                  const std::vector<std::pair<std::string, double>>& better, Budget& budget) {
   const time::Tableau& tableau = time::find_tableau(description.time.method);
-  const double others = std::max({budget.smoothing, budget.quadrature, budget.transform});
+  const double others = std::max({budget.smoothing, budget.quadrature, budget.transform, budget.left_out});
   if (!time::is_adaptive(tableau) && description.time.step > 0) {
     const double step = description.time.step, order = tableau.time_order;
     const double now = std::max(budget.time_stepping, rounding);
@@ -259,6 +261,7 @@ void give_advice(const Case& description, const Scene& scene, const Particles& s
     budget.advice.push_back(fmt::format(
         "blobs overlap too little for this flow: particles.overlap = {:g}, or [effects.remesh] where it strains",
         description.particles.overlap * 1.5));
+  if (budget.dominates == "particles left out") budget.advice.push_back("particles.threshold = 0 leaves nothing out");
   if (budget.dominates == "Gauss transform")
     budget.advice.push_back(fmt::format("evaluate.tolerance = {:.0e} is cheap and removes what dominates",
                                         std::max(1e-13, 1e-3 * std::max(budget.smoothing, budget.quadrature))));
@@ -311,6 +314,30 @@ bool carry(const Case& description, const Scene& scene, const Carrying& how, Par
 double of_halved_steps(const Case& description, const Scene& scene) {
   const int order = time::find_tableau(description.time.method).time_order;
   return 1 / (1 - std::pow(0.5, has_smooth_paths(scene) ? order : std::min(order, 2)));
+}
+
+/// What was left out of the lattice, at most, relative to the norm; where weights grow, by as much as the largest of
+/// those carried did.
+double bound_of_left_out(const Scene& scene, const SeedReport& report, const Particles& start, const Particles& carried,
+                         double norm) {
+  if (report.left_out == 0) return 0;
+  double growth = 1;
+  for (std::size_t j = 0; scene.reaction_rate && j < carried.size(); ++j)
+    if (start.alpha[j] != 0) growth = std::max(growth, std::abs(carried.alpha[j] / start.alpha[j]));
+  return growth * density_left_out(scene, report) / norm;
+}
+
+double sum_of_weights(const Particles& particles) {
+  double sum = 0;
+  for (const double alpha : particles.alpha) sum += std::abs(alpha);
+  return sum;
+}
+
+/// Without mass on the grid there is no error to explain, and no setting that would change one.
+std::string nothing_to_explain(const Particles& last, double outside, double time) {
+  const double weight = sum_of_weights(last);
+  if (weight > 0 && !is_all(outside)) return "";
+  return fmt::format("at t = {:.4g} {}", time, why_nothing_is_left(outside, weight));
 }
 
 constexpr const char* lost_paths = "the paths of some particles could not be followed";
@@ -540,15 +567,26 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, int t
   // A path through kinks is dear: then by the steps of the case.
   const Carrying how{.exactly = smooth_paths, .paths = paths};
 
-  const Particles seeded = seed_scene(scene, threads);
+  SeedReport seeding;
+  const Particles seeded = seed_scene(scene, threads, &seeding);
+  budget.not_covered = about_beyond(part_beyond(scene.density->mass(), seeded, scene.seeding));
+  if (!budget.known()) return budget;
   if (effort == Effort::share_of_run &&
       static_cast<double>(seeded.size() * 2 + 2048) * 1.3 * work_of_a_path(description, scene, seeded, how) >
           work_allowed(description, scene, seeded.size(), share_predicted)) {
     budget.not_covered = "it would cost more than a tenth of the run; `check` predicts it";
     return budget;
   }
-  Particles carried = seeded, aside = between(seeded, scene);
-  if (!carry(description, scene, how, carried) || !carry(description, scene, how, aside)) {
+  Particles carried = seeded;
+  if (!carry(description, scene, how, carried)) {
+    budget.not_covered = lost_paths;
+    return budget;
+  }
+  budget.outside = part_outside(carried, description.domain);
+  budget.not_covered = nothing_to_explain(carried, budget.outside, time);
+  if (!budget.known()) return budget;
+  Particles aside = between(seeded, scene);
+  if (!carry(description, scene, how, aside)) {
     budget.not_covered = lost_paths;
     return budget;
   }
@@ -592,7 +630,8 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, int t
     return budget;
   }
   budget.transform = description.evaluate.tolerance;
-  budget.total = worst + budget.time_stepping + budget.transform;
+  budget.left_out = bound_of_left_out(scene, seeding, seeded, carried, norm);
+  budget.total = worst + budget.time_stepping + budget.transform + budget.left_out;
   find_dominating(budget);
   Better better;
   for (const std::string& name : higher_cutoffs(description)) {
@@ -623,6 +662,12 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
   budget.not_covered = budget_not_covered(description);
   if (budget.known() && !last.any) budget.not_covered = "there was no output";
   if (budget.known() && last.particles.size() == 0) budget.not_covered = "no particle carries weight";
+  budget.outside = last.numbers.outside;
+  if (budget.known()) budget.not_covered = nothing_to_explain(last.particles, budget.outside, last.time);
+  if (!budget.known()) return budget;
+  SeedReport seeding;
+  const Particles seeded = seed_scene(scene, threads, &seeding);
+  budget.not_covered = about_beyond(part_beyond(scene.density->mass(), seeded, scene.seeding));
   if (!budget.known()) return budget;
   const bool smooth_paths = has_smooth_paths(scene);
   const std::vector<double>& rho = last.density.rho;
@@ -687,6 +732,7 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
                                 chosen->moved.exactly ? exactly : by_steps, norm, chosen->moved, budget, better);
   if (!budget.known()) return budget;
   budget.transform = last.numbers.transform_error;
+  budget.left_out = bound_of_left_out(scene, seeding, seeded, last.particles, norm);
   find_dominating(budget);
   give_advice(description, scene, last.particles, better, budget);
   return budget;
@@ -703,20 +749,16 @@ std::string to_text(const Budget& budget) {
   line("smoothing", budget.smoothing);
   line("quadrature", budget.quadrature);
   line("Gauss transform", budget.transform);
+  if (budget.left_out > 0) line("particles left out", budget.left_out);
   for (const std::string& advice : budget.advice) text += fmt::format("hint   {}\n", advice);
   return text;
 }
 
 nlohmann::ordered_json to_json(const Budget& budget) {
   if (!budget.known()) return {{"not_covered", budget.not_covered}};
-  return {{"time_stepping", budget.time_stepping},
-          {"smoothing", budget.smoothing},
-          {"quadrature", budget.quadrature},
-          {"transform", budget.transform},
-          {"total", budget.total},
-          {"dominates", budget.dominates},
-          {"probes", budget.probes},
-          {"advice", budget.advice}};
+  return {{"time_stepping", budget.time_stepping}, {"smoothing", budget.smoothing}, {"quadrature", budget.quadrature},
+          {"transform", budget.transform},         {"left_out", budget.left_out},   {"total", budget.total},
+          {"dominates", budget.dominates},         {"probes", budget.probes},       {"advice", budget.advice}};
 }
 
 }  // namespace gaussdrift::study

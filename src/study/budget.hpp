@@ -20,10 +20,12 @@ struct Budget {
   double smoothing = 0;      // blobs of this width in place of points
   double quadrature = 0;     // a sum over lattice points in place of an integral
   double transform = 0;      // predicted: what is allowed; measured: on a sample against the direct sum
+  double left_out = 0;       // what the blobs of all points below particles.threshold can make together, at most
   double total = 0;
   std::string dominates;            // "smoothing", ...
   std::vector<std::string> advice;  // what could be saved, what would help
   std::size_t probes = 0;           // points at which the causes were told apart
+  double outside = 0;               // part of sum |alpha_j| outside the domain at the last output
   std::string not_covered;          // why there are no numbers; empty: there are
 
   bool known() const { return not_covered.empty(); }
@@ -72,7 +74,7 @@ Budget measure_budget(const Case& description, const Scene& scene, const LastFra
 
 /// A line a cause, the dominating one marked, and the advice.
 std::string to_text(const Budget& budget);
-/// {"time_stepping", "smoothing", "quadrature", "transform", "total", "dominates"}, or {"not_covered"}.
+/// {"time_stepping", "smoothing", "quadrature", "transform", "left_out", "total", "dominates"}, or {"not_covered"}.
 nlohmann::ordered_json to_json(const Budget& budget);
 
 }  // namespace gaussdrift::study

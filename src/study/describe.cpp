@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
+#include "sim/outside.hpp"
 #include "sim/simulation.hpp"
 #include "time/schedule.hpp"
 
@@ -177,7 +178,8 @@ Description describe(const Case& description, int threads) {
   Description result;
   result.threads = base::resolve_threads(threads);
   const Scene scene = make_scene(description);
-  Particles particles = seed_scene(scene, threads);
+  Particles particles = seed_scene(scene, threads, &result.seeding);
+  result.beyond_at_start = part_beyond(scene.density->mass(), particles, scene.seeding);
   Carrier carrier(description, scene, threads);
   carrier.begin(particles);
   result.step_warnings = carrier.warnings();
@@ -256,6 +258,14 @@ std::string to_text(const Case& scene, const Description& r) {
   text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n",
                       grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
                       scene.particles.cutoff, grouped(r.particles));
+  if (r.seeding.left_out > 0)
+    text += fmt::format(
+        "           {} with less than {:g} of the largest weight are left out: {:.1e} of the mass{} "
+        "(particles.threshold)\n",
+        grouped(r.seeding.left_out), scene.particles.threshold, r.seeding.carried.front().part(),
+        r.seeding.carried.size() > 1 ? fmt::format(", {:.1e} of the charge", r.seeding.carried.back().part()) : "");
+  if (const std::string beyond = about_beyond(r.beyond_at_start); !beyond.empty())
+    text += fmt::format("           {}\n", beyond);
   text += fmt::format("effects    {}\n", effects_text(r.effects));
   for (const std::string& warning : r.effect_warnings) text += fmt::format("           {}\n", warning);
   text += fmt::format("transform  {}\n", r.density.choice);
@@ -272,6 +282,9 @@ std::string to_text(const Case& scene, const Description& r) {
       grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads,
       static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
       r.reference_seconds, r.picture_seconds, bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
+  if (r.budget.known() && r.budget.outside >= 1e-3)
+    text += fmt::format("leaving    {} of the mass is outside the domain at the last output\n",
+                        percent_text(r.budget.outside));
   if (!r.budget.known())
     text += fmt::format("errors     not predicted: {}\n", r.budget.not_covered);
   else
@@ -295,6 +308,10 @@ std::string to_json(const Case& scene, const Description& r) {
                                         {"effect_warnings", r.effect_warnings},
                                         {"lattice_points", r.lattice_points},
                                         {"particles", r.particles},
+                                        {"left_out", r.seeding.left_out},
+                                        {"mass_left_out", r.seeding.carried.front().part()},
+                                        {"mass_outside_at_start", r.beyond_at_start},
+                                        {"mass_outside_at_end", r.budget.outside},
                                         {"spacing", r.spacing},
                                         {"core_radius", r.core_radius},
                                         {"grid_points", r.grid_points},

@@ -23,6 +23,8 @@ struct Description {
   double divergence_noise = 0;               // its rounding: terms of |u| over the shortest length resolved
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0, frames = 0;
   double spacing = 0, core_radius = 0;
+  SeedReport seeding;          // what has no particle
+  double beyond_at_start = 0;  // part of the mass of rho_0 that lies outside the domain
   DensityReport density;       // of a trial evaluation at t = 0
   double density_maximum = 0;  // rho_eps^h on the grid at t = 0
   // Predictions

@@ -14,6 +14,7 @@
 #include "base/printable.hpp"
 #include "render/panel.hpp"
 #include "render/picture.hpp"
+#include "sim/outside.hpp"
 #include "study/written_densities.hpp"
 #include "write/atomic_file.hpp"
 
@@ -74,6 +75,8 @@ json get(const json& object, const char* name) {
   return object.is_object() && object.contains(name) ? object[name] : json(nullptr);
 }
 
+bool is_zero(const json& value) { return !value.is_number() || value.get<double>() == 0; }
+
 // --- the parts of the page ----------------------------------------------------------------------------------------
 
 std::string verdict(const json& summary) {
@@ -84,12 +87,17 @@ std::string verdict(const json& summary) {
   if (!last.contains("Linf"))
     text += "The run was compared with nothing, so its error is not known.";
   else if (!last.at("Linf").is_number())
-    text += fmt::format("At t = {} the exact density is 0 wherever it was compared, so there is no relative error.",
-                        number(last.at("t"), "{:.4g}"));
+    text += fmt::format("At t = {} {}.", number(last.at("t"), "{:.4g}"),
+                        get(last, "no_norms").is_string() ? escaped(last.at("no_norms").get<std::string>())
+                                                          : "the error is not a number");
   else
     text += fmt::format("At t = {} the largest error is <b>{}</b> of the largest density (L1 {}, L2 {}).",
                         number(last.at("t"), "{:.4g}"), number(last.at("Linf"), "{:.2e}"),
                         number(last.at("L1"), "{:.2e}"), number(last.at("L2"), "{:.2e}"));
+  if (const json worst = get(summary, "worst"); worst.is_object() && worst.at("t") != get(last, "t"))
+    text += fmt::format(" The worst output is that at t = {}: {} (L1 {}, L2 {}).", number(worst.at("t"), "{:.4g}"),
+                        number(worst.at("Linf"), "{:.2e}"), number(worst.at("L1"), "{:.2e}"),
+                        number(worst.at("L2"), "{:.2e}"));
   if (target.is_object())
     text += fmt::format(" Target {}: {}.", number(target.at("target"), "{:g}"),
                         !target.at("achieved").is_number() ? "not known whether it is met"
@@ -219,8 +227,11 @@ std::string budget_table(const json& budget) {
                                   {"smoothing", "smoothing"},
                                   {"quadrature", "quadrature"},
                                   {"transform", "Gauss transform"},
+                                  {"left_out", "particles left out, at most"},
                                   {"total", "total"}}) {
-    const bool most = get(measured.contains("dominates") ? measured : predicted, "dominates") == json(name);
+    if (key == std::string("left_out") && is_zero(get(predicted, key)) && is_zero(get(measured, key))) continue;
+    const json dominates = get(measured.contains("dominates") ? measured : predicted, "dominates");
+    const bool most = dominates.is_string() && std::string(name).starts_with(dominates.get<std::string>());
     text += fmt::format("<tr{}><td>{}<td class=n>{}<td class=n>{}", most ? " class=most" : "", name,
                         number(get(predicted, key), "{:.1e}"), number(get(measured, key), "{:.1e}"));
   }
@@ -234,7 +245,11 @@ std::string budget_table(const json& budget) {
 }
 
 std::string conservation(const json& frames) {
-  std::string text = "<table class=numbers><tr><th>t<th>mass<th>change<th>centroid<th>minimum<th>maximum";
+  // Runs from before the particles outside were counted have no such number.
+  const bool leaves =
+      std::any_of(frames.begin(), frames.end(), [](const json& frame) { return !is_zero(get(frame, "outside")); });
+  std::string text = fmt::format("<table class=numbers><tr><th>t<th>mass<th>change{}<th>centroid<th>minimum<th>maximum",
+                                 leaves ? "<th>outside the domain" : "");
   const double begun = frames.front().at("mass").get<double>();
   double far = 0;  // centroids below rounding of the furthest are 0
   for (const json& frame : frames)
@@ -251,10 +266,14 @@ std::string conservation(const json& frames) {
       centroid += (centroid.empty() ? "" : ", ") + (is_zero ? "0" : number(x, "{:.5g}"));
     }
     const double change = begun != 0 ? frame.at("mass").get<double>() / begun - 1 : 0;
-    text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}",
+    const json outside = get(frame, "outside");
+    text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}{}<td class=n>{}<td class=n>{}<td class=n>{}",
                         number(frame.at("t"), "{:.5g}"), number(frame.at("mass"), "{:.9g}"),
-                        change == 0 ? "0" : fmt::format("{:.1e}", change), centroid,
-                        number(frame.at("minimum"), "{:.4g}"), number(frame.at("maximum"), "{:.6g}"));
+                        change == 0 ? "0" : fmt::format("{:.1e}", change),
+                        !leaves            ? ""
+                        : is_zero(outside) ? "<td class=n>0"
+                                           : "<td class=n>" + percent_text(outside.get<double>()),
+                        centroid, number(frame.at("minimum"), "{:.4g}"), number(frame.at("maximum"), "{:.6g}"));
   }
   text += "</table>";
   if (stride > 1)
@@ -375,6 +394,26 @@ std::string seconds(const json& summary) {
   return text + "</table></div>\n";
 }
 
+/// How many there are, and what the lattice points without one would have carried.
+std::string particles(const json& summary) {
+  const json count = get(summary, "particles"), left_out = get(count, "left_out");
+  if (!get(count, "carried").is_number()) return "";
+  std::string text =
+      fmt::format("<h2>Particles</h2><p>{} on a lattice of {} points, {} apart.", number(count.at("carried"), "{:.0f}"),
+                  number(get(count, "lattice_points"), "{:.0f}"), number(get(count, "spacing"), "{:.4g}"));
+  if (!is_zero(left_out))
+    text += fmt::format(
+        " {} points with less than {} of the largest weight have none (particles.threshold): with them {} of the "
+        "mass{} "
+        "is left out.",
+        number(left_out, "{:.0f}"), number(get(count, "threshold"), "{:g}"),
+        number(get(count, "mass_left_out"), "{:.1e}"),
+        count.contains("charge_left_out")
+            ? fmt::format(" and {} of the charge", number(count.at("charge_left_out"), "{:.1e}"))
+            : "");
+  return text + "</p>\n";
+}
+
 std::string how_to_make_again(const json& provenance) {
   std::string text =
       "<h2>How to make it again</h2><p>In the folder of this page:</p><pre>gaussdrift run run.toml --out again</pre>"
@@ -449,6 +488,7 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
   } else if (const json why = get(summary, "accuracy_table_left_out"); why.is_string()) {
     by_choice.push_back("what digits of the sum cost: " + why.get<std::string>());
   }
+  page += particles(summary);
   page += seconds(summary);
   if (!frames.empty()) page += "<h2>Conservation</h2><div class=scroll>" + conservation(frames) + "</div>\n";
   if (const json checks = get(summary, "checks"); !checks.empty()) {

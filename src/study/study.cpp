@@ -123,6 +123,7 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
           sample.l1 = last.error->l1;
           sample.l2 = last.error->l2;
         }
+        sample.failure = last.no_norms;
         if (last.untraced > 0) sample.failure = "the exact density is not known at some grid points";
         bare.reference = {};  // repeats are for the time alone
       }

@@ -50,7 +50,7 @@ class SeriesTable : public Observer {
     table_ += dimension == 3 ? ",centroid_z" : "";
     table_ += ",transform_error";
     table_ += errors ? ",L1,L2,Linf" : "";
-    table_ += ",evaluate_seconds,seconds\n";
+    table_ += ",outside,evaluate_seconds,seconds\n";
   }
   std::string name() const override { return "write series"; }
   void frame(const Frame& frame) override {
@@ -60,7 +60,7 @@ class SeriesTable : public Observer {
     table_ += fmt::format(",{:.3e}", n.transform_error);
     const ErrorNorms error = n.error.value_or(ErrorNorms{});
     if (errors_) table_ += fmt::format(",{:.6e},{:.6e},{:.6e}", error.l1, error.l2, error.linf);
-    table_ += fmt::format(",{:.6f},{:.6f}\n", n.evaluate_seconds, watch_.seconds());
+    table_ += fmt::format(",{:.17g},{:.6f},{:.6f}\n", n.outside, n.evaluate_seconds, watch_.seconds());
     write_text(file_, table_);
   }
 

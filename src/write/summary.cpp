@@ -22,6 +22,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
                       {"minimum", n.minimum},
                       {"maximum", n.maximum},
                       {"centroid", centroid},
+                      {"outside", n.outside},
                       {"transform_error", n.transform_error},
                       {"evaluate_seconds", n.evaluate_seconds}});
     if (n.stretch > 0) frames.back()["stretch"] = n.stretch;
@@ -31,8 +32,20 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
       frames.back()["Linf"] = number(n.error->linf);
       frames.back()["compared"] = n.compared;
       frames.back()["untraced"] = n.untraced;
+      if (!n.no_norms.empty()) frames.back()["no_norms"] = n.no_norms;
     }
   }
+
+  json particles{{"lattice_points", summary.lattice_points},
+                 {"carried", summary.particles},
+                 {"left_out", summary.seeding.left_out},
+                 {"threshold", scene.particles.threshold},
+                 {"mass_left_out", summary.seeding.carried.front().part()}};
+  if (summary.seeding.carried.size() > 1) particles["charge_left_out"] = summary.seeding.carried.back().part();
+  if (summary.beyond_at_start > 0) particles["mass_outside_at_start"] = summary.beyond_at_start;
+  particles["spacing"] = summary.spacing;
+  particles["core_radius"] = summary.core_radius;
+  particles["cutoff"] = scene.particles.cutoff;
 
   json checks = json::array();
   for (const CheckResult& result : summary.checks)
@@ -62,12 +75,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
       {"case", scene.name},
       {"title", scene.title},
       {"effects", effects},
-      {"particles",
-       {{"lattice_points", summary.lattice_points},
-        {"carried", summary.particles},
-        {"spacing", summary.spacing},
-        {"core_radius", summary.core_radius},
-        {"cutoff", scene.particles.cutoff}}},
+      {"particles", particles},
       {"time",
        {{"method", scene.time.method},
         {"step", scene.time.step},
@@ -85,6 +93,10 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
       {"seconds", seconds},
       {"frames", frames},
   };
+  if (const auto* worst = worst_output(summary.frames)) {
+    const ErrorNorms& error = *worst->second.error;
+    document["worst"] = {{"t", worst->first}, {"L1", error.l1}, {"L2", error.l2}, {"Linf", error.linf}};
+  }
   for (const auto& [key, value] : more.items()) document[key] = value;
   return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

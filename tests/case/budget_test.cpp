@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -149,6 +150,47 @@ TEST(Budget, SaysWhatItDoesNotCover) {
   EXPECT_NE(budget_not_covered(diffuses).find("diffusion"), std::string::npos);
   EXPECT_NE(budget_not_covered(remeshes).find("remeshing"), std::string::npos);
   EXPECT_FALSE(predicted(diffuses).known());
+}
+
+// A bound, and so small that nothing else is hidden by it.
+TEST(Budget, BoundsWhatTheThresholdLeavesOut) {
+  const auto run = [](const char* threshold) {
+    return built_in("rotating_cone",
+                    {"density.shape=gaussian", "density.radius=0.1", "particles.per_axis=101", "time.step=0.05",
+                     "evaluate.per_axis=61", "evaluate.tolerance=1e-12", "output.times=[\"pi\"]", threshold});
+  };
+  const auto density = [](const Case& scene) {
+    LastFrame::Kept last;
+    Simulation simulation(scene);
+    simulation.observe(std::make_unique<LastFrame>(last, scene.output.times.back()));
+    simulation.run();
+    return last.density.rho;
+  };
+  const Case all = run("particles.threshold=0"), few = run("particles.threshold=1e-5");
+  const std::vector<double> whole = density(all), thinned = density(few);
+  double largest = 0, changed = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    largest = std::max(largest, whole[i]);
+    changed = std::max(changed, std::abs(whole[i] - thinned[i]));
+  }
+  EXPECT_EQ(predicted(all).left_out, 0);
+  for (const Budget& budget : {predicted(few), measured(few).budget}) {
+    EXPECT_GE(budget.left_out, changed / largest);
+    EXPECT_LE(budget.left_out, 100 * changed / largest);  // all blobs at one place, where they lie in a wide ring
+  }
+  EXPECT_GT(changed, 1e-6);  // about the density at the edge of what is carried
+  EXPECT_LT(changed, 2e-5);
+}
+
+TEST(Budget, NamesTheThresholdWhereItDominates) {
+  const Case scene =
+      built_in("rotating_cone",
+               {"density.shape=gaussian", "density.radius=0.2", "particles.per_axis=151", "particles.cutoff=gauss8",
+                "evaluate.per_axis=61", "time.step=0.05", "output.times=[\"pi\"]", "particles.threshold=1e-2"});
+  const Budget budget = predicted(scene);
+  EXPECT_EQ(budget.dominates, "particles left out");
+  EXPECT_NE(std::find(budget.advice.begin(), budget.advice.end(), "particles.threshold = 0 leaves nothing out"),
+            budget.advice.end());
 }
 
 // Neither density nor velocity need be defined outside the domain, where the lattice moved by half a spacing would

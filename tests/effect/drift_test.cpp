@@ -129,9 +129,50 @@ TEST(Charge, OfItsOwnDensityActsOnThatAlone) {
   const Particles start = at_start(none), same = particles_at_end(none);
   for (int k = 0; k < 2; ++k) EXPECT_EQ(start.position[k], same.position[k]);
   const Case weights = disc({"effects.charge.mobility=0.3"}),
-             written = disc({"effects.charge.mobility=0.3", "effects.charge.density=1"});
+             written = disc({"effects.charge.mobility=0.3", "effects.charge.density=x^2 + y^2 < 0.16 ? 1 : 0"});
   const Particles a = particles_at_end(weights), b = particles_at_end(written);
+  ASSERT_EQ(a.size(), b.size());
   for (std::size_t j = 0; j < a.size(); ++j) EXPECT_NEAR(a.position[0][j], b.position[0][j], 1e-12);
+}
+
+/// The resting scene with another density.
+std::string with_density(const std::string& expression) {
+  std::string text = resting_gaussian;
+  const std::size_t from = text.find("shape"), to = text.find("[particles]");
+  return text.replace(from, to - from, "expression = \"" + expression + "\"\n");
+}
+
+// Charge in x > 0.5 pushes the disc, which has none: whether it sits on a trace of density or on nothing must not
+// matter.
+TEST(Charge, IsCarriedWhereThereIsNoDensity) {
+  const auto centre = [](const std::string& beyond) {
+    const Case scene =
+        scene_of({"particles.per_axis=21", "effects.charge.mobility=0.1", "effects.charge.density=x > 0.5 ? 1 : 0"},
+                 with_density("x^2 + y^2 < 0.04 ? 1 : " + beyond));
+    const Particles particles = particles_at_end(scene);
+    double moved = 0, mass = 0;
+    for (std::size_t j = 0; j < particles.size(); ++j) {
+      if (particles.alpha[j] < 1e-6 * 0.01) continue;  // of the disc alone: h^2 = 0.01
+      moved += particles.alpha[j] * particles.position[0][j], mass += particles.alpha[j];
+    }
+    return moved / mass;
+  };
+  const double on_nothing = centre("0"), on_a_trace = centre("1e-10");
+  // A charge of 1 for each of area 1.1 at distances around 0.8: E = 2 q / r or so pushes it by 0.1 E t = 0.05 and more.
+  EXPECT_LT(on_nothing, -0.05);
+  EXPECT_NEAR(on_nothing, on_a_trace, 1e-6);  // the tolerance of the field; another cloud, other clusters
+}
+
+TEST(Charge, ThatIsNotFiniteIsRefusedWithItsPlace) {
+  const Case scene =
+      scene_of({"effects.charge.mobility=0.1", "effects.charge.density=1/x^2"}, with_density("x > 0.5 ? 1 : 0"));
+  try {
+    at_start(scene);
+    FAIL() << "an infinite charge where there is no density was not noticed";
+  } catch (const NumericalError& error) {
+    EXPECT_NE(std::string(error.what()).find("effects.charge.density is inf at (0, "), std::string::npos)
+        << error.what();
+  }
 }
 
 /// Two blobs far smaller than their distance.

@@ -55,6 +55,7 @@ void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.particles.per_axis, b.particles.per_axis);
   EXPECT_EQ(a.particles.overlap, b.particles.overlap);
   EXPECT_EQ(a.particles.cutoff, b.particles.cutoff);
+  EXPECT_EQ(a.particles.threshold, b.particles.threshold);
   EXPECT_EQ(a.time.end, b.time.end);
   EXPECT_EQ(a.time.step, b.time.step);
   ASSERT_EQ(a.effects.reaction.has_value(), b.effects.reaction.has_value());
@@ -157,6 +158,14 @@ TEST(Case, TakesPicturesOfItsDimension) {
             (std::vector{Image::error, Image::heatmap}));
 }
 
+// A reaction can raise what is next to nothing at the start.
+TEST(Case, LeavesNothingOutByItselfWhereWeightsChange) {
+  const std::string reacting = cone + "[effects.reaction]\nrate = \"-1\"\n";
+  EXPECT_EQ(parse(cone).particles.threshold, 1e-12);
+  EXPECT_EQ(parse(reacting).particles.threshold, 0);
+  EXPECT_EQ(parse(reacting, {"particles.threshold=1e-9"}).particles.threshold, 1e-9);
+}
+
 TEST(Case, TakesItsDefaultsFromTheRegistryAndTheyAreValid) {
   const ReadResult result = parse_case(least, "least.toml");
   EXPECT_TRUE(result.warnings.empty());
@@ -167,6 +176,7 @@ TEST(Case, TakesItsDefaultsFromTheRegistryAndTheyAreValid) {
   const OutputSpec output;
   EXPECT_EQ(scene.particles.overlap, particles.overlap);
   EXPECT_EQ(scene.particles.cutoff, particles.cutoff);
+  EXPECT_EQ(scene.particles.threshold, particles.threshold);
   EXPECT_EQ(scene.time.method, time.method);
   EXPECT_EQ(scene.evaluate.per_axis, evaluate.per_axis);
   EXPECT_EQ(scene.evaluate.tolerance, evaluate.tolerance);
@@ -327,6 +337,7 @@ expression = "exp(-x^2-y^2-z^2)"
 per_axis = 10
 overlap = 2
 cutoff = "gauss2"
+threshold = 1e-12
 
 [time]
 end = 0.6666666666666666

@@ -15,7 +15,7 @@ TEST(CaseFile, RejectsAnUnknownKeyNamingTheLine) {
    |
 26 | overlapp = 2
    | ^^^^^^^^
-   = known keys: per_axis, overlap, cutoff, width_ratio
+   = known keys: per_axis, overlap, cutoff, width_ratio, threshold
 
 1 error in cone.toml)text");
 }
@@ -72,7 +72,7 @@ error: unknown key "overlapp" in [particles]; did you mean "overlap"?
    |
 27 | overlapp = 2
    | ^^^^^^^^
-   = known keys: per_axis, overlap, cutoff, width_ratio
+   = known keys: per_axis, overlap, cutoff, width_ratio, threshold
 
 error: time.step must be greater than 0, found -1
   --> cone.toml:32:8
@@ -208,11 +208,11 @@ const std::vector<Wrong> wrongs = {
     {"[time]\nend", "[effects.reaction]\nrate = [1]\n[time]\nend", 30, "[1]",
      "effects.reaction.rate must be an expression in a string, found a list"},
     {"overlap = 2", "overlap = 2\nstep = 0.1", 27, "step", "unknown key \"step\" in [particles]; it belongs in [time]",
-     "known keys: per_axis, overlap, cutoff, width_ratio"},
+     "known keys: per_axis, overlap, cutoff, width_ratio, threshold"},
     {"step = 0.001\n", "", 29, "[time]", "time.step is missing", step_note},
     {"per_axis = 300", "per_axes = 300", 25, "per_axes",
      "unknown key \"per_axes\" in [particles]; did you mean \"per_axis\"?",
-     "known keys: per_axis, overlap, cutoff, width_ratio"},
+     "known keys: per_axis, overlap, cutoff, width_ratio, threshold"},
     {"title = \"Rotating cone\"", "title = 3", 4, "3", "case.title must be a string, found the number 3"},
     {"title = \"Rotating cone\"", "title = 1979-05-27", 4, "1979-05-27",
      "case.title must be a string, found a date or time"},
@@ -323,6 +323,11 @@ const std::vector<Wrong> wrongs = {
     {"per_axis = 300", "per_axis = \"1e12\"", 25, "\"1e12\"",
      "the particle lattice would have 1000000000000 points on one axis; at most 2147483648 in all are possible",
      "lower per_axis"},
+    {"overlap = 2", "overlap = 2\nthreshold = 1", 27, "1",
+     "particles.threshold must be at least 0 and at most 0.01, found 1",
+     "threshold: lattice points with less than this part of the largest weight, and of the largest charge, have no "
+     "particle; the run tells how many, and how much they would carry. 0, the default with [effects.reaction], which "
+     "can raise small weights: every point that carries anything"},
     {"overlap = 2", "overlap = 0", 26, "0", "particles.overlap must be at least 0.01 and at most 100, found 0",
      "overlap: core radius of a blob divided by h: eps = c h"},
     {"overlap = 2", "overlap = 1e-300", 26, "1e-300",

@@ -243,7 +243,7 @@ TEST(Run, ReportsAFieldThatIsNotFiniteAndKeepsTheFramesBefore) {
   EXPECT_EQ(count(collection, "<DataSet"), 2) << collection;
   EXPECT_NE(collection.find("</VTKFile>"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "output/small/density/density_0001.vti"));
-  EXPECT_EQ(csv_row(read_file(folder / "output/small/series.csv"), 1).size(), 12u);
+  EXPECT_EQ(csv_row(read_file(folder / "output/small/series.csv"), 1).size(), 13u);
 }
 
 TEST(Run, WritesNoVelocityThatIsNotFinite) {

@@ -57,7 +57,11 @@ TEST(Checks, ThatCannotBeJudgedFail) {
   const CheckResult nan = judge({check}, 4, list).at(0);
   EXPECT_FALSE(nan.passed);
   EXPECT_EQ(nan.time, 1);
-  EXPECT_EQ(nan.text, "Linf = nan at t = 1, must be at most 10; it is not known there");
+  EXPECT_EQ(nan.text, "Linf at t = 1 must be at most 10 but is not known: it is not a number");
+  list[1].second.no_norms = "nothing is left to compare (all of the mass has left the domain)";
+  EXPECT_EQ(judge({check}, 4, list).at(0).text,
+            "Linf at t = 1 must be at most 10 but is not known: nothing is left to compare (all of the mass has left "
+            "the domain)");
   list = frames();
   list[2].second.untraced = 1;
   EXPECT_FALSE(judge({check}, 4, list).at(0).passed) << "a norm that leaves points out";

@@ -138,5 +138,17 @@ TEST(Cutoff, EveryNameCanBeMadeAndOthersCannot) {
   EXPECT_THROW(make_cutoff("gauss3", 2, 0.1), std::out_of_range);
 }
 
+TEST(Peak, IsTheLargestValueOfEveryCutoff) {
+  for (const std::string& name : cutoff_names())
+    for (const int dimension : {2, 3})
+      for (const double ratio : {0.5, 2.0}) {
+        const Cutoff cutoff = make_cutoff(name, dimension, 0.3, ratio);
+        const double top = peak(cutoff);
+        EXPECT_NEAR(value(cutoff, {0, 0, 0}), top, 1e-12 * top) << name;
+        for (int i = 1; i < 40; ++i)
+          EXPECT_LT(std::abs(value(cutoff, {0.03 * i, 0.02 * i, 0})), top) << name << " at " << i;
+      }
+}
+
 }  // namespace
 }  // namespace gaussdrift

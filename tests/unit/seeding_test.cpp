@@ -28,6 +28,62 @@ TEST(Seeding, CarriesOnlyTheConesParticles) {
   for (const double alpha : cone.alpha) EXPECT_GT(alpha, 0);
 }
 
+std::vector<Carried> cone_alone() {
+  static const RadialDensity cone{RadialDensity::Profile::wendland, 2, {0.5, 0, 0}, 0.25, 1};
+  return {{"the initial density", [](const PointsView& x, double* values) { cone.add(x, values); }}};
+}
+
+// The thesis carries 4378 particles: those with alpha_j > 1e-15, which is 2.24e-11 of the largest.
+TEST(Seeding, LeavesOutWhatTheThesisLeavesOut) {
+  const double largest = 0.997829 * square.spacing * square.spacing;
+  SeedReport report;
+  const Particles cone = seed(square, cone_alone(), 1e-15 / largest, 0, &report);
+  EXPECT_EQ(cone.size(), 4378u);
+  for (const double alpha : cone.alpha) EXPECT_GT(alpha, 1e-15);
+  EXPECT_EQ(report.left_out, 8u);
+  EXPECT_LT(report.carried.front().part(), 8 * 1e-15 / 0.028);  // eight of them, of the mass of the cone
+  EXPECT_GT(report.carried.front().part(), 0);
+}
+
+TEST(Seeding, CountsAndWeighsWhatItLeavesOutForAnyThreads) {
+  const RadialDensity gaussian(RadialDensity::Profile::gaussian, 2, {0.1, 0.2, 0}, 0.2, 3);
+  const std::vector<Carried> carried{
+      {"the initial density", [&](const PointsView& x, double* values) { gaussian.add(x, values); }}};
+  SeedReport none, one, two;
+  const Particles all = seed(square, carried, 0, 2, &none), few = seed(square, carried, 1e-6, 1, &one),
+                  same = seed(square, carried, 1e-6, 2, &two);
+  EXPECT_EQ(none.left_out, 0u);
+  EXPECT_EQ(few.id, same.id);
+  EXPECT_EQ(one.carried.front().left_out, two.carried.front().left_out);
+  EXPECT_EQ(few.size() + one.left_out, all.size());
+  double heaviest = 0, total = 0, kept = 0;
+  for (const double alpha : all.alpha) heaviest = std::max(heaviest, alpha), total += alpha;
+  for (const double alpha : few.alpha) {
+    EXPECT_GE(alpha, 1e-6 * heaviest);
+    kept += alpha;
+  }
+  EXPECT_NEAR(one.carried.front().left_out, total - kept, 1e-13 * total);
+  EXPECT_NEAR(one.carried.front().part(), 1e-6, 0.1e-6);  // the part of a plane Gaussian below 1e-6 of its height
+}
+
+TEST(Seeding, KeepsPointsThatHaveSomethingElse) {
+  const Lattice lattice = make_lattice(2, {0, 0, 0}, {1, 1, 0}, 11);
+  std::vector<Carried> carried{{"the initial density",
+                                [](const PointsView& x, double* values) {
+                                  for (std::size_t i = 0; i < x.count; ++i)
+                                    values[i] += x.axis[0][i] < 0.45 ? 1 : 1e-14;
+                                }},
+                               {"the charge", [](const PointsView& x, double* values) {
+                                  for (std::size_t i = 0; i < x.count; ++i) values[i] += x.axis[0][i] > 0.75 ? -2 : 0;
+                                }}};
+  SeedReport report;
+  const Particles particles = seed(lattice, carried, 1e-12, 1, &report);
+  EXPECT_EQ(particles.size(), (5u + 3u) * 11u);  // x = 0 ... 0.4 and 0.8 ... 1
+  EXPECT_EQ(report.left_out, 3u * 11u);
+  EXPECT_EQ(report.carried.back().left_out, 0);
+  EXPECT_GT(report.carried.front().left_out, 0);
+}
+
 TEST(Seeding, WeighsWithTheLatticeCell) {
   const RadialDensity density(RadialDensity::Profile::gaussian, 2, {0.1, 0.2, 0}, 0.2, 1);
   const Particles particles = seed_radial(density, 0);
