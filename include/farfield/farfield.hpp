@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <iosfwd>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -36,11 +37,28 @@ class ToleranceError : public Error {
 };
 /// The work would need more memory than Options::memory_limit; thrown before it is allocated.
 class MemoryLimitError : public Error {
-  using Error::Error;
+ public:
+  MemoryLimitError(const std::string& message, double needed_bytes, std::size_t limit_bytes)
+      : Error(message), needed(needed_bytes), limit(limit_bytes) {}
+  double needed;
+  std::size_t limit;
+};
+enum class Method;
+/// The work is predicted to take longer than Options::most_seconds; thrown before it is begun.
+class TimeLimitError : public Error {
+ public:
+  TimeLimitError(const std::string& message, double predicted, Method chosen)
+      : Error(message), seconds(predicted), method(chosen) {}
+  double seconds;  // on one thread
+  Method method;
 };
 /// A sum exceeds the range of double: charges too large, or points too close to each other.
 class RangeError : public Error {
-  using Error::Error;
+ public:
+  RangeError(const std::string& message, const std::string& sum, std::size_t index)
+      : Error(message), quantity(sum), target(index) {}
+  std::string quantity;  // "potential" or "field"
+  std::size_t target;    // from 0
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -83,6 +101,7 @@ struct Options {
   double core_radius = 0;                           // eps of vortex_blob; > 0 there
   bool potential = true;                            // false: the field alone; spares the logarithms in 1D and 2D
   std::size_t memory_limit = std::size_t{8} << 30;  // bytes that plan and evaluation may hold together
+  double most_seconds = std::numeric_limits<double>::infinity();  // that may be predicted, for one thread
   std::size_t leaf_size = 0;  // clusters of more points are divided; 0: chosen by the predicted time
 };
 

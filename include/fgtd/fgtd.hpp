@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <iosfwd>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -37,7 +38,21 @@ class ToleranceError : public Error {
 };
 /// The work would need more memory than Options::memory_limit; thrown before anything is allocated.
 class MemoryLimitError : public Error {
-  using Error::Error;
+ public:
+  MemoryLimitError(const std::string& message, double needed_bytes, std::size_t limit_bytes)
+      : Error(message), needed(needed_bytes), limit(limit_bytes) {}
+  double needed;
+  std::size_t limit;
+};
+
+enum class Method;
+/// The work is predicted to take longer than Options::most_seconds; thrown before it is begun.
+class TimeLimitError : public Error {
+ public:
+  TimeLimitError(const std::string& message, double predicted, Method chosen)
+      : Error(message), seconds(predicted), method(chosen) {}
+  double seconds;  // on one thread
+  Method method;
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -98,6 +113,7 @@ struct Options {
   Method method = Method::automatic;  //
   int threads = 0;                    // 0: all
   std::size_t memory_limit = std::size_t{8} << 30;  // bytes that plan and evaluation may hold together
+  double most_seconds = std::numeric_limits<double>::infinity();  // that may be predicted, for one thread
 
   // What will be evaluated, for the prediction of cost only; other targets stay possible.
   std::size_t expected_targets = 0;              // scattered; 0: as many as sources

@@ -69,6 +69,9 @@ void add_sum_options(CLI::App& verb, SumOptions& options) {
   verb.add_option("--method", options.method,
                   "auto (the default), or a method of the kernel's library; a wrong name lists them")
       ->type_name("NAME");
+  verb.add_option("--seconds", options.seconds,
+                  "refuse what is predicted to take longer; 300 by default for a method that is named")
+      ->type_name("S");
   verb.add_option("--kernel", options.kernel,
                   "gauss (the default), or potential and field of coulomb (2D, 3D) or log (1D, 2D)")
       ->type_name("NAME");

@@ -66,6 +66,8 @@ void check_options(const SumOptions& options) {
   } else {
     throw CommandLineError(fmt::format("--kernel: there is no \"{}\"; there are gauss, coulomb, log", options.kernel));
   }
+  if (options.seconds && !(*options.seconds > 0))
+    throw CommandLineError(fmt::format("--seconds {}: must be positive", *options.seconds));
   if (to_standard_output(options)) {
     if (options.json)
       throw CommandLineError("--json writes to standard output, so the values need a file; add --out FILE");
@@ -127,6 +129,12 @@ void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd
 double read_points(const SumOptions& options, study::PointsRequest& request) {
   request.tolerance = options.tolerance;
   request.threads = options.threads;
+  constexpr double most_if_named = 300;
+  if (options.seconds)
+    request.most_seconds = *options.seconds;
+  else if (options.method != "auto")
+    request.most_seconds = most_if_named;
+  request.tell = [](const std::string& what) { note("{}\n", what); };
   if (!options.grid.empty()) request.grid = study::parse_grid(options.grid);
   const input::CoordinateNames coordinates = study::parse_columns(options.columns);
   const base::Stopwatch reading;
@@ -140,9 +148,9 @@ double read_points(const SumOptions& options, study::PointsRequest& request) {
   return reading.seconds();
 }
 
-/// Writes the values and tells about them; Sums is that of one library.
+/// Writes the values and tells about them; Sums is that of one library. A promise that is found broken is exit code 4.
 template <class Sums>
-void write(Sums& sums, const SumOptions& options) {
+ExitCode write(Sums& sums, const SumOptions& options) {
   if (options.method != "auto" && sums.asked != sums.choice.method)
     note("warning: {} is not possible for these points, targets and tolerance; {} did the sum\n", options.method,
          to_string(sums.choice.method));
@@ -153,9 +161,12 @@ void write(Sums& sums, const SumOptions& options) {
     say("{}", study::to_json(sums));
   else if (!to_standard_output(options))
     say("{}open   {}\n", study::to_text(sums), options.out.string());
+  const std::vector<std::string> broken = study::broken_promises(sums.measured, sums.compared);
+  for (const std::string& sentence : broken) note("warning: {}\n", sentence);
+  return broken.empty() ? ExitCode::ok : ExitCode::numerical;
 }
 
-void sum_gaussians(const SumOptions& options) {
+ExitCode sum_gaussians(const SumOptions& options) {
   study::SumRequest request;
   request.sigma = *options.sigma;
   request.method = named("--method", options.method, fgtd::methods());
@@ -163,17 +174,17 @@ void sum_gaussians(const SumOptions& options) {
   const double read_seconds = read_points(options, request);
   study::PointSums sums = study::sum_points(request);
   sums.read_seconds = read_seconds;
-  write(sums, options);
+  return write(sums, options);
 }
 
-void sum_pairs(const SumOptions& options) {
+ExitCode sum_pairs(const SumOptions& options) {
   study::PairSumRequest request;
   request.kernel = named("--kernel", options.kernel, farfield::kernels());
   request.method = named("--method", options.method, farfield::methods());
   const double read_seconds = read_points(options, request);
   study::PairSums sums = study::sum_pairs(request);
   sums.read_seconds = read_seconds;
-  write(sums, options);
+  return write(sums, options);
 }
 
 }  // namespace
@@ -181,11 +192,10 @@ void sum_pairs(const SumOptions& options) {
 ExitCode sum(const SumOptions& options) {
   check_options(options);
   try {
-    of_pairs(options) ? sum_pairs(options) : sum_gaussians(options);
+    return of_pairs(options) ? sum_pairs(options) : sum_gaussians(options);
   } catch (const std::bad_alloc&) {
     throw InputError("out of memory; ask for fewer targets at a time, or give fewer sources");
   }
-  return ExitCode::ok;
 }
 
 }  // namespace gaussdrift::cli

@@ -45,7 +45,8 @@ struct SumOptions {
   std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum
   double tolerance = 1e-6;
   std::string method = "auto";
-  std::filesystem::path out;  // empty or "-": standard output
+  std::optional<double> seconds;  // most that may be predicted; by default 300 for a method that is named
+  std::filesystem::path out;      // empty or "-": standard output
   int threads = 0;            // 0: all
   bool json = false;          // what was chosen as JSON on stdout
 };

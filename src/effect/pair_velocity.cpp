@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/users_words.hpp"
 
 namespace gaussdrift {
 
@@ -22,9 +23,19 @@ farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const
     return plan->evaluate(Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())))
         .field;
   } catch (const farfield::MemoryLimitError& error) {
-    throw InputError(error.what());
+    throw InputError(
+        fmt::format("the particles' effect on each other would take {:.3g} GB, at most {:.3g} GB are used; "
+                    "lower particles.per_axis",
+                    error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
+  } catch (const farfield::RangeError& error) {
+    throw NumericalError(
+        fmt::format("the {} at particle {} (counted from 1) exceeds the range of double precision; its "
+                    "weight is too large, or it lies too close to another",
+                    error.quantity, error.target + 1));
   } catch (const farfield::Error& error) {  // positions or weights that are not finite, points too close
-    throw NumericalError(fmt::format("the particles' effect on each other cannot be summed: {}", error.what()));
+    throw NumericalError(
+        fmt::format("the particles' effect on each other cannot be summed: {}",
+                    base::in_users_words(error.what(), {{"Options::tolerance = ", "a tolerance of "}})));
   }
 }
 

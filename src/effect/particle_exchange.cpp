@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/users_words.hpp"
 
 namespace gaussdrift {
 
@@ -177,7 +178,8 @@ void ParticleExchange::exchange(Particles& particles, double time, double length
       exchange_in_dimension<3>(particles, time, length);
   } catch (const fgtd::Error& error) {
     throw NumericalError(
-        fmt::format("diffusion by particle exchange cannot be summed at t = {:.6g}: {}", time, error.what()));
+        fmt::format("diffusion by particle exchange cannot be summed at t = {:.6g}: {}", time,
+                    base::in_users_words(error.what(), {{"Options::tolerance = ", "a tolerance of "}})));
   }
   grow_halo(particles);
 }

@@ -45,6 +45,8 @@ void check_options(Kernel kernel, const Options& options, int dimension) {
     throw ToleranceError("farfield: Options::tolerance = " + text(options.tolerance) + " cannot be promised by " +
                          to_string(options.method) + ", must be at least " + text(smallest_tolerance) +
                          "; leave the method to auto or direct");
+  if (!(options.most_seconds >= 0))
+    refuse("Options::most_seconds = " + text(options.most_seconds) + ", must be at least 0");
   if (options.threads < 0)
     refuse("Options::threads = " + std::to_string(options.threads) + ", must be positive, or 0 for all");
 }
@@ -78,8 +80,16 @@ void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t
 void check_memory(const char* what, double bytes, std::size_t limit) {
   if (bytes <= static_cast<double>(limit)) return;
   throw MemoryLimitError("farfield: " + std::string(what) + " would need " + text(std::ceil(bytes / 1e6)) +
-                         " MB, Options::memory_limit allows " + text(std::floor(static_cast<double>(limit) / 1e6)) +
-                         " MB; raise it, or give fewer points");
+                             " MB, Options::memory_limit allows " + text(std::floor(static_cast<double>(limit) / 1e6)) +
+                             " MB; raise it, or give fewer points",
+                         bytes, limit);
+}
+
+void check_seconds(Method method, double seconds, double most) {
+  if (seconds <= most) return;
+  throw TimeLimitError("farfield: " + to_string(method) + " would take about " + text(std::ceil(seconds)) +
+                           " s on one thread, Options::most_seconds is " + text(most),
+                       seconds, method);
 }
 
 void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target) {
@@ -87,8 +97,9 @@ void check_values(const char* what, const double* values, std::size_t count, std
   for (std::size_t i = 0; i < count * numbers_a_target; ++i)
     if (!std::isfinite(values[i]))
       throw RangeError("farfield: the " + std::string(what) + " at target " + std::to_string(i / numbers_a_target) +
-                       " exceeds the range of double precision; scale the charges down, or join points that are "
-                       "nearly equal");
+                           " exceeds the range of double precision; scale the charges down, or join points that are "
+                           "nearly equal",
+                       what, i / numbers_a_target);
 }
 
 }  // namespace farfield::detail

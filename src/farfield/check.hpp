@@ -20,6 +20,9 @@ void check_points(const char* kind, const double* points, std::size_t dimension,
 /// Finite, and one for every source.
 void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t sources);
 
+/// Throws TimeLimitError if more seconds are predicted than may be.
+void check_seconds(Method method, double seconds, double most);
+
 /// Throws MemoryLimitError if `bytes` for `what` exceed the limit.
 void check_memory(const char* what, double bytes, std::size_t limit);
 

@@ -42,6 +42,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
     choice.bound = error_of(Precision::full);
     choice.seconds = direct_seconds;
     choice.work = {.pairs = pairs};
+    check_seconds(choice.method, choice.seconds, options.most_seconds);
     return std::make_unique<Direct>(problem, options.threads);
   };
   const bool any = options.method == Method::automatic;
@@ -83,6 +84,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   if (options.leaf_size == 0) tree.prune(prediction->leaf_size);
   const bool couple = choice.method == Method::symmetric;
   choice.seconds = prediction->seconds;
+  check_seconds(choice.method, choice.seconds, options.most_seconds);
   choice.degree = degrees.highest;
   choice.bound = std::max({degrees.error / gain, error_of(precisions.points), 10 * error_of(precisions.substitutes)});
   choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction->leaf_size;

@@ -113,6 +113,9 @@ void check_options(const Options& options, std::size_t dimension) {
     throw InvalidArgument("fgtd: Options::threads = " + std::to_string(options.threads) +
                           ", must be positive, or 0 for all");
   }
+  if (!(options.most_seconds >= 0)) {
+    throw InvalidArgument("fgtd: Options::most_seconds = " + text(options.most_seconds) + ", must be at least 0");
+  }
   if (options.expected_grid) check_grid("Options::expected_grid", *options.expected_grid, dimension);
   if (!options.hermite) return;
   const HermiteParameters& by_hand = *options.hermite;
@@ -158,7 +161,15 @@ void check_grid(const char* name, const TensorGrid& grid, std::size_t dimension)
 void check_memory(const char* what, double bytes, std::size_t limit) {
   if (bytes <= static_cast<double>(limit)) return;
   throw MemoryLimitError("fgtd: " + std::string(what) + " needs about " + text(std::ceil(bytes)) +
-                         " bytes, Options::memory_limit is " + text(limit) + " bytes");
+                             " bytes, Options::memory_limit is " + text(limit) + " bytes",
+                         bytes, limit);
+}
+
+void check_seconds(const Choice& choice, double most) {
+  if (choice.seconds <= most) return;
+  throw TimeLimitError("fgtd: " + to_string(choice.method) + " would take about " + text(std::ceil(choice.seconds)) +
+                           " s on one thread, Options::most_seconds is " + text(most),
+                       choice.seconds, choice.method);
 }
 
 }  // namespace fgtd::detail

@@ -22,6 +22,9 @@ void check_sigma(double sigma);
 void check_options(const Options& options, std::size_t dimension);
 void check_grid(const char* name, const TensorGrid& grid, std::size_t dimension);
 
+/// Throws TimeLimitError if more seconds are predicted than may be.
+void check_seconds(const Choice& choice, double most);
+
 /// Throws MemoryLimitError if `bytes` for `what` exceed the limit.
 void check_memory(const char* what, double bytes, std::size_t limit);
 

@@ -55,6 +55,7 @@ Engine<d>::Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<c
 
   Proposal<d> chosen = choose<d>(position, sources_, columns, sigma, options);
   check_memory("the plan", chosen.plan_bytes, options.memory_limit);
+  check_seconds(chosen.choice, options.most_seconds);
   choice_ = chosen.choice;
   summation_ = chosen.make(std::move(position));
   choice_.boxes = summation_->boxes();

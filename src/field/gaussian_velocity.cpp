@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "base/error.hpp"
+#include "base/users_words.hpp"
 #include "field/divergence_free.hpp"
 
 namespace gaussdrift {
@@ -192,7 +193,8 @@ auto told_for_the_case(const Work& work) {
   try {
     return work();
   } catch (const fgtd::Error& error) {
-    throw InputError(std::string("the Gaussians of the velocity cannot be summed: ") + error.what() +
+    throw InputError(std::string("the Gaussians of the velocity cannot be summed: ") +
+                     base::in_users_words(error.what(), {{"Options::tolerance = ", "velocity.tolerance = "}}) +
                      "; check width and the coordinates of the points");
   }
 }

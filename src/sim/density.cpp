@@ -1,5 +1,6 @@
 #include "sim/density.hpp"
 
+#include <fmt/format.h>
 #include <fgtd/fgtd.hpp>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
+#include "base/users_words.hpp"
 #include "base/weight_within.hpp"
 
 namespace gaussdrift {
@@ -239,9 +241,13 @@ DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, c
     else
       evaluate_in_dimension<3>(particles, cutoff, grid, options, filled);
   } catch (const fgtd::MemoryLimitError& error) {
-    throw InputError(std::string(error.what()) + "; lower evaluate.per_axis or particles.per_axis");
+    throw InputError(
+        fmt::format("summing the density would take {:.3g} GB, at most {:.3g} GB are used; lower "
+                    "evaluate.per_axis or particles.per_axis",
+                    error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
   } catch (const fgtd::Error& error) {
-    throw InputError(std::string("the density cannot be summed: ") + error.what() +
+    throw InputError("the density cannot be summed: " +
+                     base::in_users_words(error.what(), {{"Options::tolerance = ", "evaluate.tolerance = "}}) +
                      "; check the size of the domain, particles.per_axis and particles.overlap");
   }
   return grid;

@@ -134,6 +134,31 @@ std::size_t memory_for_plan(const PointsRequest& request, std::size_t values) {
                   targets, columns, columns == 1 ? "value" : "values", bytes / 1e9, limit / 1e9));
 }
 
+SampleOfTargets sample_targets(const PointsRequest& request) {
+  constexpr double most_pairs = 2e7;
+  const double sources = std::max(1.0, static_cast<double>(request.sources.size()));
+  const auto targets = static_cast<std::size_t>(targets_of(request));
+  const std::size_t count = std::min(targets, static_cast<std::size_t>(std::clamp(most_pairs / sources, 10.0, 200.0)));
+  const auto dimension = static_cast<Eigen::Index>(request.sources.coordinates.size());
+  SampleOfTargets sample{{}, Eigen::MatrixXd(dimension, static_cast<Eigen::Index>(count))};
+  const input::PointsTable& table = request.targets ? *request.targets : request.sources;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t row = i * targets / count;
+    sample.rows.push_back(static_cast<Eigen::Index>(row));
+    for (Eigen::Index l = 0; l < dimension; ++l) {
+      const auto axis = static_cast<std::size_t>(l);
+      double& coordinate = sample.points(l, static_cast<Eigen::Index>(i));
+      if (request.grid.empty()) {
+        coordinate = table.positions[row * static_cast<std::size_t>(dimension) + axis];
+      } else {
+        coordinate = node(request.grid[axis], row % request.grid[axis].count);
+        row /= request.grid[axis].count;
+      }
+    }
+  }
+  return sample;
+}
+
 void write_table(const std::vector<std::string>& names, const Eigen::MatrixXd& values, std::FILE* out) {
   constexpr int digits = 17;                  // enough to read the same double again
   constexpr std::size_t longest_number = 32;  // "-1.2345678901234567e-308," and room

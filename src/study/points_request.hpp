@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdio>
+#include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,8 +27,10 @@ struct PointsRequest {
   std::optional<input::PointsTable> targets;  // neither targets nor grid: the sources are the targets
   std::vector<GridAxis> grid;                 // one for every coordinate
   double tolerance = 1e-6;
-  int threads = 0;                                  // 0: all
-  std::size_t memory_limit = std::size_t{8} << 30;  // bytes of points, values and plan together
+  int threads = 0;                                                // 0: all
+  std::size_t memory_limit = std::size_t{8} << 30;                // bytes of points, values and plan together
+  double most_seconds = std::numeric_limits<double>::infinity();  // of the clock, that may be predicted
+  std::function<void(const std::string&)> tell = {};              // what takes long, before it begins
 };
 
 /// "-1:1:200,-1:1:200". Throws CommandLineError.
@@ -44,6 +48,14 @@ void check_together(const PointsRequest& request);
 /// Bytes that are left for the plan when the points, the nodes and `columns` values a target have their memory.
 /// Throws InputError if nothing is.
 std::size_t memory_for_plan(const PointsRequest& request, std::size_t columns);
+
+/// Some of the targets, evenly taken from all.
+struct SampleOfTargets {
+  std::vector<Eigen::Index> rows;
+  Eigen::MatrixXd points;  // [dimension x rows]
+};
+/// So many that a comparison with all pairs costs a fraction of a second: 10 to 200.
+SampleOfTargets sample_targets(const PointsRequest& request);
 
 /// A header line, then a line for every row of `values` with 17 significant digits. Throws std::system_error.
 void write_table(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, std::FILE* out);

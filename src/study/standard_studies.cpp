@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
+#include "base/users_words.hpp"
 #include "sim/exact_paths.hpp"
 #include "sim/simulation.hpp"
 #include "sim/stable_step.hpp"
@@ -93,7 +94,7 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
         } catch (const Error& error) {
           sample.failure = error.what();
         } catch (const fgtd::Error& error) {
-          sample.failure = error.what();
+          sample.failure = base::in_users_words(error.what(), {{"Options::tolerance = ", "a tolerance of "}});
         }
       }
       if (sample.failure != "left out: too dear" || !too_dear) experiment.samples.push_back(std::move(sample));

@@ -6,16 +6,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <type_traits>
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
+#include "base/users_words.hpp"
 
 namespace gaussdrift::study {
 
 namespace {
 
-constexpr std::size_t most_compared = 200;  // targets
+constexpr double rounding = 1e-14;  // of the same sums that the tolerance is relative to
 
 template <int d>
 farfield::Points<d> points_of(const input::PointsTable& table) {
@@ -39,32 +41,68 @@ farfield::Points<d> points_of(const std::vector<GridAxis>& grid) {
   return points;
 }
 
+Eigen::VectorXd charges_of(const PairSumRequest& request) {
+  return Eigen::Map<const Eigen::VectorXd>(request.sources.weights.data(),
+                                           static_cast<Eigen::Index>(request.sources.weights.size()));
+}
+
 double relative(double error, double size) { return error == 0 ? 0 : error / size; }
+
+/// What farfield promises errors by, at one target: sums without signs.
+struct Unsigned {
+  double potential = 0, field = 0;
+};
+
+template <int d>
+Unsigned unsigned_sums(const PairSumRequest& request, const double* target) {
+  const std::vector<double>& position = request.sources.positions;
+  Unsigned sums;
+  for (std::size_t j = 0; j < request.sources.size(); ++j) {
+    double square = 0;
+    for (std::size_t l = 0; l < d; ++l) square += std::pow(target[l] - position[j * d + l], 2);
+    if (square == 0) continue;
+    const double r = std::sqrt(square), charge = std::abs(request.sources.weights[j]);
+    sums.potential += d == 3 ? charge / r : charge * (1 + std::abs(std::log(r)));
+    sums.field += d == 3 ? charge / square : charge / r;
+  }
+  return sums;
+}
 
 /// Against all pairs, at some of the targets.
 template <int d>
-void compare(const PairSumRequest& request, const farfield::Points<d>& sources, const farfield::Points<d>& targets,
-             const Eigen::VectorXd& charges, farfield::Options options, PairSums& result) {
-  const auto count = static_cast<std::size_t>(targets.cols());
-  result.compared = std::min(most_compared, count);
-  farfield::Points<d> some(d, static_cast<Eigen::Index>(result.compared));
-  std::vector<Eigen::Index> row(result.compared);
-  for (std::size_t i = 0; i < result.compared; ++i) {
-    row[i] = static_cast<Eigen::Index>(i * count / result.compared);
-    some.col(static_cast<Eigen::Index>(i)) = targets.col(row[i]);
-  }
+void measure(const PairSumRequest& request, PairSums& result) {
+  const SampleOfTargets sample = sample_targets(request);
+  const std::size_t count = sample.rows.size();
+  farfield::Options options;
   options.method = farfield::Method::direct;
-  const farfield::Values<d> exact = farfield::Plan<d>(request.kernel, sources, some, options).evaluate(charges);
-  double error[2] = {}, size[2] = {};
-  for (std::size_t i = 0; i < result.compared; ++i)
+  options.threads = request.threads;
+  const Eigen::VectorXd charges = charges_of(request);
+  const farfield::Values<d> exact =
+      farfield::Plan<d>(request.kernel, points_of<d>(request.sources), farfield::Points<d>(sample.points), options)
+          .evaluate(charges);
+  std::vector<Unsigned> scale(count);
+  base::parallel_for(count, request.threads,
+                     [&](std::size_t i) { scale[i] = unsigned_sums<d>(request, sample.points.data() + i * d); });
+  double worst[2] = {}, error[2] = {}, size[2] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    double square[2] = {};
     for (Eigen::Index k = 0; k <= d; ++k) {
-      const auto at = static_cast<Eigen::Index>(i);
       const double right = k == 0 ? exact.potential[at] : exact.field(k - 1, at);
-      error[k > 0] += std::pow(result.values(row[i], k) - right, 2);
+      square[k > 0] += std::pow(result.values(sample.rows[i], k) - right, 2);
       size[k > 0] += right * right;
     }
-  result.potential_error = relative(std::sqrt(error[0]), std::sqrt(size[0]));
-  result.field_error = relative(std::sqrt(error[1]), std::sqrt(size[1]));
+    for (const int k : {0, 1}) {
+      error[k] += square[k];
+      const double off = relative(std::sqrt(square[k]), k == 0 ? scale[i].potential : scale[i].field);
+      if (!(off <= worst[k]) && !std::isnan(worst[k])) worst[k] = off;  // what is not a number stays
+    }
+  }
+  result.compared = count;
+  const double allowed = request.tolerance + rounding;
+  result.measured = {{"the potential", worst[0], allowed}, {"the field", worst[1], allowed}};
+  result.potential_of_itself = relative(std::sqrt(error[0]), std::sqrt(size[0]));
+  result.field_of_itself = relative(std::sqrt(error[1]), std::sqrt(size[1]));
 }
 
 template <int d>
@@ -74,8 +112,7 @@ void sum(const PairSumRequest& request, farfield::Options options, PairSums& res
   const farfield::Points<d> targets = self                   ? sources
                                       : request.grid.empty() ? points_of<d>(*request.targets)
                                                              : points_of<d>(request.grid);
-  const Eigen::VectorXd charges = Eigen::Map<const Eigen::VectorXd>(
-      request.sources.weights.data(), static_cast<Eigen::Index>(request.sources.weights.size()));
+  const Eigen::VectorXd charges = charges_of(request);
 
   const base::Stopwatch preparing;
   const auto plan = self ? farfield::Plan<d>(request.kernel, sources, options)
@@ -91,24 +128,39 @@ void sum(const PairSumRequest& request, farfield::Options options, PairSums& res
     result.values.rightCols(d) = values.field.transpose();
   }
   result.evaluate_seconds = evaluating.seconds();
-
-  if (result.choice.method == farfield::Method::direct) return;
-  const base::Stopwatch comparing;
-  compare<d>(request, sources, targets, charges, options, result);
-  result.compare_seconds = comparing.seconds();
 }
 
 // The tables are finite and belong together, so what farfield refuses is a number of the command line.
 template <class Work>
 void with_errors_of_farfield(const Work& work) {
+  const base::Words words = {{"Options::tolerance = ", "--tolerance "}, {"leave the method to", "leave --method to"}};
   try {
     work();
-  } catch (const farfield::InvalidArgument& error) {
-    throw CommandLineError(error.what());
+  } catch (const farfield::MemoryLimitError& error) {
+    throw InputError(fmt::format("the sum would take {:.3g} GB, at most {:.3g} GB are left for it; give fewer points",
+                                 error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
   } catch (const farfield::RangeError& error) {
-    throw NumericalError(error.what());
+    throw NumericalError(
+        fmt::format("the {} at target {} (counted from 1) exceeds the range of double precision; scale "
+                    "the charges down, or join points that are nearly equal",
+                    error.quantity, error.target + 1));
+  } catch (const farfield::InvalidArgument& error) {
+    throw CommandLineError(base::in_users_words(error.what(), words));
   } catch (const farfield::Error& error) {
-    throw InputError(error.what());
+    throw InputError(base::in_users_words(error.what(), words));
+  }
+}
+
+/// Calls work(std::integral_constant<int, d>) for the dimension.
+template <class Work>
+void in_dimension(int dimension, const Work& work) {
+  switch (dimension) {
+    case 1:
+      return work(std::integral_constant<int, 1>{});
+    case 2:
+      return work(std::integral_constant<int, 2>{});
+    default:
+      return work(std::integral_constant<int, 3>{});
   }
 }
 
@@ -137,16 +189,27 @@ PairSums sum_pairs(const PairSumRequest& request) {
   // Points are held twice, as read and as the library takes them.
   options.memory_limit = memory_for_plan(request, result.columns.size() + static_cast<std::size_t>(result.dimension));
   with_errors_of_farfield([&] {
-    switch (result.dimension) {
-      case 1:
-        return sum<1>(request, options, result);
-      case 2:
-        return sum<2>(request, options, result);
-      default:
-        return sum<3>(request, options, result);
-    }
+    in_dimension(result.dimension, [&](auto d) {
+      const auto work = [&](double most_seconds) {
+        options.most_seconds = most_seconds;
+        sum<d>(request, options, result);
+      };
+      within_seconds<farfield::TimeLimitError>(request, work, [&](double most_seconds) {
+        options.method = farfield::Method::automatic;
+        work(most_seconds);
+      });
+    });
   });
+  if (result.choice.method != farfield::Method::direct) {
+    const base::Stopwatch comparing;
+    measure_errors(request, result);
+    result.compare_seconds = comparing.seconds();
+  }
   return result;
+}
+
+void measure_errors(const PairSumRequest& request, PairSums& sums) {
+  with_errors_of_farfield([&] { in_dimension(sums.dimension, [&](auto d) { measure<d>(request, sums); }); });
 }
 
 std::string to_text(const PairSums& sums) {
@@ -162,8 +225,9 @@ std::string to_text(const PairSums& sums) {
   text += fmt::format("method {}\n", choice.str());
   text += fmt::format("Q      {:.9g}", sums.charge_total);
   if (sums.compared > 0)
-    text += fmt::format("; at {} targets against all pairs: potential right to {:.1e}, field to {:.1e} of itself",
-                        sums.compared, sums.potential_error, sums.field_error);
+    text += fmt::format("; measured at {} targets: potential {:.1e}, field {:.1e} ({:.1e} and {:.1e} of themselves)",
+                        sums.compared, sums.measured[0].error, sums.measured[1].error, sums.potential_of_itself,
+                        sums.field_of_itself);
   return text + "\n";
 }
 
@@ -184,8 +248,11 @@ std::string to_json(const PairSums& sums) {
   nlohmann::ordered_json measured = nullptr;
   if (sums.compared > 0)
     measured = {{"targets", sums.compared},
-                {"potential_error", number(sums.potential_error)},
-                {"field_error", number(sums.field_error)}};
+                {"potential_error", number(sums.measured[0].error)},
+                {"field_error", number(sums.measured[1].error)},
+                {"potential_of_itself", number(sums.potential_of_itself)},
+                {"field_of_itself", number(sums.field_of_itself)},
+                {"kept", broken_promises(sums.measured, sums.compared).empty()}};
   const nlohmann::ordered_json json = {{"kernel", farfield::to_string(choice.kernel)},
                                        {"dimension", sums.dimension},
                                        {"sources", choice.sources},

@@ -8,6 +8,7 @@
 
 #include "farfield/farfield.hpp"
 #include "study/points_request.hpp"
+#include "study/sum_verdict.hpp"
 
 namespace gaussdrift::study {
 
@@ -22,17 +23,21 @@ struct PairSums {
   Eigen::MatrixXd values;            // targets x columns; a grid's first axis runs fastest
   farfield::Method asked = farfield::Method::automatic;
   farfield::Choice choice;
-  double charge_total = 0;     // Q = sum_j |q_j|
-  std::size_t compared = 0;    // targets at which the sums were compared with `direct`
-  double potential_error = 0;  // there, root of the sum of squares, relative to that of the values
-  double field_error = 0;
+  double charge_total = 0;              // Q = sum_j |q_j|
+  std::size_t compared = 0;             // targets at which the sums were compared with `direct`
+  std::vector<MeasuredError> measured;  // of potential and field, relative to the sums that farfield promises them by
+  double potential_of_itself = 0;       // there, root of the sum of squares, relative to that of the values: more where
+  double field_of_itself = 0;           // charges cancel
   int threads = 1;
   double read_seconds = 0, prepare_seconds = 0, evaluate_seconds = 0, compare_seconds = 0, write_seconds = 0;
 };
 
+/// Compares the values with all pairs at some targets. sum_pairs() has done so, unless `direct` did the sum.
+void measure_errors(const PairSumRequest& request, PairSums& sums);
+
 /// Throws CommandLineError where the request contradicts the tables or itself, InputError for tables that do not belong
-/// together, a tolerance that cannot be promised and sizes beyond the limit, NumericalError for sums beyond the range
-/// of double.
+/// together, a tolerance that cannot be promised, sizes beyond the limit and predicted seconds beyond theirs,
+/// NumericalError for sums beyond the range of double.
 PairSums sum_pairs(const PairSumRequest& request);
 
 /// What was chosen and what it cost, for people and as JSON.

@@ -7,20 +7,23 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <string_view>
-#include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/number.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
+#include "base/users_words.hpp"
 
 namespace gaussdrift::study {
 
 namespace {
 
+constexpr int highest_order = 16;   // of fgtd
 constexpr double rounding = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
 
 void check_derivatives(const SumRequest& request) {
@@ -31,6 +34,11 @@ void check_derivatives(const SumRequest& request) {
                                          fmt::join(derivative, ","), derivative.size(),
                                          derivative.size() == 1 ? "number" : "numbers", sources.coordinates.size(),
                                          fmt::join(sources.coordinates, ", ")));
+    double order = 0;  // of an int the sum may exceed the range
+    for (const int part : derivative) order += part;
+    if (order > highest_order)
+      throw CommandLineError(fmt::format("--derivative {}: the orders add up to {:g}, at most {} is possible",
+                                         fmt::join(derivative, ","), order, highest_order));
     if (std::count(request.derivatives.begin(), request.derivatives.end(), derivative) > 1)
       throw CommandLineError(fmt::format("--derivative {} is there twice", fmt::join(derivative, ",")));
   }
@@ -47,23 +55,31 @@ void check_values(const PointSums& sums) {
 }
 
 template <int d>
+std::vector<fgtd::Combination<d>> combinations_of(const std::vector<std::vector<int>>& derivatives) {
+  std::vector<fgtd::Combination<d>> combinations;
+  for (const auto& derivative : derivatives) {
+    fgtd::Term<d> term;
+    std::copy(derivative.begin(), derivative.end(), term.derivative.begin());
+    combinations.push_back({term});
+  }
+  return combinations;
+}
+
+Eigen::Map<const Eigen::VectorXd> weights_of(const SumRequest& request) {
+  return {request.sources.weights.data(), static_cast<Eigen::Index>(request.sources.weights.size())};
+}
+
+template <int d>
 void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
   using Points = Eigen::Map<const fgtd::Points<d>>;
   const auto points = [](const input::PointsTable& table) {
     return Points(table.positions.data(), d, static_cast<Eigen::Index>(table.size()));
   };
-  std::vector<fgtd::Combination<d>> combinations;
-  for (const auto& derivative : result.derivatives) {
-    fgtd::Term<d> term;
-    std::copy(derivative.begin(), derivative.end(), term.derivative.begin());
-    combinations.push_back({term});
-  }
+  const std::vector<fgtd::Combination<d>> combinations = combinations_of<d>(result.derivatives);
   if (!request.grid.empty()) options.expected_grid = fgtd::TensorGrid{nodes_of(request.grid)};
 
   const base::Stopwatch preparing;
-  const auto weights = Eigen::Map<const Eigen::VectorXd>(request.sources.weights.data(),
-                                                         static_cast<Eigen::Index>(request.sources.weights.size()));
-  const fgtd::Plan<d> plan(points(request.sources), weights, request.sigma, options);
+  const fgtd::Plan<d> plan(points(request.sources), weights_of(request), request.sigma, options);
   result.prepare_seconds = preparing.seconds();
 
   const base::Stopwatch evaluating;
@@ -84,15 +100,70 @@ void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
   }
 }
 
+template <int d>
+void measure(const SumRequest& request, PointSums& result) {
+  const SampleOfTargets sample = sample_targets(request);
+  const auto combinations = combinations_of<d>(result.derivatives);
+  fgtd::Options options;
+  options.method = fgtd::Method::direct;
+  options.threads = request.threads;
+  options.derivative_order = 0;
+  for (const auto& derivative : result.derivatives)
+    options.derivative_order =
+        std::max(options.derivative_order, std::accumulate(derivative.begin(), derivative.end(), 0));
+  options.tolerance = 1e-6;  // all pairs, whatever it is
+  const fgtd::Plan<d> plan(Eigen::Map<const fgtd::Points<d>>(request.sources.positions.data(), d,
+                                                             static_cast<Eigen::Index>(request.sources.size())),
+                           weights_of(request), request.sigma, options);
+  const Eigen::MatrixXd exact = plan.evaluate_combinations(fgtd::Points<d>(sample.points), combinations);
+  result.compared = sample.rows.size();
+  result.measured.clear();
+  result.units.clear();
+  for (std::size_t k = 0; k < combinations.size(); ++k) {
+    const double scale =
+        fgtd::derivative_scale<d>(combinations[k].front().derivative, request.sigma) * result.weight_total;
+    double error = 0;
+    for (std::size_t i = 0; i < sample.rows.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const double off = std::abs(result.values(sample.rows[i], column) - exact(static_cast<Eigen::Index>(i), column));
+      if (!(off <= error)) error = off;  // what is not a number stays
+      if (std::isnan(error)) break;
+    }
+    result.units.push_back(scale);
+    result.measured.push_back({result.columns[k], error == 0 ? 0 : error / scale, request.tolerance + 2 * rounding});
+  }
+}
+
 // The tables are finite and belong together, so what fgtd refuses is a number of the command line.
 template <class Work>
 void with_errors_of_fgtd(const Work& work) {
+  const base::Words words = {{"Options::tolerance = ", "--tolerance "}, {"with sigma = ", "with --sigma "}};
   try {
     work();
+  } catch (const fgtd::MemoryLimitError& error) {
+    throw InputError(
+        fmt::format("the sum would take {:.3g} GB, at most {:.3g} GB are left for it; ask for fewer targets "
+                    "at a time, or leave --method to auto",
+                    error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
   } catch (const fgtd::InvalidArgument& error) {
-    throw CommandLineError(error.what());
+    throw CommandLineError(base::in_users_words(error.what(), words));
   } catch (const fgtd::Error& error) {
-    throw InputError(error.what());
+    throw InputError(base::in_users_words(error.what(), words));
+  }
+}
+
+/// Calls work(std::integral_constant<int, d>) for the dimension.
+template <class Work>
+void in_dimension(int dimension, const Work& work) {
+  switch (dimension) {
+    case 1:
+      return work(std::integral_constant<int, 1>{});
+    case 2:
+      return work(std::integral_constant<int, 2>{});
+    case 3:
+      return work(std::integral_constant<int, 3>{});
+    default:
+      return work(std::integral_constant<int, 4>{});
   }
 }
 
@@ -143,35 +214,48 @@ PointSums sum_points(const SumRequest& request) {
     options.derivative_order = std::max(options.derivative_order, static_cast<int>(std::min(order, 1e6)));
   }
   with_errors_of_fgtd([&] {
-    switch (result.dimension) {
-      case 1:
-        return sum<1>(request, std::move(options), result);
-      case 2:
-        return sum<2>(request, std::move(options), result);
-      case 3:
-        return sum<3>(request, std::move(options), result);
-      default:
-        return sum<4>(request, std::move(options), result);
-    }
+    in_dimension(result.dimension, [&](auto d) {
+      const auto work = [&](double most_seconds) {
+        options.most_seconds = most_seconds;
+        sum<d>(request, options, result);
+      };
+      within_seconds<fgtd::TimeLimitError>(request, work, [&](double most_seconds) {
+        options.method = fgtd::Method::automatic;
+        work(most_seconds);
+      });
+    });
   });
   check_values(result);
+  if (result.choice.method != fgtd::Method::direct) {
+    const base::Stopwatch comparing;
+    measure_errors(request, result);
+    result.compare_seconds = comparing.seconds();
+  }
   return result;
+}
+
+void measure_errors(const SumRequest& request, PointSums& sums) {
+  with_errors_of_fgtd([&] { in_dimension(sums.dimension, [&](auto d) { measure<d>(request, sums); }); });
 }
 
 std::string to_text(const PointSums& sums) {
   std::ostringstream choice;
   choice << sums.choice;
   std::string text = fmt::format(
-      "sums   {} at {} targets in {:.3g} s on {} {} (read {:.3g}, prepare {:.3g}, evaluate {:.3g}, write {:.3g})\n",
+      "sums   {} at {} targets in {:.3g} s on {} {} (read {:.3g}, prepare {:.3g}, evaluate {:.3g}, compare "
+      "{:.3g}, write {:.3g})\n",
       fmt::join(sums.columns, ", "), sums.values.rows(),
-      sums.read_seconds + sums.prepare_seconds + sums.evaluate_seconds + sums.write_seconds, sums.threads,
-      sums.threads == 1 ? "thread" : "threads", sums.read_seconds, sums.prepare_seconds, sums.evaluate_seconds,
-      sums.write_seconds);
+      sums.read_seconds + sums.prepare_seconds + sums.evaluate_seconds + sums.compare_seconds + sums.write_seconds,
+      sums.threads, sums.threads == 1 ? "thread" : "threads", sums.read_seconds, sums.prepare_seconds,
+      sums.evaluate_seconds, sums.compare_seconds, sums.write_seconds);
   text += fmt::format("method {}\n", choice.str());
   text += fmt::format("Q      {:.9g}", sums.weight_total);
   for (std::size_t k = 0; k < sums.columns.size(); ++k)
     if (sums.error_bounds[k])
       text += fmt::format("{} {} right to {:.1e}", k ? "," : ";", sums.columns[k], *sums.error_bounds[k]);
+  for (std::size_t k = 0; k < sums.measured.size(); ++k)
+    text += fmt::format("{} {} {:.1e}", k ? "," : fmt::format("; measured at {} targets:", sums.compared),
+                        sums.measured[k].of, sums.measured[k].error * sums.units[k]);
   return text + "\n";
 }
 
@@ -191,6 +275,12 @@ std::string to_json(const PointSums& sums) {
   if (choice.boxes > 0) parameters["boxes"] = choice.boxes;
   nlohmann::ordered_json errors = nlohmann::ordered_json::object();
   for (std::size_t k = 0; k < sums.columns.size(); ++k) errors[sums.columns[k]] = number(sums.error_bounds[k]);
+  nlohmann::ordered_json measured = nullptr;
+  if (sums.compared > 0) {
+    measured = {{"targets", sums.compared}};
+    for (const MeasuredError& one : sums.measured) measured["errors"][one.of] = number(one.error);
+    measured["kept"] = broken_promises(sums.measured, sums.compared).empty();
+  }
   const nlohmann::ordered_json json = {{"kernel", "gauss"},
                                        {"dimension", sums.dimension},
                                        {"sources", choice.sources},
@@ -205,6 +295,7 @@ std::string to_json(const PointSums& sums) {
                                        {"choice", line.str()},
                                        {"bound", number(choice.bound)},
                                        {"error_bounds", errors},
+                                       {"measured", measured},
                                        {"Q", number(sums.weight_total)},
                                        {"predicted_seconds", number(choice.seconds)},
                                        {"threads", sums.threads},
@@ -212,6 +303,7 @@ std::string to_json(const PointSums& sums) {
                                         {{"read", sums.read_seconds},
                                          {"prepare", sums.prepare_seconds},
                                          {"evaluate", sums.evaluate_seconds},
+                                         {"compare", sums.compare_seconds},
                                          {"write", sums.write_seconds}}}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

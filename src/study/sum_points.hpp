@@ -10,6 +10,7 @@
 
 #include "fgtd/fgtd.hpp"
 #include "study/points_request.hpp"
+#include "study/sum_verdict.hpp"
 
 namespace gaussdrift::study {
 
@@ -29,17 +30,24 @@ struct PointSums {
   fgtd::Choice choice;
   double weight_total = 0;                          // Q = sum_j |lambda_j|
   std::vector<std::optional<double>> error_bounds;  // of each column: with rounding, for all of Q; none without a bound
+  std::size_t compared = 0;                         // targets at which the sums were compared with `direct`
+  std::vector<MeasuredError> measured;              // of each column, relative to its unit; none for `direct`
+  std::vector<double> units;                        // N_alpha Q
   int threads = 1;
-  double read_seconds = 0, prepare_seconds = 0, evaluate_seconds = 0, write_seconds = 0;
+  double read_seconds = 0, prepare_seconds = 0, evaluate_seconds = 0, compare_seconds = 0, write_seconds = 0;
 };
 
 /// "0,1,2". Throws CommandLineError.
 std::vector<int> parse_derivative(const std::string& text);
 
 /// Throws CommandLineError where the request contradicts the tables or itself, InputError for tables that do not belong
-/// together, a tolerance that cannot be promised and sizes beyond the limit, NumericalError for values that are not
+/// together, a tolerance that cannot be promised, sizes beyond the limit and predicted seconds beyond theirs,
+/// NumericalError for values that are not
 /// finite.
 PointSums sum_points(const SumRequest& request);
+
+/// Compares the values with all pairs at some targets. sum_points() has done so, unless `direct` did the sum.
+void measure_errors(const SumRequest& request, PointSums& sums);
 
 /// What was chosen and what it cost, for people and as JSON.
 std::string to_text(const PointSums& sums);

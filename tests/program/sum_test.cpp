@@ -90,6 +90,12 @@ double weight_total(const Rows& sources) {
 const std::vector<std::string> headers{"", "x,weight", "x,y,weight", "x,y,z,weight", "x,y,z,w,weight"};
 const std::vector<std::string> target_headers{"", "x", "x,y", "x,y,z", "x,y,z,w"};
 
+/// Names of the libraries and of their options mean nothing to the reader of an error.
+void expect_users_words(const std::string& text) {
+  for (const char* internal : {"fgtd:", "farfield:", "Options", "memory_limit", "::"})
+    EXPECT_EQ(text.find(internal), std::string::npos) << text;
+}
+
 TEST(Sum, MatchesTheFormulaInOneToFourDimensions) {
   const ScratchFolder folder;
   for (int d = 1; d <= 4; ++d) {
@@ -237,7 +243,9 @@ TEST(Sum, TellsWhatWasChosenAsJson) {
   const double total = weight_total(sources);
   EXPECT_NEAR(json["Q"].get<double>(), total, 1e-12 * total);  // rounding of 500 terms
   EXPECT_LE(json["error_bounds"]["d_2_0"].get<double>(), (1e-7 + 3e-14) * total * scale(100, {2, 0}) * (1 + 1e-9));
-  for (const char* stage : {"read", "prepare", "evaluate", "write"})
+  EXPECT_EQ(json["measured"]["kept"], true);
+  EXPECT_LE(json["measured"]["errors"]["d_2_0"].get<double>(), 1e-7);
+  for (const char* stage : {"read", "prepare", "evaluate", "compare", "write"})
     EXPECT_GE(json["seconds"][stage].get<double>(), 0) << stage;
   EXPECT_EQ(table_of(read_file(folder / "V.csv")).rows.size(), 1200u);
 }
@@ -291,8 +299,10 @@ TEST(Sum, RefusesAWrongCommandLine) {
       {"--sources S.csv --sigma 2 --derivative 1.5,0", "\"1.5\" in \"1.5,0\" is not an order"},
       {"--sources S.csv --sigma 2 --derivative 1,0 --derivative 0,0 --derivative 1,0",
        "--derivative 1,0 is there twice"},
-      {"--sources S.csv --sigma 2 --derivative 2000000000,2000000000", "must lie in 0 .. 16"},
-      {"--sources S.csv --sigma 1e300 --derivative 8,8", "fgtd: "},
+      {"--sources S.csv --sigma 2 --derivative 2000000000,2000000000", "the orders add up to 4e+09, at most 16"},
+      {"--sources S.csv --sigma 1e300 --derivative 8,8", "of a Gaussian with --sigma 1e+300"},
+      {"--sources S.csv --sigma 2 --seconds 0", "--seconds 0: must be positive"},
+      {"--sources S.csv --sigma 2 --seconds soon", "--seconds"},
       {"--sources S.csv --sigma 2 --grid=0:1:3", "--grid has 1 axis, but"},
       {"--sources S.csv --sigma 2 --grid=0:1:3,0:1", "\"0:1\" is not an axis"},
       {"--sources S.csv --sigma 2 --grid=0:1:3,0:1:0", "\"0:1:0\" has no positive count"},
@@ -317,6 +327,7 @@ TEST(Sum, RefusesAWrongCommandLine) {
     EXPECT_EQ(refused.exit_code, 2) << arguments << "\n" << refused.err;
     EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;
     EXPECT_NE(refused.err.find(said), std::string::npos) << arguments << "\n" << refused.err;
+    expect_users_words(refused.err);
     EXPECT_EQ(refused.out, "") << arguments;
   }
 }
@@ -343,7 +354,8 @@ TEST(Sum, RefusesWrongTablesAndWritesNothing) {
       {"--sources S.csv --targets words.csv", "words.csv:3:3: \"zwei\" is not a number in column \"y\""},
       {"--sources S.csv --targets line.csv", "targets have 1 coordinates (x), sources have 2 (x, y)"},
       {"--sources S.csv --targets swapped.csv", "in the order y, x, those of the sources in the order x, y"},
-      {"--sources S.csv --tolerance 1e-15", "cannot be promised"},
+      {"--sources S.csv --tolerance 1e-15", "--tolerance 1e-15 cannot be promised"},
+      {"--sources S.csv --tolerance 1e-3 --derivative 8,8", "cannot be promised for derivatives above order 12"},
       {"--sources S.csv --grid=0:1:100000,0:1:100000", "1e+10 targets with 1 value would take 80 GB"},
       {"--sources S.csv --grid=0:1:18446744073709551615,0:1:18446744073709551615", "would take"}};
   for (const auto& [arguments, said] : wrong) {
@@ -351,6 +363,7 @@ TEST(Sum, RefusesWrongTablesAndWritesNothing) {
     EXPECT_EQ(refused.exit_code, 3) << arguments << "\n" << refused.err;
     EXPECT_EQ(refused.err.rfind("error: ", 0), 0u) << refused.err;
     EXPECT_NE(refused.err.find(said), std::string::npos) << arguments << "\n" << refused.err;
+    expect_users_words(refused.err);
     EXPECT_EQ(refused.out, "") << arguments;
     EXPECT_FALSE(fs::exists(folder / "V.csv")) << arguments;
     EXPECT_FALSE(fs::exists(folder / "V.csv.part")) << arguments;
@@ -409,6 +422,43 @@ TEST(Sum, RefusesChargesInTheWrongDimension) {
     EXPECT_EQ(refused.exit_code, 2) << refused.err;
     EXPECT_NE(refused.err.find("dimensions, the sources have"), std::string::npos) << refused.err;
     EXPECT_FALSE(fs::exists(folder / "V.csv"));
+  }
+}
+
+TEST(Sum, TellsWhatFarfieldRefusesInTheUsersWords) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", "x,y,z,weight\n1,1,1,1\n0,0,0,1\n1e-200,0,0,1\n");
+  const Outcome close = gaussdrift_in(folder, "sum --kernel coulomb --sources S.csv");
+  EXPECT_EQ(close.exit_code, 4);
+  EXPECT_NE(close.err.find("the field at target 2 (counted from 1) exceeds the range"), std::string::npos) << close.err;
+  expect_users_words(close.err);
+  const Outcome sharp = gaussdrift_in(folder, "sum --kernel coulomb --sources S.csv --method tree --tolerance 1e-15");
+  EXPECT_EQ(sharp.exit_code, 3);
+  EXPECT_NE(sharp.err.find("--tolerance 1e-15 cannot be promised by tree"), std::string::npos) << sharp.err;
+  expect_users_words(sharp.err);
+}
+
+// hermite in 4D has boxes with p^4 numbers each: minutes to hours where all pairs take a second.
+TEST(Sum, RefusesAMethodThatWouldTakeTooLong) {
+  const ScratchFolder folder;
+  write_file(folder / "S.csv", csv(headers[4], points(20000, 5)));
+  const Outcome slow =
+      gaussdrift_in(folder, "sum --sources S.csv --sigma 100 --tolerance 1e-12 --method hermite --threads 1 --out V.csv");
+  EXPECT_EQ(slow.exit_code, 3) << slow.err;
+  EXPECT_NE(slow.err.find("hermite would take about "), std::string::npos) << slow.err;
+  EXPECT_NE(slow.err.find("more than the 5 minutes that are begun; --method auto takes about "), std::string::npos)
+      << slow.err;
+  EXPECT_FALSE(fs::exists(folder / "V.csv"));
+  // Any method of both libraries keeps to --seconds, auto too.
+  write_file(folder / "P.csv", csv(headers[3], points(1500, 4)));
+  for (const char* method : {"--sigma 30 --method auto", "--sigma 30 --method direct", "--sigma 30 --method hermite",
+                             "--sigma 30 --method cells", "--sigma 30 --method chebyshev", "--sigma 30 --method spread",
+                             "--kernel coulomb --method auto", "--kernel coulomb --method direct",
+                             "--kernel coulomb --method tree", "--kernel coulomb --method symmetric"}) {
+    const Outcome refused = gaussdrift_in(folder, std::string("sum --sources P.csv --seconds 1e-9 ") + method);
+    EXPECT_EQ(refused.exit_code, 3) << method << refused.err;
+    EXPECT_NE(refused.err.find("would take about "), std::string::npos) << method << refused.err;
+    EXPECT_EQ(refused.out, "") << method;
   }
 }
 
