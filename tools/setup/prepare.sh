@@ -6,7 +6,7 @@ cd "$root"
 
 packages_to_build="g++ cmake ninja-build pkg-config libvtk9-dev libosmesa6-dev libeigen3-dev libtomlplusplus-dev
   libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-dejavu-core"
-packages_to_test="libgtest-dev python3 python3-vtk9"
+packages_to_test="libgtest-dev python3 python3-vtk9 clang libomp-dev"
 
 say() { printf '%s\n' "$*" >&2; }
 
