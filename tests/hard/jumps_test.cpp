@@ -71,12 +71,13 @@ TEST(Jump, OfAGriddedWindAtTheEdgeOfItsDataRuns) {
   data->times = {0};
   data->values = {{1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0}};
   Case scene = plane("u = [\"0\", \"0\"]");
-  FileVelocity wind;
-  wind.file = "wind.vti";
-  wind.interpolation = "linear";
-  wind.outside = "zero";
-  wind.data = data;
-  scene.velocity = {wind};
+  scene.velocity = {FileVelocity{.file = "wind.vti",
+                                 .arrays = {},
+                                 .interpolation = "linear",
+                                 .outside = "zero",
+                                 .missing = "",
+                                 .missing_value = {},
+                                 .data = data}};
   EXPECT_EQ(refusal(scene), "");
   EXPECT_EQ(Simulation(scene).run().warnings.size(), 1u);
 }
