@@ -147,7 +147,7 @@ TEST(Cases, StayNearTheirExactDensityAndKeepTheirMass) {
           EXPECT_EQ(frame.mass, frames.front().mass) << reduced.name;
           break;
         case Reduced::Mass::handed_on:  // rounding of a sum at each of up to 80 steps
-          EXPECT_NEAR(frame.mass, frames.front().mass, 1e-13 * frames.front().mass) << reduced.name;
+          EXPECT_NEAR(frame.mass, frames.front().mass, 1.5e-14 * frames.front().mass) << reduced.name;
           break;
         case Reduced::Mass::falls:
           EXPECT_LE(frame.mass, frames.front().mass) << reduced.name;
@@ -191,7 +191,7 @@ TEST(Decay, IsExactWhateverTheStep) {
   const Case scene = input::read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).scene;
   const auto frames = Simulation(scene).run().frames;
   for (const auto& [time, frame] : frames)
-    EXPECT_NEAR(frame.mass / frames.front().second.mass, std::exp(-0.3 * time), 1e-14);  // rounding of the exponent
+    EXPECT_NEAR(frame.mass / frames.front().second.mass, std::exp(-0.3 * time), 2.3e-15);  // rounding of the exponent
 }
 
 TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
@@ -229,7 +229,7 @@ TEST(ScatteredSamples, AreAsGoodAsTheFormulaTheyAreTakenFrom) {
   Case fitted = input::read_case(cases_folder + "scattered_samples.toml", size).scene, exact = fitted;
   exact.velocity = {ExpressionVelocity{{"-y*exp(-x^2 - y^2)", "x*exp(-x^2 - y^2)"}}};
   const auto error = [](const Case& scene) { return Simulation(scene).run().frames.back().second.error->l1; };
-  EXPECT_NEAR(error(fitted), error(exact), 0.01 * error(exact));
+  EXPECT_NEAR(error(fitted), error(exact), 8e-4 * error(exact));
 }
 
 TEST(RotatingCone, ApproachesTheExactConeAtEveryOutput) {
@@ -237,7 +237,7 @@ TEST(RotatingCone, ApproachesTheExactConeAtEveryOutput) {
        errors_of("rotating_cone", {"particles.per_axis=100", "time.step=0.05", "evaluate.per_axis=101"}))
     // The grid has a point on the peak, which smoothing lowers by 1 - 0.831819 [Sch06, Table 5.1; its grid just misses
     // the peak].
-    EXPECT_NEAR(error.linf, 1 - 0.831819, 1e-3);
+    EXPECT_NEAR(error.linf, 1 - 0.831819, 6e-4);
 }
 
 TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
@@ -251,7 +251,8 @@ TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
   const study::PublishedTable heights("schroeder-table-5.1");
   ASSERT_EQ(heights.row_name(1), "2");  // c
   EXPECT_NEAR(summary.frames.front().second.maximum, *heights.number(1, "ng300"), 6e-7);  // rounded to 1e-6
-  EXPECT_NEAR(summary.frames.back().second.maximum, summary.frames.front().second.maximum, 1e-9);
+  EXPECT_NEAR(summary.frames.back().second.maximum, summary.frames.front().second.maximum,
+              1e-11);  // evaluate.tolerance
 }
 
 TEST(RotatingCone, ErrorFallsWithTheCutoffsOrder) {
@@ -266,7 +267,7 @@ TEST(RotatingCone, ErrorFallsWithTheCutoffsOrder) {
   };
   EXPECT_NEAR(std::log2(error("gauss2", 201) / error("gauss2", 401)), 2,
               0.1);  // eps/R = 0.2 and 0.1: the next term is (eps/R)^2 smaller
-  EXPECT_NEAR(std::log2(error("gauss4", 201) / error("gauss4", 401)), 4, 0.3);
+  EXPECT_NEAR(std::log2(error("gauss4", 201) / error("gauss4", 401)), 4, 0.25);
 }
 
 TEST(RotatingCone, CanBeSummedByEveryMethodOfFgtd) {
@@ -274,7 +275,7 @@ TEST(RotatingCone, CanBeSummedByEveryMethodOfFgtd) {
     const auto errors =
         errors_of("rotating_cone", {"evaluate.method=" + fgtd::to_string(method), "particles.per_axis=100",
                                     "time.step=0.1", "evaluate.per_axis=101", "output.times=[\"pi/2\"]"});
-    EXPECT_NEAR(errors.front().linf, 1 - 0.831819, 1e-3) << fgtd::to_string(method);  // as above
+    EXPECT_NEAR(errors.front().linf, 1 - 0.831819, 6e-4) << fgtd::to_string(method);  // as above
   }
 }
 
@@ -288,7 +289,7 @@ TEST(RotatingGap, StaysADiskWithAGap) {
     EXPECT_NEAR(error.l1, 2.07 * 0.0404 / std::sqrt(std::numbers::pi) / 0.171, 0.04);
     EXPECT_NEAR(error.linf, 0.5, 0.15);  // on a straight edge the smoothed density is half the jump; more at corners
   }
-  EXPECT_NEAR(errors.back().l1, errors.front().l1, 1e-3);  // turning adds nothing visible to the error
+  EXPECT_NEAR(errors.back().l1, errors.front().l1, 4.3e-11);  // turning adds nothing visible to the error
 }
 
 }  // namespace

@@ -16,12 +16,12 @@ TEST(DormandPrince, IsConsistentAndIntegratesPolynomialsToDegree7) {
   for (int i = 0; i < rk.stages; ++i) {
     double row = 0;
     for (int l = 0; l < i; ++l) row += rk.a(i, l);
-    EXPECT_NEAR(row, rk.c(i), 1e-13) << i;  // rounding of coefficients up to 43
+    EXPECT_NEAR(row, rk.c(i), 1.8e-14) << i;  // rounding of coefficients up to 43: 7e-15
   }
   for (int power = 0; power < 8; ++power) {
     double sum = 0;
     for (int i = 0; i < rk.stages; ++i) sum += rk.b(i) * std::pow(rk.c(i), power);
-    EXPECT_NEAR(sum, 1.0 / (power + 1), 1e-14) << power;
+    EXPECT_NEAR(sum, 1.0 / (power + 1), 1.3e-15) << power;
   }
 }
 
@@ -36,7 +36,7 @@ TEST(DormandPrince, ReachesOrder8) {
           [](double t, const double* at, double* rate) { *rate = -2 * t * *at * *at; }, &y, work);
     return std::abs(y - 0.2);
   };
-  EXPECT_NEAR(std::log2(error(8) / error(16)), 8, 0.8);  // the next term, at h = 1/4; smaller steps meet rounding
+  EXPECT_NEAR(std::log2(error(8) / error(16)), 8, 0.36);  // the next term, at h = 1/4; smaller steps meet rounding
 }
 
 // Two points on circles of radius 1 and 2, the second one slower by half.
@@ -70,7 +70,7 @@ TEST(AdaptiveIntegration, MeasuresTheErrorRelativeToTheStateWhereAsked) {
   const auto result =
       time::integrate_adaptively([](double, const double* at, double* k) { *k = *at; }, 0, 30, 1, options, &y);
   ASSERT_TRUE(result.reached);
-  EXPECT_NEAR(y / std::exp(30.0), 1, 1e-10);  // errors of about 100 steps, and the condition of the problem
+  EXPECT_NEAR(y / std::exp(30.0), 1, 6.9e-12);  // errors of about 100 steps, and the condition of the problem: 2.3e-12
 }
 
 TEST(AdaptiveIntegration, CrossesKinksAndJumps) {
@@ -84,8 +84,8 @@ TEST(AdaptiveIntegration, CrossesKinksAndJumps) {
       },
       0, 1, 1, options, y);
   ASSERT_TRUE(result.reached) << result.trouble;
-  EXPECT_NEAR(y[0], 5. / 18, 1e-11);
-  EXPECT_NEAR(y[1], 1. / 3, 1e-11);
+  EXPECT_NEAR(y[0], 5. / 18, 1.1e-12);
+  EXPECT_NEAR(y[1], 1. / 3, 1.1e-12);  // the tolerance
 }
 
 TEST(AdaptiveIntegration, DoesNotStepOverWhatItIsToldToSee) {
@@ -94,13 +94,13 @@ TEST(AdaptiveIntegration, DoesNotStepOverWhatItIsToldToSee) {
   time::AdaptiveOptions options{.components = {{1e-12}}, .longest_step = 0.01};
   double y = 0;
   ASSERT_TRUE(time::integrate_adaptively(pulse, 0, 1, 1, options, &y).reached);
-  EXPECT_NEAR(y, 0.02, 1e-11);
+  EXPECT_NEAR(y, 0.02, 4.6e-12);  // two jumps, each to the tolerance
   // And a wall of width 1/50 in space, met at speed 1.
   const auto wall = [](double, const double* at, double* k) { k[0] = at[0] > 0.5 && at[0] < 0.52 ? 0.5 : 1; };
   options = {.components = {{1e-12, 0, 0.01}}};
   y = 0;
   ASSERT_TRUE(time::integrate_adaptively(wall, 0, 1, 1, options, &y).reached);
-  EXPECT_NEAR(y, 0.98, 1e-11);
+  EXPECT_NEAR(y, 0.98, 7.8e-12);
 }
 
 TEST(AdaptiveIntegration, SaysWhereItGoesNoFurther) {
@@ -110,7 +110,7 @@ TEST(AdaptiveIntegration, SaysWhereItGoesNoFurther) {
   const auto blow_up =
       time::integrate_adaptively([](double, const double* at, double* k) { *k = *at * *at; }, 0, 2, 1, options, &y);
   EXPECT_FALSE(blow_up.reached);
-  EXPECT_NEAR(blow_up.time, 1, 1e-3);
+  EXPECT_NEAR(blow_up.time, 1, 5e-13);  // measured 1.8e-13
   EXPECT_FALSE(blow_up.trouble.empty());
   y = -1;
   const auto nowhere =

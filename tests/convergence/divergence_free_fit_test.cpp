@@ -86,8 +86,8 @@ void takes_the_samples(GaussianMatrix matrix, Index count, const std::string& so
   const GaussianSum<d> sum(points, fit.coefficients, sigma, {.method = fgtd::Method::direct});
   const Eigen::MatrixXd difference = sum.evaluate(matrix, points) - samples;
   // What is stated is what is: between the two lies the rounding of the products.
-  EXPECT_NEAR(difference.norm() / samples.norm(), fit.residual, 1e-9);
-  EXPECT_NEAR(difference.cwiseAbs().maxCoeff() / samples.cwiseAbs().maxCoeff(), fit.misfit, 1e-9);
+  EXPECT_NEAR(difference.norm() / samples.norm(), fit.residual, 5.7e-14);
+  EXPECT_NEAR(difference.cwiseAbs().maxCoeff() / samples.cwiseAbs().maxCoeff(), fit.misfit, 1.3e-13);
 }
 
 TEST(GaussianFit, TakesTheVelocitiesOfTheSamples) {
@@ -107,10 +107,10 @@ TEST(GaussianFit, ApproachesTheTrueFieldWithMoreSamples) {
   // Gaussians of two spacings: the error falls faster than the square of the spacing.
   const auto error_2d = [](Index count) { return error_of_fit<2>(count, 2 * spacing_of<2>(count)); };
   const auto error_3d = [](Index count) { return error_of_fit<3>(count, 2 * spacing_of<3>(count)); };
-  EXPECT_LE(error_2d(50), error_2d(12) / (50.0 / 12));
+  EXPECT_LE(error_2d(50), error_2d(12) / std::pow(50.0 / 12, 2));  // the spacing to the fourth power
   EXPECT_LE(error_2d(400), error_2d(50) / 3);  // 8e-4 to 1.3e-4: less, as such Gaussians never tell the last digits
   EXPECT_LE(error_2d(400), 3e-4);
-  EXPECT_LE(error_3d(160), error_3d(20) / 4);  // half the spacing
+  EXPECT_LE(error_3d(160), error_3d(20) / 9);  // half the spacing; measured 27
 }
 
 TEST(GaussianFit, OfCoefficientsGivesThemBack) {
@@ -120,7 +120,7 @@ TEST(GaussianFit, OfCoefficientsGivesThemBack) {
   const GaussianSum<2> sum(points, gamma, sigma, {.method = fgtd::Method::direct});
   const GaussianFit fit =
       fit_gaussians<2>(GaussianMatrix::field, points, sum.evaluate(GaussianMatrix::field, points), sigma);
-  EXPECT_LE((fit.coefficients - gamma).cwiseAbs().maxCoeff(), 1e-9);  // condition times rounding
+  EXPECT_LE((fit.coefficients - gamma).cwiseAbs().maxCoeff(), 2.7e-14);  // condition times rounding: 9e-15
 }
 
 std::string refusal(const fgtd::Points<2>& points, const Eigen::MatrixXd& samples, double width,
@@ -143,7 +143,7 @@ TEST(GaussianFit, RefusesWhatHasNoStableSolution) {
   // With regularisation the same has a solution that is near the samples.
   const GaussianFit smooth = fit_gaussians<2>(GaussianMatrix::field, few, velocity<2>(few), sigma_of(3.0),
                                               {.residual = 1e-4, .regularisation = 1e-9});
-  EXPECT_LE(smooth.misfit, 1e-2);
+  EXPECT_LE(smooth.misfit, 3e-3);
   EXPECT_GT(smooth.misfit, smooth.residual);
 }
 
@@ -174,7 +174,8 @@ TEST(GaussianFit, TellsHowWellSamplesFollowFromTheOthers) {
     const fgtd::Points<2> place = points.col(left_out);
     squares += (sum.evaluate(GaussianMatrix::field, place) - samples.row(left_out)).squaredNorm();
   }
-  EXPECT_NEAR(fit.left_out, std::sqrt(squares) / samples.norm(), 1e-4 * fit.left_out);  // condition times rounding
+  EXPECT_NEAR(fit.left_out, std::sqrt(squares) / samples.norm(),
+              2.5e-10 * fit.left_out);  // condition times rounding: 9e-11
 }
 
 TEST(GaussianFit, RefusesEqualPoints) {

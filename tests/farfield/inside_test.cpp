@@ -123,7 +123,8 @@ void expect_exact_transfer(double tolerable) {
         sum += operators.transfer(octant)[operators.place(m) * count + operators.place(k)] * child[m];
         transposed += operators.transposed(octant)[operators.place(k) * count + operators.place(m)] * child[m];
       }
-      EXPECT_NEAR(sum, parent[k], 1e-11) << d << "D, degree " << operators.degree();  // conditioning of the fit
+      EXPECT_NEAR(sum, parent[k], 2.7e-12)
+          << d << "D, degree " << operators.degree();  // conditioning of the fit: 9e-13
       EXPECT_EQ(sum, transposed);
     }
   }
@@ -195,7 +196,11 @@ TEST(FarfieldKernels, EveryInstructionSetKeepsItsDigits) {
           values.field(l, i) = field[static_cast<std::size_t>(l)][static_cast<std::size_t>(i)];
       }
       const auto errors = naive::errors<3>(values, exact);
-      EXPECT_LE(std::max(errors.field, errors.potential), detail::error_of(precision))
+      // Measured are 1.4e-16, 4.8e-12 and 5.7e-8; error_of() holds for pairs at any distance.
+      const double usual = precision == detail::Precision::full         ? 4.2e-16
+                           : precision == detail::Precision::ten_digits ? 1.4e-11
+                                                                        : 1.7e-7;
+      EXPECT_LE(std::max(errors.field, errors.potential), std::min(usual, detail::error_of(precision)))
           << sets.set[set]->name << ", precision " << static_cast<int>(precision);
     }
 }

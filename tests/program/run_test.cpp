@@ -70,12 +70,12 @@ TEST(Run, KeepsHeightMassAndCentreOverATurn) {
   ASSERT_EQ(gaussdrift_in(folder, "run small.toml --set time.step=0.001 --set evaluate.tolerance=1e-11").exit_code, 0);
   const std::string series = read_file(folder / "output/small/series.csv");
   const auto start = csv_row(series, 0), end = csv_row(series, 2);
-  EXPECT_EQ(start[1], end[1]);          // mass: the weights do not change
-  EXPECT_NEAR(start[3], end[3], 1e-9);  // height: RK4 at 0.001 is right to 1e-13, the transform to 1e-11
-  EXPECT_NEAR(start[4], end[4], 1e-9);  // centroid: back where it was
-  EXPECT_NEAR(start[5], end[5], 1e-9);
-  EXPECT_NEAR(end[4], 0.5, 1e-5);  // and at the cone's centre, up to the lattice sum
-  EXPECT_LE(end[6], 1e-11);        // transform_error, measured against the direct sum
+  EXPECT_EQ(start[1], end[1]);             // mass: the weights do not change
+  EXPECT_NEAR(start[3], end[3], 1e-11);    // height: to the transform's tolerance
+  EXPECT_NEAR(start[4], end[4], 6.7e-16);  // centroid: back where it was, but for RK4's lag at 0.001,
+  EXPECT_NEAR(start[5], end[5], 7.8e-14);  // 5.2e-14 a turn at the radius 1/2
+  EXPECT_NEAR(end[4], 0.5, 1.8e-6);        // and at the cone's centre, up to the lattice sum: 6e-7
+  EXPECT_LE(end[6], 1e-11);                // transform_error, measured against the direct sum
 }
 
 TEST(Run, OfItsOwnResolvedCaseGivesTheSameNumbers) {
@@ -276,9 +276,8 @@ TEST(Run, RefusesWhatDoesNotFitInMemory) {
   write_file(folder / "small.toml", small_case);
   const Outcome refused = gaussdrift_in(folder, "run small.toml --set evaluate.per_axis=46000");
   EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_NE(refused.err.find("would take 16.9 GB, at most 8.59 GB are used; lower evaluate.per_axis"),
-            std::string::npos)
-      << refused.err;
+  EXPECT_NE(refused.err.find("bytes"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("lower evaluate.per_axis"), std::string::npos) << refused.err;
 }
 
 TEST(Run, TakesACaseWhoseNameIsNotUtf8) {

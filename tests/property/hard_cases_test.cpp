@@ -150,12 +150,15 @@ TEST(ThesisTable46, FixedParametersBlowUpAsPublishedAndAutomaticKeepsItsPromise)
       RecordProperty("error at sigma = " + std::to_string(sigma) + ", n = " + std::to_string(n),
                      std::to_string(std::log10(error)) + " published " + field);
       const double published = std::stod(field);
-      EXPECT_LE(error, 10 * published) << "sigma = " << sigma << ", n = " << n;
-      if (published > 1) {
-        EXPECT_GE(error, 0.1 * published) << "sigma = " << sigma << ", n = " << n;
+      if (published > 1e-10) {
+        // Printed are powers of ten. Ours lie from 0.34 to 6.5 of them.
+        EXPECT_LE(error, 8 * published) << "sigma = " << sigma << ", n = " << n;
+        EXPECT_GE(error, 0.3 * published) << "sigma = " << sigma << ", n = " << n;
+      } else {  // rounding: ours is at most 0.12 of theirs
+        EXPECT_LE(error, 0.3 * published) << "sigma = " << sigma << ", n = " << n;
       }
       if (published >= 1e15) {
-        EXPECT_GT(error, 1e3 * promised);
+        EXPECT_GT(error, 3e12 * promised);  // measured 7e12
       }
     }
     const fgtd::Plan<3> automatic(points, weights, sigma, {.tolerance = tolerance, .derivative_order = order});
@@ -258,16 +261,16 @@ TEST_P(HardCase, OfCoordinatesNearTheEndOfTheDoubles) {
     const fgtd::Plan<2> plan(sources, Eigen::MatrixXd::Ones(5, 1), sigma, options(1e-8, 1));
     const Eigen::MatrixXd values = plan.evaluate(targets), slopes = plan.evaluate(targets, {1, 0});
     EXPECT_TRUE(values.allFinite() && slopes.allFinite()) << plan.choice();
-    EXPECT_NEAR(values(0, 0), 1, 2e-8) << plan.choice();  // the promise: one source is here, the others are far
-    EXPECT_NEAR(values(2, 0), 1, 2e-8) << plan.choice();
-    EXPECT_NEAR(values(4, 0), 1, 2e-8) << plan.choice();
+    EXPECT_NEAR(values(0, 0), 1, 1e-8) << plan.choice();  // the promise: one source is here, the others are far
+    EXPECT_NEAR(values(2, 0), 1, 1e-8) << plan.choice();
+    EXPECT_NEAR(values(4, 0), 1, 1e-8) << plan.choice();
     EXPECT_EQ(values(1, 0), 0) << plan.choice();
     const fgtd::TensorGrid grid{{{-1e308, 0, 1e300}, {-1.7e308, 0, 1e308}}};
     const Eigen::MatrixXd nodes = plan.evaluate(grid);
     EXPECT_TRUE(nodes.allFinite() && plan.evaluate(grid, {0, 1}).allFinite()) << plan.choice();
-    EXPECT_NEAR(nodes(4, 0), 1, 2e-8) << plan.choice();  // (0, 0)
-    EXPECT_NEAR(nodes(6, 0), 1, 2e-8) << plan.choice();  // (-1e308, 1e308)
-    EXPECT_NEAR(nodes(8, 0), 1, 2e-8) << plan.choice();  // (1e300, 1e308)
+    EXPECT_NEAR(nodes(4, 0), 1, 1e-8) << plan.choice();  // (0, 0)
+    EXPECT_NEAR(nodes(6, 0), 1, 1e-8) << plan.choice();  // (-1e308, 1e308)
+    EXPECT_NEAR(nodes(8, 0), 1, 1e-8) << plan.choice();  // (1e300, 1e308)
   }
 }
 

@@ -51,8 +51,8 @@ TEST(Derivative, EqualsTheAnalyticOne) {
   };
   for (const auto& one : known) {
     const auto [dx, dy] = slopes(one.text, x, y);
-    EXPECT_NEAR(dx, one.dx, 1e-14) << one.text;  // a few roundings
-    EXPECT_NEAR(dy, one.dy, 1e-14) << one.text;
+    EXPECT_NEAR(dx, one.dx, 1e-15) << one.text;  // a few roundings
+    EXPECT_NEAR(dy, one.dy, 1e-15) << one.text;
   }
 }
 
@@ -70,8 +70,8 @@ TEST(Derivative, OfEveryFunctionAgreesWithDifferences) {
         const auto f = [&](double k) { return expression.evaluate({x + k * hx, y + k * hy}); };
         return (8 * (f(1) - f(-1)) - (f(2) - f(-2))) / (12 * h);
       };
-      EXPECT_NEAR(dx, difference(h, 0), 1e-9 * (1 + std::abs(dx))) << text;  // rounding / h, and h^4
-      EXPECT_NEAR(dy, difference(0, h), 1e-9 * (1 + std::abs(dy))) << text;
+      EXPECT_NEAR(dx, difference(h, 0), 4e-12 * (1 + std::abs(dx))) << text;  // rounding / h, and h^4: 1.5e-12
+      EXPECT_NEAR(dy, difference(0, h), 4e-12 * (1 + std::abs(dy))) << text;
     }
   }
 }
@@ -115,7 +115,7 @@ TEST(ExpressionField, HasTheDivergenceOfItsFormula) {
   const PointsView at{3, 1, {&x, &y, &z}};
   double value = 1;
   field.add_divergence(t, at, &value);
-  EXPECT_NEAR(value, 1 + 2 * x * y + t * std::exp(y * t) + 3 * x * y * z * z, 1e-14);  // a few roundings
+  EXPECT_NEAR(value, 1 + 2 * x * y + t * std::exp(y * t) + 3 * x * y * z * z, 1e-15);  // a few roundings
   EXPECT_FALSE(field.is_steady());
   EXPECT_TRUE(ExpressionField({"x", "y"}, {}).is_steady());
 }
@@ -130,10 +130,10 @@ TEST(StreamfunctionField, IsTheTurnedGradient) {
       double u[2] = {0, 0}, v[2] = {0, 0}, divergence = 0;
       field.add(1.3, at, {2, 1, {&u[0], &u[1], nullptr}});
       hand.add(1.3, at, {2, 1, {&v[0], &v[1], nullptr}});
-      EXPECT_NEAR(u[0], v[0], 1e-14);  // a few roundings
-      EXPECT_NEAR(u[1], v[1], 1e-14);
+      EXPECT_NEAR(u[0], v[0], 1e-15);  // a few roundings
+      EXPECT_NEAR(u[1], v[1], 1e-15);
       hand.add_divergence(1.3, at, &divergence);
-      EXPECT_NEAR(divergence, 0, 1e-14);
+      EXPECT_NEAR(divergence, 0, 1e-15);
     }
   EXPECT_TRUE(field.is_solenoidal());
   EXPECT_FALSE(field.is_steady());

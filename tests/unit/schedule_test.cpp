@@ -19,7 +19,7 @@ TEST(Interval, TakesNoStepOfRoundingLength) {
   const Interval tenths(0, 0.1 * 3, 0.1);  // 0.1 * 3 is 0.30000000000000004
   EXPECT_EQ(tenths.steps(), 3u);
   EXPECT_EQ(tenths.start(3), 0.1 * 3);
-  EXPECT_NEAR(tenths.length(2), 0.1, 1e-15);
+  EXPECT_NEAR(tenths.length(2), 0.1, 8.4e-17);
 }
 
 TEST(Interval, TakesOneStepWhereTheStepIsTooLong) {
