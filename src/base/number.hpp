@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <concepts>
 #include <optional>
 #include <string>
@@ -41,6 +42,20 @@ std::string told_apart(double number, Others... others) {
     if (((number == others || text != fmt::format("{:.{}g}", double(others), digits)) && ...)) break;
   }
   return text;
+}
+
+/// x > 0 to some digits, never upwards: a limit that is written so still keeps to it. Rounding up to 1e-12 is mended.
+inline double rounded_down(double x, int digits) {
+  if (!(x > 0) || !std::isfinite(x)) return x;
+  const double unit = std::pow(10, std::floor(std::log10(x)) - (digits - 1));
+  return *read_number<double>(fmt::format("{:.{}e}", std::floor(x / unit * (1 + 1e-12)) * unit, digits - 1));
+}
+
+/// The same, never downwards.
+inline double rounded_up(double x, int digits) {
+  if (!(x > 0) || !std::isfinite(x)) return x;
+  const double unit = std::pow(10, std::floor(std::log10(x)) - (digits - 1));
+  return *read_number<double>(fmt::format("{:.{}e}", std::ceil(x / unit * (1 - 1e-12)) * unit, digits - 1));
 }
 
 }  // namespace gaussdrift::base

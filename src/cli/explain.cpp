@@ -7,9 +7,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/printable.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "expression/foreign_names.hpp"
 #include "input/effect_rules.hpp"
+#include "input/foreign_keys.hpp"
 #include "input/registry.hpp"
 #include "write/atomic_file.hpp"
 
@@ -40,6 +43,18 @@ void write_guide(const std::filesystem::path& file) {
   write::write_text(file, guide);
 }
 
+/// What is possible in place of the word, if it is known from other programs; else what was probably meant.
+std::string not_known(const std::string& word) {
+  const std::string text =
+      fmt::format("{} is no key, table, field, shape, function or symbol", base::in_quotes(word, 60));
+  if (const input::ForeignKey* foreign = input::find_foreign_key(word))
+    return fmt::format("{}; {}", text, foreign->answer);
+  if (const auto instead = expression::instead_of_function(word); !instead.empty())
+    return fmt::format("{}; {}", text, instead);
+  const auto near = input::suggest_word(word);
+  return text + (near ? fmt::format("; did you mean \"{}\"?", *near) : "") + "; gaussdrift explain shows the keys";
+}
+
 }  // namespace
 
 ExitCode explain(const ExplainOptions& options) {
@@ -51,13 +66,7 @@ ExitCode explain(const ExplainOptions& options) {
     say("{}", options.json ? input::keys_json() : input::overview_text());
   } else {
     const auto found = input::explain(options.word);
-    if (found.empty()) {
-      const auto near = input::suggest_word(options.word);
-      throw CommandLineError(
-          fmt::format("\"{}\" is no key, table, field, shape, function or symbol{}; gaussdrift "
-                      "explain shows the keys",
-                      options.word, near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
-    }
+    if (found.empty()) throw CommandLineError(not_known(options.word));
     say("{}", options.json ? input::to_json(options.word, found) : input::to_text(found));
   }
   return ExitCode::ok;

@@ -158,10 +158,10 @@ ExitCode compare(const CompareOptions& options) {
     const bool at_other_time =
         time && other && std::abs(*time - *other) > 1e-9 * std::max(std::abs(*time), std::abs(*other));
     if (at_other_time && !files)
-      throw FileError(
-          fmt::format("output {} is at t = {} in the one and at t = {} in the other: compare runs with the "
-                      "same output times, or two files",
-                      i, base::told_apart(*time, *other), base::told_apart(*other, *time)));
+      throw FileError(fmt::format(
+          "output {} (counted from 1) is at t = {} in the one and at t = {} in the other: compare runs with the "
+          "same output times, or two files",
+          i + 1, base::told_apart(*time, *other), base::told_apart(*other, *time)));
     if (at_other_time)  // has it come back?
       note("warning: the times differ: {} is at t = {}, {} at t = {}\n", a[i].file.string(),
            base::told_apart(*time, *other), b[i].file.string(), base::told_apart(*other, *time));

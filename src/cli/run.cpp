@@ -27,6 +27,7 @@
 #include "study/reproduce_fgtd.hpp"
 #include "study/reproduce_figures.hpp"
 #include "study/reproduce_logkernel.hpp"
+#include "study/would_run.hpp"
 #include "write/atomic_file.hpp"
 #include "write/observers.hpp"
 #include "write/provenance.hpp"
@@ -178,8 +179,9 @@ std::string ending_text(const Case& scene, const RunSummary& summary, const stud
     const std::string where = numbers.compared < summary.grid_points
                                   ? fmt::format(", on {} of {} grid points", numbers.compared, summary.grid_points)
                                   : "";
-    text += fmt::format("error  at t = {:.4g}, relative to the exact density{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n",
-                        time, where, numbers.error->l1, numbers.error->l2, numbers.error->linf);
+    const std::string how = summary.reference_word.empty() ? "" : ", " + summary.reference_word;
+    text += fmt::format("error  at t = {:.4g}, relative to the exact density{}{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n",
+                        time, where, how, numbers.error->l1, numbers.error->l2, numbers.error->linf);
   }
   if (const auto* hardest = worst_output(summary.frames); hardest && hardest->first != summary.frames.back().first)
     text += fmt::format("worst  at t = {:.4g}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", hardest->first,
@@ -291,13 +293,16 @@ std::vector<std::string> warnings_of(const Case& scene, const RunSummary& summar
         fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
                     "{:.1e} of max rho",
                     scene.evaluate.tolerance, summary.transform_achievable));
+  Case remeshed = scene;
+  remeshed.effects.remesh = RemeshSpec{};
   for (const auto& [time, numbers] : summary.frames)
     if (numbers.stretch > scene.particles.overlap) {
       warnings.push_back(
           fmt::format("at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart, and blobs "
                       "{:g} spacings wide no longer overlap there: the density has gaps and peaks that are not there; "
-                      "[effects.remesh], or more overlap on a finer lattice",
-                      time, numbers.stretch, scene.particles.overlap));
+                      "{}more overlap on a finer lattice",
+                      time, numbers.stretch, scene.particles.overlap,
+                      study::why_not_read(remeshed).empty() ? "[effects.remesh], or " : ""));
       break;
     }
   warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());

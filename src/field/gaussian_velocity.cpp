@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "base/users_words.hpp"
 #include "field/divergence_free.hpp"
 
@@ -97,8 +98,8 @@ double term_tolerance(GaussianMatrix matrix, const fgtd::Points<d>& points, cons
   if (!(wanted >= fgtd::smallest_tolerance))
     throw GaussiansTooWide(fmt::format(
         "the Gaussians cancel: together they are {:.1e} times smaller than one by one, so a tolerance of {:.0e} of the "
-        "velocity cannot be kept, {:.0e} can; lower width, set regularisation, or raise tolerance",
-        unit_error / largest, tolerance, fgtd::smallest_tolerance * unit_error / largest));
+        "velocity cannot be kept, {:g} can; lower width, set regularisation, or raise tolerance",
+        unit_error / largest, tolerance, base::rounded_up(fgtd::smallest_tolerance * unit_error / largest, 2)));
   return std::min(wanted, coarsest);
 }
 

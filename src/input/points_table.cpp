@@ -237,7 +237,7 @@ class Parser {
     for (std::size_t k = 0; k < names_.size(); ++k)
       if (!contains(wanted_, names_[k]) && names_.size() >= wanted_.size())
         fail(header_number_, column_of(line, cells[k]),
-             fmt::format("column {} is not one of those that are wanted; {}", in_quotes(names_[k]), rule));
+             fmt::format("column {} is not one of those that are wanted; {}: remove it", in_quotes(names_[k]), rule));
     for (const std::string& wanted : wanted_)
       if (!contains(names_, wanted))
         fail(header_number_, 1,

@@ -444,8 +444,9 @@ std::vector<Key> written_keys() {
            "most grid points that are compared. Fewer than the grid has are a sample, half of it where there is "
            "density, and the largest values; then files have no `rho_exact` and `error`. Without it the whole grid "
            "if a picture shows the error or if, with density files, it takes at most 15 % of the work of the run; else "
-           "what that allows, 1024 to 4096 points, and 256 where velocity or reaction are not smooth (data on a grid, "
-           "`abs`, ...)"},
+           "what that allows, 16 to 4096 points, and 256 at most where velocity or reaction are not smooth (data on a "
+           "grid, `abs`, ...). Where it does not allow 16 the error is not measured, unless a check or a target needs "
+           "it"},
 
       {.table = "accuracy",
        .name = "target",

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "base/parallel.hpp"
 #include "sim/simulation.hpp"
 
@@ -61,33 +62,36 @@ void Carrier::begin(Particles& particles) {
   for (const auto& effect : effects_) effect->begin(particles, 0);
   particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
   if (is_adaptive() || case_.time.end <= 0) return;
-  const FlowRates flow = sample_flow_rates(*scene_.velocity, particles, case_.time.end, difference_length(scene_));
-  refuse_unstable_step(flow);
-  warn_of_jumps(flow, particles);
+  flow_ = sample_flow_rates(*scene_.velocity, particles, case_.time.end, difference_length(scene_));
+  refuse_unstable_step();
+  warn_of_jumps(particles);
 }
 
-void Carrier::refuse_unstable_step(const FlowRates& flow) const {
+double Carrier::longest_step(const time::Tableau& tableau, double step) const {
+  double longest = longest_stable_step(flow_, tableau, case_.time.end, step).step;
+  for (const auto& effect : effects_) longest = std::min(longest, effect->stable_step());
+  return longest;
+}
+
+void Carrier::refuse_unstable_step() const {
   // The longest step taken: one longer than the run is cut.
-  const double step = std::min(case_.time.step, case_.time.end);
+  const double step = std::min(case_.time.step, case_.time.end), allowed = longest_step(tableau_, step);
   const auto too_long = [&](double longest) { return longest < step * (1 - 1e-9); };
-  const Effect* refusing = nullptr;
-  double of_effects = step;
-  for (const auto& effect : effects_)
-    if (effect->stable_step() < of_effects) {
-      of_effects = effect->stable_step();
-      if (too_long(of_effects)) refusing = effect.get();
-    }
-  const StableStep stable = longest_stable_step(flow, tableau_, case_.time.end, step);
-  if (!too_long(stable.step) && !refusing) return;
-  const double longest = rounded_down(std::min(stable.step, of_effects), 3);
-  if (!too_long(stable.step))
+  if (!too_long(allowed)) return;
+  const double longest = base::rounded_down(allowed, 3);
+  const StableStep stable = longest_stable_step(flow_, tableau_, case_.time.end, step);
+  if (!too_long(stable.step)) {
+    const auto refusing = std::min_element(effects_.begin(), effects_.end(), [](const auto& a, const auto& b) {
+      return a->stable_step() < b->stable_step();
+    });
     throw InputError(fmt::format("time.step = {:g} is not stable with [effects.{}]. Use time.step <= {:g}.",
-                                 case_.time.step, refusing->name(), longest));
-  // The method of fewest stages that takes this step, if the effects do.
+                                 case_.time.step, (*refusing)->name(), longest));
+  }
+  // The method of fewest stages that takes this step.
   const time::Tableau* other = nullptr;
   for (const time::Tableau& tableau : time::tableaux())
-    if (!refusing && !time::is_adaptive(tableau) && (!other || tableau.stages < other->stages) &&
-        !too_long(longest_stable_step(flow, tableau, case_.time.end, step).step))
+    if (!time::is_adaptive(tableau) && (!other || tableau.stages < other->stages) &&
+        !too_long(longest_step(tableau, step)))
       other = &tableau;
   const FlowRate& rate = *stable.limited_by;
   std::string place;
@@ -102,10 +106,10 @@ void Carrier::refuse_unstable_step(const FlowRates& flow) const {
 
 // Particles that cross a jump in one step take the velocity of one side for a part of the step that belongs to the
 // other.
-void Carrier::warn_of_jumps(const FlowRates& flow, const Particles& particles) {
+void Carrier::warn_of_jumps(const Particles& particles) {
   warnings_.clear();
   if (scene_.velocity->is_smooth()) return;
-  std::vector<Jump> jumps = flow.jumps;
+  std::vector<Jump> jumps = flow_.jumps;
   // Between neighbours of the lattice as well: the rates see only what is next to a particle.
   const double half = 0.51 * scene_.seeding.spacing;  // a little more: a jump in the middle is on one side
   const FlowRates between = sample_flow_rates(*scene_.velocity, particles, case_.time.end, half);

@@ -28,6 +28,10 @@ class Carrier {
   /// naming a step that is stable for all of them.
   void begin(Particles& particles);
 
+  /// The longest step <= `step` that begin() accepts with a method of fixed steps, for the particles that it saw last,
+  /// whether or not it refused the step of the case. Not for a case whose method chooses its steps.
+  double longest_step(const time::Tableau& tableau, double step) const;
+
   /// What is not exact about the steps of this case, sentences for people. Asked after begin().
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -55,8 +59,8 @@ class Carrier {
   const std::vector<const Drift*>& drifts() const { return drifts_; }
 
  private:
-  void refuse_unstable_step(const FlowRates& flow) const;
-  void warn_of_jumps(const FlowRates& flow, const Particles& particles);
+  void refuse_unstable_step() const;
+  void warn_of_jumps(const Particles& particles);
 
   // Brings weights and widths up to `time`, at which the positions are.
   void land(Particles& particles, double time, base::StageTimes& stages) const;
@@ -84,6 +88,7 @@ class Carrier {
     std::size_t first = 0, steps = 0;
   };
   std::vector<Taken> taken_;
+  FlowRates flow_;  // at the start
   std::vector<std::string> warnings_;
   int threads_;
 };

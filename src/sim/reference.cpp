@@ -10,6 +10,8 @@
 #include "base/parallel.hpp"
 #include "sim/lost_velocity.hpp"
 #include "time/adaptive.hpp"
+#include "time/runge_kutta.hpp"
+#include "time/schedule.hpp"
 
 namespace gaussdrift {
 
@@ -64,13 +66,15 @@ class Characteristics : public Reference {
         lattice_(lattice),
         options_(options),
         components_(static_cast<std::size_t>(lattice.dimension) + (growth_ ? 1 : 0)),
-        block_length_(options.smooth ? most_together : together_over_kinks) {
+        block_length_(options.smooth || options.steps_by ? most_together : together_over_kinks) {
     const double longest = longest_side(lattice);
     // Coordinates far from the origin are rounded by more than the tolerance. A quarter of the domain at a time, so
-    // that no step can fly over what is there.
-    const time::StepBound position{options.tolerance * longest, 4 * std::numeric_limits<double>::epsilon(),
-                                   longest / 4};
-    bounds_.components.assign(static_cast<std::size_t>(lattice.dimension), position);
+    // that no step can fly over what is there; far outside, half of the way back.
+    for (int k = 0; k < lattice.dimension; ++k) {
+      const double first = lattice.coordinate(k, 0), last = lattice.coordinate(k, lattice.points[k] - 1);
+      bounds_.components.push_back({options.tolerance * longest, 4 * std::numeric_limits<double>::epsilon(),
+                                    longest / 4, 0.5, (first + last) / 2});
+    }
     if (growth_) bounds_.components.push_back({options.tolerance, options.tolerance, 0});
     bounds_.most_steps = options.most_steps;
     if (!options.steady) bounds_.longest_step = options.end / 32;
@@ -133,6 +137,7 @@ class Characteristics : public Reference {
         all.trouble = report.trouble;
       }
       all.untraced += report.untraced;
+      all.exhausted += report.exhausted;
       all.rates += report.rates;
     }
     return all;
@@ -158,6 +163,7 @@ class Characteristics : public Reference {
       velocity_.add(t, x, u);
       if (growth_) growth_(t, x, k + static_cast<std::size_t>(lattice_.dimension) * count);
     };
+    if (options_.steps_by) return walk(rate, state, count, from, report);
     if (count > 1 && std::any_of(begun.begin(), begun.end(), [](double value) { return std::isnan(value); }))
       return trace_halves(state, begun, count, from, report);  // lost at an earlier output
     const time::AdaptiveResult result = time::integrate_adaptively(rate, from, 0, count, bounds_, state.data());
@@ -167,8 +173,51 @@ class Characteristics : public Reference {
     // One point can keep the others from arriving; many steps are a property of all of them.
     if (count > 1 && !result.exhausted) return trace_halves(state, begun, count, from, report);
     if (report.untraced == 0) report.trouble = why_lost(state, count, result);
+    if (result.exhausted) report.exhausted += count;
     state.assign(state.size(), nan);
     report.untraced += count;
+  }
+
+  // By fixed steps: points do not see each other, so what is lost is lost alone.
+  template <class Rate>
+  void walk(const Rate& rate, std::vector<double>& state, std::size_t count, double from,
+            ReferenceReport& report) const {
+    const time::Tableau& tableau = *options_.steps_by;
+    const std::size_t steps = time::Interval(0, from, options_.step).steps();
+    const double length = steps > 0 ? from / static_cast<double>(steps) : 0;
+    time::Stages work(tableau, state.size());
+    std::vector<double> before = state;
+    const auto known = [&](const std::vector<double>& numbers, std::size_t i) {
+      bool finite = true;
+      for (std::size_t c = 0; c < components_; ++c) finite = finite && std::isfinite(numbers[c * count + i]);
+      return finite;
+    };
+    for (std::size_t step = 0; step < steps; ++step) {
+      const double t = from - static_cast<double>(step) * length;
+      std::copy(state.begin(), state.end(), before.begin());
+      time::step(tableau, t, -length, rate, state.data(), work);
+      for (std::size_t i = 0; i < count && report.trouble.empty(); ++i)
+        if (!known(state, i) && known(before, i))
+          report.trouble = why_lost_in_step(before, work.rates[0], count, i, t, length);
+    }
+    report.rates += static_cast<std::size_t>(tableau.stages) * count * steps;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (known(state, i)) continue;
+      for (std::size_t c = 0; c < components_; ++c) state[c * count + i] = nan;
+      ++report.untraced;
+    }
+  }
+
+  std::string why_lost_in_step(const std::vector<double>& state, const std::vector<double>& rates, std::size_t count,
+                               std::size_t i, double t, double length) const {
+    Vector x{};
+    double square = 0;
+    for (int k = 0; k < lattice_.dimension; ++k) {
+      x[k] = state[static_cast<std::size_t>(k) * count + i];
+      square += std::pow(rates[static_cast<std::size_t>(k) * count + i], 2);
+    }
+    const std::string reason = why_path_ends(velocity_, t, lattice_.dimension, x, -length * std::sqrt(square));
+    return reason.empty() ? "the velocity is not finite on its way back in time" : "on its way back in time " + reason;
   }
 
   std::string why_lost(const std::vector<double>& state, std::size_t count, const time::AdaptiveResult& result) const {

@@ -15,6 +15,7 @@
 #include "field/velocity.hpp"
 #include "gaussdrift/case.hpp"
 #include "sim/frame.hpp"
+#include "time/tableau.hpp"
 
 namespace gaussdrift {
 
@@ -23,10 +24,11 @@ std::string to_string(ReferenceSpec::Kind kind);
 
 /// What was done for one output.
 struct ReferenceReport {
-  std::size_t untraced = 0;  // points whose value is not known: NaN in the result
-  Vector first_untraced{};   // one of them
-  std::string trouble;       // and why
-  std::size_t rates = 0;     // evaluations of the velocity for one point, summed over all
+  std::size_t untraced = 0;   // points whose value is not known: NaN in the result
+  Vector first_untraced{};    // one of them
+  std::string trouble;        // and why
+  std::size_t rates = 0;      // evaluations of the velocity for one point, summed over all
+  std::size_t exhausted = 0;  // points, among the untraced, that would take more steps than are allowed
 };
 
 class Reference {
@@ -48,7 +50,9 @@ struct CharacteristicsOptions {
   bool smooth = true;        // false: u or g has kinks; the path of every point then takes steps of its own
   bool steady = false;       // u and g do not depend on t: each output goes on from the feet of the one before
   double end = 0;            // of the run; without `steady` no step is longer than a 32nd of it
-  std::size_t most_steps = 10'000;  // from one output to the next (not steady: to the start), taken or rejected
+  std::size_t most_steps = 10'000;          // from one output to the next (not steady: to the start), taken or rejected
+  const time::Tableau* steps_by = nullptr;  // a method of fixed steps of length `step` instead, on any path
+  double step = 0;
   int threads = 0;
 };
 

@@ -97,7 +97,14 @@ Scene make_scene(const Case& description, int threads) {
   return scene;
 }
 
-std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads) {
+namespace {
+
+std::size_t usual_most_steps(const Case& description) { return 10'000 + total_steps(description); }
+
+}  // namespace
+
+std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads,
+                                          const Following& following) {
   switch (description.reference.kind) {
     case ReferenceSpec::Kind::none:
       return nullptr;
@@ -112,13 +119,18 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
           if (diverging) diverging->add_divergence(t, x, values);
           if (decay) decay->add(t, x, values);
         };
-      return characteristics(*scene.velocity, *scene.density, growth, scene.evaluation,
-                             {.tolerance = has_smooth_paths(scene) ? 1e-12 : 1e-9,  // short steps at every kink
-                              .smooth = has_smooth_paths(scene),
-                              .steady = scene.velocity->is_steady() && (!decay || decay->is_steady()),
-                              .end = description.time.end,
-                              .most_steps = 10'000 + total_steps(description),
-                              .threads = threads});
+      const time::Tableau& tableau = time::find_tableau(description.time.method);
+      const bool by_steps = following.by_half_steps && !time::is_adaptive(tableau);
+      return characteristics(
+          *scene.velocity, *scene.density, growth, scene.evaluation,
+          {.tolerance = has_smooth_paths(scene) ? 1e-12 : 1e-9,  // short steps at every kink
+           .smooth = has_smooth_paths(scene),
+           .steady = scene.velocity->is_steady() && (!decay || decay->is_steady()),
+           .end = description.time.end,
+           .most_steps = following.most_steps > 0 ? following.most_steps : usual_most_steps(description),
+           .steps_by = by_steps ? &tableau : nullptr,
+           .step = by_steps ? description.time.step / 2 : 0,
+           .threads = threads});
     }
   }
   return nullptr;
@@ -164,34 +176,86 @@ double work_of_exact_rate(const Scene& scene) {
   return scene.velocity->cost() + 0.3 + (scene.reaction_rate ? 1 : 0) + (scene.velocity->is_solenoidal() ? 0 : 0.5);
 }
 
-std::size_t points_compared(const Case& description, const Scene& scene, std::size_t particles, int threads) {
+Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads) {
+  constexpr std::size_t least = 16, stages = 12;
+  const std::size_t whole = scene.evaluation.size(), usual = usual_most_steps(description);
+  const double rate = work_of_exact_rate(scene), last = description.output.times.back();
+  outputs = std::max(outputs, 1e-9);  // an output at the start alone: no path at all
+  const auto points_for = [&](double each) {
+    return each > 0 ? static_cast<std::size_t>(std::min(allowed / (each * outputs), static_cast<double>(whole)))
+                    : whole;
+  };
+  Affordable found;
+  for (const std::size_t wanted : {64, 8}) {
+    const std::size_t tried = std::min(wanted, whole);
+    const double bound = allowed / (8 * rate * static_cast<double>(tried * stages));
+    const auto most = static_cast<std::size_t>(std::clamp(bound, 16.0, static_cast<double>(usual)));
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i < tried; ++i) points.push_back((2 * i + 1) * whole / (2 * tried));
+    std::vector<double> ignored;
+    const ReferenceReport trial =
+        make_reference(description, scene, threads, {.most_steps = most})->evaluate_at(last, points, ignored);
+    if (most < usual && 2 * trial.exhausted > tried) continue;
+    found.work = rate * static_cast<double>(trial.rates) / static_cast<double>(tried);
+    found.points = points_for(found.work);
+    // No path may take far more than these did.
+    const std::size_t steps = trial.rates / (tried * stages);
+    found.following.most_steps = most < usual ? std::min(usual, std::max<std::size_t>(200, 16 * steps)) : usual;
+    break;
+  }
+  const time::Tableau& tableau = time::find_tableau(description.time.method);
+  if (!has_smooth_paths(scene) && !time::is_adaptive(tableau) && found.points < std::min<std::size_t>(64, whole)) {
+    const double steps = 2 * static_cast<double>(time::Interval(0, last, description.time.step).steps());
+    found.work = steps * tableau.stages * rate;
+    found.points = points_for(found.work);
+    found.following = {.by_half_steps = true};
+    found.word = "followed back by steps half as long as those of the run";
+  }
+  if (found.points < std::min(least, whole)) found.points = 0;
+  return found;
+}
+
+Comparison plan_comparison(const Case& description, const Scene& scene, std::size_t particles, int threads) {
   const auto has = [](const auto& list, auto item) { return std::find(list.begin(), list.end(), item) != list.end(); };
   const std::size_t whole = scene.evaluation.size();
-  if (description.reference.points) return std::min(whole, static_cast<std::size_t>(*description.reference.points));
+  if (description.reference.kind == ReferenceSpec::Kind::none) return {};
+  if (description.reference.points)
+    return {.points = std::min(whole, static_cast<std::size_t>(*description.reference.points))};
   if (description.reference.kind != ReferenceSpec::Kind::characteristics || description.output.times.empty() ||
       has(description.output.images, OutputSpec::Image::error))
-    return whole;
-  if (!has_smooth_paths(scene)) return std::min<std::size_t>(whole, 256);
+    return {.points = whole};
   constexpr double share = 0.15, few = 2.5e6;
-  constexpr std::size_t enough = 4096, least = 1024, tried = 64;
   const auto& times = description.output.times;
-  std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < std::min(tried, whole); ++i) points.push_back((2 * i + 1) * whole / (2 * tried));
-  std::vector<double> ignored;
-  const ReferenceReport trial = make_reference(description, scene, threads)->evaluate_at(times.back(), points, ignored);
+  const bool shown = has(description.output.vtk, OutputSpec::Vtk::density);
+  const bool steady = scene.velocity->is_steady() && (!scene.reaction_rate || scene.reaction_rate->is_steady());
   // Steady: the last output goes on from the feet of those before, if all points do; else each is traced to the start.
-  const double each = work_of_exact_rate(scene) * static_cast<double>(trial.rates) / static_cast<double>(points.size());
   const double outputs = times.back() > 0 ? std::accumulate(times.begin(), times.end(), 0.0) / times.back() : 0.0;
   const double allowed = std::max(few, share * work_of(description, scene, particles).total());
-  const bool steady = scene.velocity->is_steady() && (!scene.reaction_rate || scene.reaction_rate->is_steady());
-  if (has(description.output.vtk, OutputSpec::Vtk::density) &&
-      each * static_cast<double>(whole) * (steady ? 1.0 : outputs) <= allowed)
-    return whole;
-  const double affordable = outputs > 0 && each > 0 ? allowed / (each * outputs) : static_cast<double>(enough);
-  const bool shown = has(description.output.vtk, OutputSpec::Vtk::density);
-  return std::min(
-      whole,
-      std::max(least, static_cast<std::size_t>(std::min(affordable, static_cast<double>(shown ? whole : enough)))));
+  const Affordable paths = affordable_paths(description, scene, allowed, outputs, threads);
+  Comparison plan{.points = paths.points, .following = paths.following, .word = paths.word};
+  if (paths.points == 0) {
+    // A number that is asked for is measured, whatever it takes.
+    const bool asked = description.accuracy.target ||
+                       std::any_of(description.checks.begin(), description.checks.end(),
+                                   [](const CheckSpec& check) { return check.what != CheckSpec::Quantity::mass; });
+    constexpr std::size_t fewest = 64;
+    if (asked) return {.points = std::min(whole, fewest)};
+    plan.left_out =
+        "the error is not measured: following paths back from 16 grid points would take more than 15 % of the run; "
+        "reference.points = 64 measures it all the same";
+    return plan;
+  }
+  if (!has_smooth_paths(scene)) {
+    plan.points = std::min<std::size_t>(plan.points, 256);
+    return plan;
+  }
+  if (shown && paths.work * static_cast<double>(whole) * (steady ? 1.0 : outputs) <= allowed) {
+    plan.points = whole;
+    return plan;
+  }
+  constexpr std::size_t enough = 4096;
+  if (!shown) plan.points = std::min(plan.points, enough);
+  return plan;
 }
 
 Particles seed_scene(const Scene& scene, int threads, SeedReport* report) {
@@ -228,8 +292,7 @@ Simulation::Simulation(const Case& description, int threads)
     : case_(description),
       threads_(base::resolve_threads(threads)),
       scene_(make_scene(case_, threads_)),
-      carrier_(case_, scene_, threads_),
-      reference_(make_reference(case_, scene_, threads_)) {}
+      carrier_(case_, scene_, threads_) {}
 
 void Simulation::prepare() {
   const base::Stopwatch seeding;
@@ -242,7 +305,8 @@ void Simulation::prepare() {
   beyond_at_start_ = part_beyond(scene_.density->mass(), particles_, scene_.seeding);
   carrier_.begin(particles_);
   velocity_at_particles(0);
-  if (reference_) compared_ = points_compared(case_, scene_, particles_.size(), threads_);
+  compared_ = plan_comparison(case_, scene_, particles_.size(), threads_);
+  if (compared_.points > 0) reference_ = make_reference(case_, scene_, threads_, compared_.following);
 }
 
 // [j][dimension]. Throws NumericalError where the field is not finite.
@@ -303,13 +367,13 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   if (reference_) {
     summary.stages.run("reference", [&] {
       ReferenceReport traced;
-      if (compared_ >= density.rho.size()) {
+      if (compared_.points >= density.rho.size()) {
         traced = reference_->evaluate(time, exact);
         frame.exact = &exact;
         frame.numbers.error = compare(density.rho, exact);
         frame.numbers.compared = density.rho.size();
       } else {
-        const GridSample sample = sample_of_grid(scene_.evaluation, density.rho, compared_);
+        const GridSample sample = sample_of_grid(scene_.evaluation, density.rho, compared_.points);
         traced = reference_->evaluate_at(time, sample.points, exact);
         frame.numbers.error = compare(density.rho, sample, exact);
         frame.numbers.compared = sample.points.size();
@@ -370,6 +434,8 @@ RunSummary Simulation::run() {
   summary.steps = steps_done_;
   summary.steps_rejected = carrier_.steps_rejected();
   summary.warnings = carrier_.warnings();
+  if (!compared_.left_out.empty()) summary.warnings.push_back(compared_.left_out);
+  summary.reference_word = compared_.word;
   summarise_effects(carrier_.effects(), scene_, summary);
   summary.seconds = before + watch_.seconds();
   return summary;

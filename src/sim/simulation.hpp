@@ -44,8 +44,15 @@ inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_r
 /// threads: see make_velocity().
 Scene make_scene(const Case& description, int threads = 0);
 
+/// How paths are followed back where their work is bounded.
+struct Following {
+  std::size_t most_steps = 0;  // of a path; 0: far more than any usual one takes
+  bool by_half_steps = false;  // by the method of the case with steps half as long, for paths through kinks
+};
+
 /// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.
-std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads);
+std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads,
+                                          const Following& following = {});
 
 /// False where the velocity or a rate of reaction has kinks: integrators of high order step finely at each.
 bool has_smooth_paths(const Scene& scene);
@@ -61,11 +68,32 @@ Work work_of(const Case& description, const Scene& scene, std::size_t particles)
 /// The same for one evaluation on an exact path, with what its integrator adds to it.
 double work_of_exact_rate(const Scene& scene);
 
-/// Grid points of an output that are compared with the reference: reference.points if the case has it; all if a picture
-/// shows the error or the reference is a formula; 256 where paths are not smooth, for then a point costs milliseconds;
-/// else all if density files are written and that takes 15 % of the work of the run at most (or a tenth of a
-/// second), and as many as that allows if not, at least 1024. Where no file shows it, at most 4096.
-std::size_t points_compared(const Case& description, const Scene& scene, std::size_t particles, int threads);
+/// Paths that can be followed within some work, and how.
+struct Affordable {
+  std::size_t points = 0;  // 0: not even few
+  Following following{};
+  double work = 0;     // of one path from the last output to the start
+  std::string word{};  // what is not exact about them; empty: nothing
+};
+
+/// Exact paths from points of the grid to the start, as many as `allowed` work allows for `outputs` outputs (in units
+/// of the last one), at least 16; where these have kinks and are too dear, by steps half as long as those of the case.
+/// Found by following some, which takes a quarter of that work at most. Counted, so the same on every machine.
+Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads);
+
+/// What of an output is compared with the reference.
+struct Comparison {
+  std::size_t points = 0;  // of the grid; 0: none, for the reason `left_out`
+  Following following{};
+  std::string word{};  // what is not exact about the exact density; empty: nothing
+  std::string left_out{};
+};
+
+/// reference.points if the case has it; all if a picture shows the error or the reference is a formula; else all if
+/// density files are written and that takes 15 % of the work of the run at most (or a tenth of a second), and as many
+/// as that allows if not: at most 4096 where no file shows it, 256 where paths have kinks. None where it does not allow
+/// 16, unless a check or a target needs them.
+Comparison plan_comparison(const Case& description, const Scene& scene, std::size_t particles, int threads);
 
 /// Particles of the scene at t = 0: every lattice point with density or charge that exceeds the threshold. The report
 /// tells of both, in that order. Throws NumericalError where one is not finite, InputError if rho_0 is 0 everywhere.
@@ -111,7 +139,8 @@ struct RunSummary {
   double transform_achievable = 0;     // worst frame; above the tolerance only where that cannot be promised
   std::vector<EffectSummary> effects;  // that ran: transport and what the scene called for, nothing else
   std::vector<std::pair<double, FrameNumbers>> frames;
-  ReferenceReport reference;  // points of all outputs whose exact density is not known
+  ReferenceReport reference;   // points of all outputs whose exact density is not known
+  std::string reference_word;  // what is not exact about the exact density; empty: nothing
   std::vector<CheckResult> checks;
   std::vector<std::string> warnings;  // what is not exact about the steps of this case
   base::StageTimes stages;
@@ -153,7 +182,7 @@ class Simulation {
   SeedReport seeding_;
   double seed_seconds_ = 0, mass_at_start_ = 0, beyond_at_start_ = 0;
   double largest_at_start_ = 0;  // of |rho_0| on the lattice
-  std::size_t compared_ = 0;     // grid points an output
+  Comparison compared_;
   std::vector<std::unique_ptr<Observer>> observers_;
   std::function<void(const Progress&)> progress_;
   base::Stopwatch watch_;

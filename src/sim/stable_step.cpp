@@ -1,14 +1,9 @@
 #include "sim/stable_step.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
 
-#include "base/number.hpp"
 #include "time/stability.hpp"
 
 namespace gaussdrift {
@@ -60,12 +55,6 @@ StableStep estimate_stable_step(const VelocityField& velocity, const Particles& 
                                 double length, double step, double distance) {
   if (length <= 0 || particles.size() == 0) return {step, std::nullopt};
   return longest_stable_step(sample_flow_rates(velocity, particles, length, distance), tableau, length, step);
-}
-
-double rounded_down(double x, int digits) {
-  if (!(x > 0) || !std::isfinite(x)) return x;
-  const double power = std::pow(10, std::floor(std::log10(x)) - (digits - 1));
-  return *base::read_number<double>(fmt::format("{:.{}e}", std::floor(x / power * (1 + 1e-12)) * power, digits - 1));
 }
 
 }  // namespace gaussdrift

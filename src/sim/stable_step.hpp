@@ -50,7 +50,4 @@ StableStep longest_stable_step(const FlowRates& flow, const time::Tableau& table
 StableStep estimate_stable_step(const VelocityField& velocity, const Particles& particles, const time::Tableau& tableau,
                                 double length, double step, double distance);
 
-/// x to some digits, never upwards: what is written as the longest step is one.
-double rounded_down(double x, int digits);
-
 }  // namespace gaussdrift

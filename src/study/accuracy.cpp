@@ -10,7 +10,9 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "sim/stable_step.hpp"
+#include "study/would_run.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -146,25 +148,27 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
   if (!chosen)
     throw InputError(fmt::format(
         "an error of {:g} cannot be met with at most {:.0e} lattice points: the smallest predicted is {:.1e}; ask for "
-        "that, or make the density smoother",
+        "a larger error, or make the density smoother",
         target, most_particles, best));
   Case& scene = *chosen;
-  scene.evaluate.tolerance = std::clamp(rounded_down(0.02 * target, 2), 1e-13, 1e-3);
+  scene.evaluate.tolerance = std::clamp(base::rounded_down(0.02 * target, 2), 1e-13, 1e-3);
   {
     const Scene parts = make_scene(scene, threads);
     if (time::is_adaptive(time::find_tableau(scene.time.method)))
       scene.time.tolerance = std::min(scene.time.tolerance, 1e-2 * target);
     else
-      scene.time.step = rounded_down(step_for(scene, parts, 0.2 * target, threads), 2);
+      scene.time.step = base::rounded_down(step_for(scene, parts, 0.2 * target, threads), 2);
     choice.predicted = predict_budget(scene, parts, Effort::whatever, threads);
   }
   if (choice.predicted.total > target)
     throw InputError(fmt::format("an error of {:g} cannot be met: {} alone is predicted to make {:.1e}", target,
                                  choice.predicted.dominates, choice.predicted.total));
   scene.accuracy.target.reset();
+  if (const std::string reason = why_refused(scene, threads); !reason.empty())
+    throw InputError(fmt::format("no settings can be chosen for an error of {:g}: {}", target, reason));
   choice.settings = {fmt::format("particles.per_axis = {}", scene.particles.per_axis),
-                     fmt::format("overlap = {:g}", scene.particles.overlap),
-                     fmt::format("cutoff = \"{}\"", scene.particles.cutoff),
+                     fmt::format("particles.overlap = {:g}", scene.particles.overlap),
+                     fmt::format("particles.cutoff = \"{}\"", scene.particles.cutoff),
                      time::is_adaptive(time::find_tableau(scene.time.method))
                          ? fmt::format("time.tolerance = {:g}", scene.time.tolerance)
                          : fmt::format("time.step = {:g}", scene.time.step),

@@ -10,10 +10,12 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "sim/exact_paths.hpp"
 #include "sim/outside.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
+#include "study/would_run.hpp"
 #include "time/schedule.hpp"
 
 namespace gaussdrift::study {
@@ -222,49 +224,85 @@ void find_dominating(Budget& budget) {
   budget.dominates = largest->first;
 }
 
-/// What follows from the numbers. `better`: the smoothing of cutoffs of higher order at the same width.
-void give_advice(const Case& description, const Scene& scene, const Particles& start,
-                 const std::vector<std::pair<std::string, double>>& better, Budget& budget) {
+/// A number as it is written.
+double number_of(const std::string& text) { return *base::read_number<double>(text); }
+
+/// The longest round time.step up to `longest`, at least twice that of the case, that `run` takes; nothing if none is.
+std::optional<double> longer_step(const Case& description, const Scene& scene, double longest, int threads) {
+  const time::Tableau& tableau = time::find_tableau(description.time.method);
+  // Judged as in a run: particles stand where they start.
+  const double stable = estimate_stable_step(*scene.velocity, seed_scene(scene, threads), tableau, description.time.end,
+                                             longest, difference_length(scene))
+                            .step;
+  Case changed = description;
+  for (double step = round_below(std::min(longest, stable)); step >= 2 * description.time.step;
+       step = round_below(0.99 * step)) {
+    changed.time.step = step;
+    if (why_refused(changed, threads).empty()) return step;
+  }
+  return std::nullopt;
+}
+
+/// What follows from the numbers; nothing that `run` would refuse. `better`: the smoothing of cutoffs of higher order
+/// at the same width.
+void give_advice(const Case& description, const Scene& scene, const std::vector<std::pair<std::string, double>>& better,
+                 int threads, Budget& budget) {
   const time::Tableau& tableau = time::find_tableau(description.time.method);
   const double others = std::max({budget.smoothing, budget.quadrature, budget.transform, budget.left_out});
+  const auto runs = [&](const auto& change) {
+    Case changed = description;
+    change(changed);
+    const Domain& domain = changed.domain;
+    const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, changed.particles.per_axis);
+    return static_cast<double>(lattice.size()) <= most_judged && why_refused(changed, threads).empty();
+  };
   if (!time::is_adaptive(tableau) && description.time.step > 0) {
     const double step = description.time.step, order = tableau.time_order;
     const double now = std::max(budget.time_stepping, rounding);
     if (now < 1e-2 * others) {
-      double longer = step * std::pow(1e-2 * others / now, 1 / order);
-      longer = std::min(longer, description.time.end / 8);
-      const double stable =
-          estimate_stable_step(*scene.velocity, start, tableau, description.time.end, longer, difference_length(scene))
-              .step;
-      longer = round_below(std::min(longer, stable));
-      if (longer >= 2 * step)
-        budget.advice.push_back(fmt::format("time.step = {:g} is as accurate, with {:.0f} times fewer steps", longer,
-                                            std::floor(longer / step + 1e-6)));
+      const double longest = std::min(step * std::pow(1e-2 * others / now, 1 / order), description.time.end / 8);
+      if (longest >= 2 * step)
+        if (const auto longer = longer_step(description, scene, longest, threads))
+          budget.advice.push_back(fmt::format("time.step = {:g} is as accurate, with {:.0f} times fewer steps", *longer,
+                                              std::floor(*longer / step + 1e-6)));
     } else if (budget.dominates == "time stepping") {
-      const double shorter = round_below(step * std::pow(0.3 * others / now, 1 / order));
-      budget.advice.push_back(
-          fmt::format("time.step = {:g} makes time stepping smaller than the rest", std::max(shorter, step * 1e-3)));
+      const double shorter =
+          std::max(round_below(step * std::pow(0.3 * others / now, 1 / order)), round_below(step * 1e-3));
+      if (runs([&](Case& changed) { changed.time.step = shorter; }))
+        budget.advice.push_back(fmt::format("time.step = {:g} makes time stepping smaller than the rest", shorter));
     }
   }
   if (budget.dominates == "smoothing") {
     for (const auto& [cutoff, smoothing] : better) {
       if (smoothing > 0.5 * budget.smoothing) continue;
+      if (!runs([&, &name = cutoff](Case& changed) { changed.particles.cutoff = name; })) continue;
       budget.advice.push_back(
           fmt::format("particles.cutoff = \"{}\" lowers the smoothing to {:.2g}", cutoff, smoothing));
       break;
     }
-    budget.advice.push_back(fmt::format(
-        "particles.per_axis = {} halves the width of the blobs: a smooth density's smoothing falls {} times",
-        2 * description.particles.per_axis - 1, 1 << cutoff_order(description.particles.cutoff)));
+    const int finer = 2 * description.particles.per_axis - 1;
+    if (runs([&](Case& changed) { changed.particles.per_axis = finer; }))
+      budget.advice.push_back(fmt::format(
+          "particles.per_axis = {} halves the width of the blobs: a smooth density's smoothing falls {} times", finer,
+          1 << cutoff_order(description.particles.cutoff)));
   }
-  if (budget.dominates == "quadrature")
-    budget.advice.push_back(fmt::format(
-        "blobs overlap too little for this flow: particles.overlap = {:g}, or [effects.remesh] where it strains",
-        description.particles.overlap * 1.5));
-  if (budget.dominates == "particles left out") budget.advice.push_back("particles.threshold = 0 leaves nothing out");
-  if (budget.dominates == "Gauss transform")
-    budget.advice.push_back(fmt::format("evaluate.tolerance = {:.0e} is cheap and removes what dominates",
-                                        std::max(1e-13, 1e-3 * std::max(budget.smoothing, budget.quadrature))));
+  if (budget.dominates == "quadrature") {
+    const double wider = number_of(fmt::format("{:.3g}", 1.5 * description.particles.overlap));
+    std::string remedies;
+    if (runs([&](Case& changed) { changed.particles.overlap = wider; }))
+      remedies = fmt::format("particles.overlap = {:g}", wider);
+    if (runs([](Case& changed) { changed.effects.remesh = RemeshSpec{}; }))
+      remedies += std::string(remedies.empty() ? "" : ", or ") + "[effects.remesh] where it strains";
+    if (!remedies.empty()) budget.advice.push_back("blobs overlap too little for this flow: " + remedies);
+  }
+  if (budget.dominates == "Gauss transform") {
+    const double sharper =
+        number_of(fmt::format("{:.0e}", std::max(1e-13, 1e-3 * std::max(budget.smoothing, budget.quadrature))));
+    if (sharper < description.evaluate.tolerance && runs([&](Case& changed) { changed.evaluate.tolerance = sharper; }))
+      budget.advice.push_back(fmt::format("evaluate.tolerance = {:.0e} is cheap and removes what dominates", sharper));
+  }
+  if (budget.dominates == "particles left out" && runs([](Case& changed) { changed.particles.threshold = 0; }))
+    budget.advice.push_back("particles.threshold = 0 leaves nothing out");
 }
 
 /// Cutoffs of higher order than the case's, by name.
@@ -445,15 +483,23 @@ double work_allowed(const Case& description, const Scene& scene, std::size_t par
   return std::max(few, share * work_of(description, scene, particles).total());
 }
 
-/// Work of carrying one particle, exactly: from a few of them.
-double work_of_a_path(const Case& description, const Scene& scene, const Particles& particles, const Carrying& how) {
+/// Work of carrying one particle, exactly: from a few of them, for which an eighth of `allowed` may be spent. Infinite
+/// where that is not enough.
+double work_of_a_path(const Case& description, const Scene& scene, const Particles& particles, const Carrying& how,
+                      double allowed) {
   if (!how.exactly) return rates_of_steps(description, scene) * scene.velocity->cost() / how.factor;
   std::vector<std::size_t> some;
   const std::size_t wanted = std::min<std::size_t>(32, particles.size());
   for (std::size_t i = 0; i < wanted; ++i) some.push_back(i * particles.size() / wanted);
   Particles trial = at_start(particles, some, scene);
+  ExactPathsOptions options = how.paths;
+  constexpr double stages = 12;
+  const double bound = allowed / (8 * stages * static_cast<double>(wanted) * work_of_exact_rate(scene));
+  options.most_steps = static_cast<std::size_t>(std::clamp(bound, 16.0, static_cast<double>(how.paths.most_steps)));
   const ExactPaths paths =
-      carry_exactly(*scene.velocity, scene.reaction_rate.get(), trial, 0, description.output.times.back(), how.paths);
+      carry_exactly(*scene.velocity, scene.reaction_rate.get(), trial, 0, description.output.times.back(), options);
+  if (options.most_steps < how.paths.most_steps && 2 * paths.lost > wanted)
+    return std::numeric_limits<double>::infinity();
   return std::max(1.0, static_cast<double>(paths.rates) / static_cast<double>(wanted)) * work_of_exact_rate(scene);
 }
 
@@ -478,8 +524,8 @@ std::optional<Telling> choose_telling(const Case& description, const Scene& scen
   halves.factor = 0.5;
   const double allowed = effort == Effort::whatever
                              ? std::numeric_limits<double>::infinity()
-                             : work_allowed(description, scene, particles.size(), share_measured);
-  const double step_work = work_of_a_path(description, scene, particles, steps);
+                             : work_allowed(description, scene, particles.size(), share_measured) * 2 / 3;
+  const double step_work = work_of_a_path(description, scene, particles, steps, allowed);
   struct Way {
     double widths;
     std::size_t stride;
@@ -495,7 +541,7 @@ std::optional<Telling> choose_telling(const Case& description, const Scene& scen
       sharp = {.exactly = true, .paths = paths};
       sharp.paths.tolerance = way.tolerance;
     }
-    const double exact_work = work_of_a_path(description, scene, particles, sharp);
+    const double exact_work = work_of_a_path(description, scene, particles, sharp, allowed);
     tellings.push_back({way.widths, way.stride, sharp, sharp.exactly && exact_work < step_work ? sharp : steps});
     work.push_back({exact_work / std::pow(way.stride, particles.dimension), std::min(exact_work, step_work)});
   }
@@ -510,12 +556,25 @@ std::optional<Telling> choose_telling(const Case& description, const Scene& scen
   return std::nullopt;
 }
 
-std::unique_ptr<Reference> exact_density(const Case& description, const Scene& scene, int threads) {
+std::unique_ptr<Reference> exact_density(const Case& description, const Scene& scene, const Following& following,
+                                         int threads) {
   if (description.reference.kind == ReferenceSpec::Kind::exact) return make_reference(description, scene, threads);
   Case traced = description;
   traced.reference = {};
   traced.reference.kind = ReferenceSpec::Kind::characteristics;
-  return make_reference(traced, scene, threads);
+  return make_reference(traced, scene, threads, following);
+}
+
+/// Grid points at which the exact density can be known within some work, at most `wanted`.
+Affordable points_to_know(const Case& description, const Scene& scene, std::size_t wanted, double allowed,
+                          int threads) {
+  if (std::isinf(allowed) || description.reference.kind == ReferenceSpec::Kind::exact) return {.points = wanted};
+  Case traced = description;
+  traced.reference = {};
+  traced.reference.kind = ReferenceSpec::Kind::characteristics;
+  Affordable known = affordable_paths(traced, scene, allowed, 1, threads);
+  known.points = std::min(known.points, wanted);
+  return known;
 }
 
 /// What fails here has not failed in the run, whose results must not be lost for it.
@@ -571,9 +630,14 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, int t
   const Particles seeded = seed_scene(scene, threads, &seeding);
   budget.not_covered = about_beyond(part_beyond(scene.density->mass(), seeded, scene.seeding));
   if (!budget.known()) return budget;
-  if (effort == Effort::share_of_run &&
-      static_cast<double>(seeded.size() * 2 + 2048) * 1.3 * work_of_a_path(description, scene, seeded, how) >
-          work_allowed(description, scene, seeded.size(), share_predicted)) {
+  const double allowed = effort == Effort::whatever ? std::numeric_limits<double>::infinity()
+                                                    : work_allowed(description, scene, seeded.size(), share_predicted);
+  const Affordable knowable = points_to_know(description, scene, smooth_paths ? 2048 : 128, allowed / 3, threads);
+  if (knowable.points == 0 ||
+      (effort == Effort::share_of_run &&
+       static_cast<double>(seeded.size() * 2) * 1.3 * work_of_a_path(description, scene, seeded, how, allowed) +
+               static_cast<double>(knowable.points) * knowable.work >
+           allowed)) {
     budget.not_covered = "it would cost more than a tenth of the run; `check` predicts it";
     return budget;
   }
@@ -596,9 +660,9 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, int t
         .rho;
   };
   const std::vector<double> density = summed(carried, scene.cutoff), other = summed(aside, scene.cutoff);
-  const GridSample sample = sample_of_grid(scene.evaluation, density, smooth_paths ? 2048 : 128);
+  const GridSample sample = sample_of_grid(scene.evaluation, density, knowable.points);
   std::vector<double> exact;
-  exact_density(description, scene, threads)->evaluate_at(time, sample.points, exact);
+  exact_density(description, scene, knowable.following, threads)->evaluate_at(time, sample.points, exact);
   const auto farthest = [&](const auto& value) {  // from the exact density, over the sample
     std::vector<double> values, known;
     for (std::size_t i = 0; i < exact.size(); ++i)
@@ -639,7 +703,7 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, int t
     const std::vector<double> sharper = summed(carried, cutoff);
     better.emplace_back(name, farthest([&](std::size_t i) { return sharper[i]; }) / norm);
   }
-  give_advice(description, scene, seeded, better, budget);
+  give_advice(description, scene, better, threads, budget);
   return budget;
 }
 
@@ -680,8 +744,16 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
     exact = *last.exact;
     values = rho;
   } else {
-    points = sample_of_grid(scene.evaluation, rho, smooth_paths ? 1024 : 64).points;
-    exact_density(description, scene, threads)->evaluate_at(last.time, points, exact);
+    const double allowed = effort == Effort::whatever
+                               ? std::numeric_limits<double>::infinity()
+                               : work_allowed(description, scene, last.particles.size(), share_measured) / 3;
+    const Affordable known = points_to_know(description, scene, smooth_paths ? 1024 : 64, allowed, threads);
+    if (known.points == 0) {
+      budget.not_covered = "it would cost more than a tenth of the run; accuracy.budget = \"measured\" measures it";
+      return budget;
+    }
+    points = sample_of_grid(scene.evaluation, rho, known.points).points;
+    exact_density(description, scene, known.following, threads)->evaluate_at(last.time, points, exact);
     for (const std::size_t point : points) values.push_back(rho[point]);
   }
   double norm = 0, worst = 0;
@@ -734,7 +806,7 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
   budget.transform = last.numbers.transform_error;
   budget.left_out = bound_of_left_out(scene, seeding, seeded, last.particles, norm);
   find_dominating(budget);
-  give_advice(description, scene, last.particles, better, budget);
+  give_advice(description, scene, better, threads, budget);
   return budget;
 }
 

@@ -102,7 +102,7 @@ double time_steps(const Case& description, Carrier& carrier, const Particles& pa
 
 // Seconds of the reference of all outputs, from tracing some points spread over the grid to the last one.
 double time_reference(const Case& description, const Scene& scene, std::size_t all, int threads) {
-  if (description.reference.kind == ReferenceSpec::Kind::none) return 0;
+  if (all == 0) return 0;
   const auto reference = make_reference(description, scene, threads);
   const auto& times = description.output.times;
   const std::size_t most = has_smooth_paths(scene) ? 2048 : 24;
@@ -210,7 +210,7 @@ Description describe(const Case& description, int threads) {
     result.step_seconds = time_steps(description, carrier, particles);
   const std::size_t compared_points = description.reference.kind == ReferenceSpec::Kind::none
                                           ? 0
-                                          : points_compared(description, scene, particles.size(), threads);
+                                          : plan_comparison(description, scene, particles.size(), threads).points;
   result.reference_seconds = time_reference(description, scene, compared_points, threads);
   result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
 

@@ -7,13 +7,14 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "sim/exact_paths.hpp"
 #include "sim/simulation.hpp"
-#include "sim/stable_step.hpp"
 #include "study/accuracy.hpp"
 #include "study/study.hpp"
+#include "study/would_run.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -30,9 +31,10 @@ double longest_side(const Case& scene) {
   return longest;
 }
 
-const Sample* cheapest_below(const Experiment& experiment, double error) {
-  const Sample* best = nullptr;
-  for (const Sample& sample : experiment.samples)
+template <class SomeExperiment>
+auto cheapest_below(SomeExperiment& experiment, double error) {
+  decltype(experiment.samples.data()) best = nullptr;
+  for (auto& sample : experiment.samples)
     if (sample.failure.empty() && sample.error <= error && (!best || sample.seconds < best->seconds)) best = &sample;
   return best;
 }
@@ -111,6 +113,112 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
   return experiment;
 }
 
+namespace {
+
+/// What the steps of a study move, and where it should end up.
+struct Paths {
+  Particles start, exact;
+  double scale = 1;  // particles of the case for each of these
+  double known = 0;  // to which `exact` is right, in core radii
+  std::string note;  // how that is known; empty: to rounding
+};
+
+double largest_distance(const Particles& a, const Particles& b) {
+  double largest = 0;
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    double square = 0;
+    for (int k = 0; k < a.dimension; ++k) square += std::pow(a.position[k][j] - b.position[k][j], 2);
+    if (!std::isnan(square)) largest = std::max(largest, square);
+  }
+  return std::sqrt(largest);
+}
+
+/// Some of the particles, and their paths to full precision.
+Paths paths_in_the_flow(const Case& scene, const Scene& parts, const Particles& all, int threads) {
+  Paths paths;
+  paths.start.dimension = all.dimension;
+  const std::size_t stride = std::max<std::size_t>(1, all.size() / 2000);
+  for (std::size_t j = 0; j < all.size(); j += stride) {
+    for (int k = 0; k < all.dimension; ++k) paths.start.position[k].push_back(all.position[k][j]);
+    paths.start.alpha.push_back(all.alpha[j]);
+    paths.start.id.push_back(all.id[j]);
+  }
+  paths.scale = static_cast<double>(all.size()) / static_cast<double>(paths.start.size());
+  paths.exact = paths.start;
+  carry_exactly(
+      *parts.velocity, nullptr, paths.exact, 0, scene.output.times.back(),
+      {.tolerance = parts.velocity->is_smooth() ? 1e-14 : 1e-10, .length = longest_side(scene), .threads = threads});
+  return paths;
+}
+
+/// Particles that move each other: all of them, and steps of rk4 that are halved until they change nothing more that
+/// matters, or too much time is gone.
+Paths paths_of_each_other(Case scene, const Scene& parts, const Particles& all, int threads, double seconds) {
+  const double time = scene.output.times.back(), enough = 1e-6;
+  Paths paths{all, all, 1, std::numeric_limits<double>::infinity(), ""};
+  scene.time.method = "rk4";
+  const base::Stopwatch watch;
+  double last = 0;
+  for (int k = 0; k < 12 && watch.seconds() + 2 * last < seconds; ++k) {
+    const base::Stopwatch one;
+    scene.time.step = time / (16 << k);
+    Particles moved = all;
+    Carrier carrier(scene, parts, threads);
+    try {
+      carrier.begin(moved);
+    } catch (const InputError&) {  // not stable: half of it may be
+      continue;
+    }
+    base::StageTimes ignored;
+    carrier.carry(moved, 0, time, 0, ignored, [](double, std::size_t) {});
+    // Halving takes away 15/16 of the error.
+    if (last > 0) paths.known = largest_distance(moved, paths.exact) / 15 / parts.core_radius;
+    paths.exact = std::move(moved);
+    last = one.seconds();
+    if (paths.known < enough) break;
+  }
+  paths.note = fmt::format("compared with rk4 at time.step = {:.3g}, whose own error is about {:.1g}", scene.time.step,
+                           paths.known);
+  return paths;
+}
+
+/// The settings of a sample, as in --set.
+std::string settings_of(const Sample& sample, const std::vector<std::string>& keys) {
+  std::string text;
+  for (std::size_t k = 0; k < keys.size() && k < sample.values.size(); ++k) {
+    std::string key = keys[k], value = sample.values[k];
+    if (value.rfind("tolerance ", 0) == 0) key = "time.tolerance", value = value.substr(10);
+    const bool word = key == "time.method" || key == "particles.cutoff";
+    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", key, word ? '"' + value + '"' : value);
+  }
+  return text;
+}
+
+/// The case with other steps.
+Case with_steps(Case scene, const time::Tableau& tableau, double step, double tolerance) {
+  scene.time.method = tableau.name;
+  scene.time.step = step;
+  if (time::is_adaptive(tableau)) scene.time.tolerance = tolerance;
+  return scene;
+}
+
+/// Why the case with its outputs left out does not run to its end; empty: it does.
+std::string why_it_does_not_finish(Case scene, int threads) {
+  scene.output.vtk.clear();
+  scene.output.images.clear();
+  scene.output.times = {scene.output.times.back()};
+  scene.checks.clear();
+  scene.reference = {};
+  try {
+    Simulation(scene, threads).run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
 Experiment study_steps(const Case& scene, int threads, double seconds) {
   Experiment experiment{.name = "steps",
                         .title = "Step and integrator",
@@ -121,98 +229,121 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
                         .samples = {},
                         .conclusion = {},
                         .notes = {}};
-  Case bare = scene;
-  bare.effects = {};
-  const Scene parts = make_scene(bare, threads);
-  const double time = bare.output.times.back();
-  const Particles all = seed_scene(parts, threads);
-  Particles some;
-  some.dimension = all.dimension;
-  const std::size_t stride = std::max<std::size_t>(1, all.size() / 2000);
-  for (std::size_t j = 0; j < all.size(); j += stride) {
-    for (int k = 0; k < all.dimension; ++k) some.position[k].push_back(all.position[k][j]);
-    some.alpha.push_back(all.alpha[j]);
-    some.id.push_back(all.id[j]);
-  }
-  const double scale = static_cast<double>(all.size()) / static_cast<double>(some.size());
-  Particles exact = some;
-  const bool smooth = parts.velocity->is_smooth();
-  carry_exactly(*parts.velocity, nullptr, exact, 0, time,
-                {.tolerance = smooth ? 1e-14 : 1e-10, .length = longest_side(scene), .threads = threads});
   const base::Stopwatch watch;
+  // Positions are what is studied: effects that do not move particles are left out, but for what they allow.
+  Case moving = scene;
+  moving.effects.reaction.reset();
+  moving.effects.remesh.reset();
+  if (!moving.effects.drifts()) moving.effects = {};
+  const bool each_other = moving.effects.drifts();
+  const Scene parts = make_scene(moving, threads);
+  const double time = scene.output.times.back();
+  const Particles all = seed_scene(parts, threads);
+  if (time <= 0) {
+    experiment.conclusion = "There are no steps before the last output.";
+    return experiment;
+  }
+  // What `run` takes, asked of the run's own rules for the whole case.
+  const Scene whole = make_scene(scene, threads);
+  const Case asked = with_steps(scene, time::find_tableau("rk4"), scene.time.end, 0);
+  Carrier rules(asked, whole, threads);
+  try {
+    Particles seen = all;
+    rules.begin(seen);
+  } catch (const InputError&) {  // of this step alone
+  }
+  const Paths paths = each_other ? paths_of_each_other(moving, parts, all, threads, 0.4 * seconds)
+                                 : paths_in_the_flow(moving, parts, all, threads);
+  if (each_other) experiment.seconds_are = "of transport and of what moves particles, for all of them";
   std::map<std::string, double> orders;
+  double each_rate = 0;  // seconds of one evaluation for all particles
+  bool left_out = false;
   for (const time::Tableau& tableau : time::tableaux()) {
     const bool adaptive = time::is_adaptive(tableau);
+    if (adaptive && !why_not_read(with_steps(scene, tableau, 0, 1e-4)).empty()) continue;
     for (int k = 0; k < 12; ++k) {
-      Case varied = bare;
-      varied.time.method = tableau.name;
-      varied.output.times = {time};
-      std::string value;
-      if (adaptive) {
-        varied.time.tolerance = std::pow(10, -2 - k);
-        varied.time.step = 0;
-        value = fmt::format("tolerance {:.0e}", varied.time.tolerance);
-        if (varied.time.tolerance < 1e-13) break;
-      } else {
-        varied.time.step = time / (8 << k);
-        value = fmt::format("{:.4g}", varied.time.step);
+      const double step = adaptive ? 0 : base::rounded_down(time / (8 << k), 4), tolerance = std::pow(10, -2 - k);
+      if (adaptive && (tolerance < 1e-13 || (each_other && tolerance < 1e-5))) break;  // sums are right to 1e-6
+      const double longest = std::min(step, scene.time.end);
+      if (!adaptive && rules.longest_step(tableau, longest) < longest * (1 - 1e-9)) continue;  // would be refused
+      const double steps = adaptive ? 20 : time / step;
+      if (watch.seconds() + 2 * steps * tableau.stages * each_rate > seconds) {
+        left_out = true;
+        break;
       }
-      Sample sample{.values = {tableau.name, value}};
-      if (watch.seconds() > seconds) break;
+      Case varied = with_steps(moving, tableau, step, tolerance);
+      varied.output.times = {time};
+      Sample sample{
+          .values = {tableau.name, adaptive ? fmt::format("tolerance {:.0e}", tolerance) : fmt::format("{:g}", step)}};
       try {
-        if (!adaptive && estimate_stable_step(*parts.velocity, some, tableau, bare.time.end, varied.time.step,
-                                              difference_length(parts))
-                                 .step < varied.time.step)
-          continue;  // not stable: it would be refused
-        Particles moved = some;
+        Particles moved = paths.start;
         Carrier carrier(varied, parts, threads);
+        if (each_other) carrier.begin(moved);
         base::StageTimes ignored;
         const base::Stopwatch work;
         sample.steps = carrier.carry(moved, 0, time, 0, ignored, [](double, std::size_t) {});
         std::vector<double> times{work.seconds()};
+        if (each_other)
+          each_rate = times[0] / static_cast<double>(std::max<std::size_t>(1, sample.steps)) / tableau.stages;
         if (times[0] < 0.03) {  // that one warmed up
           times.clear();
           for (int repeat = 0; repeat < 3; ++repeat) {
-            Particles again = some;
+            Particles again = paths.start;
+            if (each_other) carrier.begin(again);
             const base::Stopwatch once;
             carrier.carry(again, 0, time, 0, ignored, [](double, std::size_t) {});
             times.push_back(once.seconds());
           }
           std::sort(times.begin(), times.end());
         }
-        sample.seconds = times[times.size() / 2] * scale;
+        sample.seconds = times[times.size() / 2] * paths.scale;
         sample.particles = all.size();
-        double largest = 0;
-        for (std::size_t j = 0; j < moved.size(); ++j) {
-          double square = 0;
-          for (int a = 0; a < moved.dimension; ++a) square += std::pow(moved.position[a][j] - exact.position[a][j], 2);
-          if (!std::isnan(square)) largest = std::max(largest, square);
-        }
-        sample.error = std::max(std::sqrt(largest) / parts.core_radius, 1e-16);
+        sample.error =
+            std::max({largest_distance(moved, paths.exact) / parts.core_radius, each_other ? paths.known : 0.0, 1e-16});
       } catch (const Error& error) {
         sample.failure = error.what();
       }
       experiment.samples.push_back(sample);
-      if (sample.failure.empty() && (sample.error < 1e-11 || sample.seconds / scale > 0.4)) break;
+      if (sample.failure.empty() &&
+          (sample.error < std::max(1e-11, 3 * paths.known) || sample.seconds / paths.scale > 0.4))
+        break;
     }
   }
+  const double shows = std::max(1e-9, 20 * paths.known);  // below, rounding or the comparison does
   for (std::size_t i = 1; i < experiment.samples.size(); ++i) {
     Sample &before = experiment.samples[i - 1], &now = experiment.samples[i];
     if (before.values[0] != now.values[0] || !before.failure.empty() || !now.failure.empty() ||
-        time::is_adaptive(time::find_tableau(now.values[0])) || now.error < 1e-9)  // below, rounding shows
+        time::is_adaptive(time::find_tableau(now.values[0])) || now.error < shows)
       continue;
-    now.order = std::log2(before.error / now.error);
+    now.order = std::log(before.error / now.error) /
+                std::log(*base::read_number<double>(before.values[1]) / *base::read_number<double>(now.values[1]));
     orders[now.values[0]] = now.order;
   }
   for (const auto& [name, order] : orders)
     experiment.notes.push_back(
         fmt::format("{}: observed order {:.2f}, expected {}", name, order, time::find_tableau(name).time_order));
+  if (!paths.note.empty()) experiment.notes.push_back(paths.note);
+  if (left_out) experiment.notes.push_back("shorter steps were left out to keep to the time");
+
+  // Weights that go from particle to particle may ask for shorter steps later on, so such a run is tried to its end.
+  const bool tried = scene.effects.remesh || (scene.effects.diffusion && !moving.effects.diffusion);
+  Sample* enough = nullptr;
+  while ((enough = cheapest_below(experiment, 1e-3))) {
+    const bool adaptive = time::is_adaptive(time::find_tableau(enough->values[0]));
+    const Case recommended =
+        with_steps(scene, time::find_tableau(enough->values[0]),
+                   adaptive ? scene.time.step : *base::read_number<double>(enough->values[1]),
+                   adaptive ? *base::read_number<double>(enough->values[1].substr(10)) : scene.time.tolerance);
+    std::string reason = why_refused(recommended, threads);
+    if (reason.empty() && tried) reason = why_it_does_not_finish(recommended, threads);
+    if (reason.empty()) break;
+    enough->failure = reason;
+  }
   finish(experiment, scene);
-  if (const Sample* enough = cheapest_below(experiment, 1e-3))
+  if (enough)
     experiment.conclusion = fmt::format(
-        "{} with {} is the cheapest that carries every particle to within a thousandth of its blob: {} steps, {:.2g} "
-        "s.",
-        enough->values[0], enough->values[1], enough->steps, enough->seconds);
+        "{} is the cheapest that carries every particle to within a thousandth of its blob: {} steps, {:.2g} s.",
+        settings_of(*enough, experiment.keys), enough->steps, enough->seconds);
   else
     experiment.conclusion = "No method of these carries every particle to within a thousandth of its blob.";
   return experiment;
@@ -232,13 +363,22 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   const double c = scene.particles.overlap;
   double dearest = 0;
   std::size_t left_out = 0;
+  std::vector<std::string> cutoffs;  // that the case may have
+  for (const std::string cutoff : {"gauss2", "gauss4", "gauss6", "gauss8"}) {
+    Case varied = scene;
+    varied.particles.cutoff = cutoff;
+    if (const std::string reason = why_not_read(varied); reason.empty())
+      cutoffs.push_back(cutoff);
+    else
+      experiment.notes.push_back(fmt::format("{} is not for this case: {}", cutoff, reason));
+  }
   // Coarse lattices of all cutoffs before finer ones of any: what is left out for time are the finest.
   for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0})
     for (const double overlap : {c, 1.5 * c}) {
-      for (const char* cutoff : {"gauss2", "gauss4", "gauss6", "gauss8"}) {
+      for (const std::string& cutoff : cutoffs) {
         Case varied = scene;
         varied.particles.cutoff = cutoff;
-        varied.particles.overlap = overlap;
+        varied.particles.overlap = *base::read_number<double>(fmt::format("{:g}", overlap));  // as it is told
         varied.particles.per_axis = std::max(8, static_cast<int>(std::lround(factor * scene.particles.per_axis)));
         if (watch.seconds() + 3 * dearest > seconds) {
           ++left_out;
@@ -268,12 +408,12 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   }
   if (best) {
     const Sample* same = now ? cheapest_below(experiment, 1.05 * now->error) : nullptr;
-    experiment.conclusion = fmt::format("The smallest error here, {:.2g}, is that of {} with per_axis = {}, c = {}",
-                                        best->error, best->values[0], best->values[2], best->values[1]);
+    experiment.conclusion =
+        fmt::format("The smallest error here, {:.2g}, is that of {}", best->error, settings_of(*best, experiment.keys));
     if (now && same && same != now)
       experiment.conclusion +=
-          fmt::format("; the case's own {:.2g} can be had with {}, per_axis = {}, c = {} in {:.2g} instead of {:.2g} s",
-                      now->error, same->values[0], same->values[2], same->values[1], same->seconds, now->seconds);
+          fmt::format("; the case's own {:.2g} can be had with {} in {:.2g} instead of {:.2g} s", now->error,
+                      settings_of(*same, experiment.keys), same->seconds, now->seconds);
     experiment.conclusion += ".";
   }
   return experiment;

@@ -111,6 +111,7 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
   bare.checks.clear();
   try {
     std::vector<double> seconds;
+    std::string left_out;  // why there is no error
     for (int repeat = 0; repeat <= options.repeats; ++repeat) {
       Simulation simulation(bare, options.threads);
       const RunSummary summary = simulation.run();
@@ -124,6 +125,7 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
           sample.l2 = last.error->l2;
         }
         sample.failure = last.no_norms;
+        if (!last.error && !summary.warnings.empty()) left_out = summary.warnings.back();
         if (last.untraced > 0) sample.failure = "the exact density is not known at some grid points";
         bare.reference = {};  // repeats are for the time alone
       }
@@ -132,7 +134,8 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
       if (repeat == 0 && options.repeats > 0) seconds.clear();
     }
     sample.seconds = median(seconds);
-    if (sample.failure.empty() && !std::isfinite(sample.error)) sample.failure = "the case has no exact density";
+    if (sample.failure.empty() && !std::isfinite(sample.error))
+      sample.failure = left_out.empty() ? "the case has no exact density" : left_out;
   } catch (const Error& error) {
     sample.failure = error.what();
   }

@@ -189,7 +189,8 @@ PairSums sum_pairs(const PairSumRequest& request) {
   // Points are held twice, as read and as the library takes them.
   options.memory_limit = memory_for_plan(request, result.columns.size() + static_cast<std::size_t>(result.dimension));
   with_errors_of_farfield([&] {
-    in_dimension(result.dimension, [&](auto d) {
+    in_dimension(result.dimension, [&](auto dimension) {
+      constexpr int d = decltype(dimension)::value;
       const auto work = [&](double most_seconds) {
         options.most_seconds = most_seconds;
         sum<d>(request, options, result);
@@ -209,7 +210,8 @@ PairSums sum_pairs(const PairSumRequest& request) {
 }
 
 void measure_errors(const PairSumRequest& request, PairSums& sums) {
-  with_errors_of_farfield([&] { in_dimension(sums.dimension, [&](auto d) { measure<d>(request, sums); }); });
+  with_errors_of_farfield(
+      [&] { in_dimension(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
 }
 
 std::string to_text(const PairSums& sums) {

@@ -214,7 +214,8 @@ PointSums sum_points(const SumRequest& request) {
     options.derivative_order = std::max(options.derivative_order, static_cast<int>(std::min(order, 1e6)));
   }
   with_errors_of_fgtd([&] {
-    in_dimension(result.dimension, [&](auto d) {
+    in_dimension(result.dimension, [&](auto dimension) {
+      constexpr int d = decltype(dimension)::value;
       const auto work = [&](double most_seconds) {
         options.most_seconds = most_seconds;
         sum<d>(request, options, result);
@@ -235,7 +236,8 @@ PointSums sum_points(const SumRequest& request) {
 }
 
 void measure_errors(const SumRequest& request, PointSums& sums) {
-  with_errors_of_fgtd([&] { in_dimension(sums.dimension, [&](auto d) { measure<d>(request, sums); }); });
+  with_errors_of_fgtd(
+      [&] { in_dimension(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
 }
 
 std::string to_text(const PointSums& sums) {

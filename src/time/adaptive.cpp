@@ -106,10 +106,11 @@ class Integration {
     double limit = options_.longest_step > 0 ? options_.longest_step : std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < options_.components.size(); ++c) {
       if (options_.components[c].largest_move <= 0) continue;
-      double fastest = 0;
-      for (std::size_t i = c * points_; i < (c + 1) * points_; ++i)
-        fastest = std::max(fastest, std::abs(first_rate_[i]));
-      if (fastest > 0) limit = std::min(limit, options_.components[c].largest_move / fastest);
+      const StepBound& bound = options_.components[c];
+      for (std::size_t i = c * points_; i < (c + 1) * points_; ++i) {
+        const double move = std::max(bound.largest_move, bound.share_of_distance * std::abs(y_[i] - bound.middle));
+        if (const double speed = std::abs(first_rate_[i]); speed > 0) limit = std::min(limit, move / speed);
+      }
     }
     return limit;
   }
@@ -162,7 +163,11 @@ class Integration {
       for (std::size_t c = 0; c < options_.components.size(); ++c) {
         const std::size_t at = c * points_ + i;
         const StepBound& bound = options_.components[c];
-        const double allowed = bound.absolute + bound.relative * std::max(std::abs(y_[at]), std::abs(next_[at]));
+        // Far outside, where steps are long, what counts is relative to the distance.
+        const double distance = bound.share_of_distance * std::abs(y_[at] - bound.middle);
+        const double absolute =
+            distance > bound.largest_move ? bound.absolute * (distance / bound.largest_move) : bound.absolute;
+        const double allowed = absolute + bound.relative * std::max(std::abs(y_[at]), std::abs(next_[at]));
         square_5 += (e5[at] / allowed) * (e5[at] / allowed);
         square_3 += (e3[at] / allowed) * (e3[at] / allowed);
       }

@@ -19,6 +19,10 @@ struct StepBound {
   double absolute = 1e-12;  // the estimated error of a step is at most absolute + relative |y|
   double relative = 0;
   double largest_move = 0;  // a step is not longer than this over |dy/dt|; 0: any
+  // Nor is a step longer than this part of |y - middle| over |dy/dt|, if that is more; beyond that distance `absolute`
+  // grows in proportion.
+  double share_of_distance = 0;
+  double middle = 0;
 };
 
 struct AdaptiveOptions {

@@ -58,6 +58,7 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
 
   json reference{{"kind", to_string(scene.reference.kind)}};
   if (scene.reference.kind != ReferenceSpec::Kind::none) reference["untraced"] = summary.reference.untraced;
+  if (!summary.reference_word.empty()) reference["paths"] = summary.reference_word;
   if (summary.reference.untraced > 0) reference["trouble"] = summary.reference.trouble;
   json effects = json::array();
   for (const EffectSummary& effect : summary.effects) {

@@ -135,7 +135,7 @@ TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
   const auto compared = [](const std::string& name, const std::vector<std::string>& overrides) {
     const Case scene = built_in(name, overrides);
     const Scene parts = make_scene(scene);
-    return static_cast<double>(points_compared(scene, parts, seed_scene(parts, 0).size(), 0)) /
+    return static_cast<double>(plan_comparison(scene, parts, seed_scene(parts, 0).size(), 0).points) /
            static_cast<double>(parts.evaluation.size());
   };
   EXPECT_EQ(compared("rotating_cone", {}), 1);
@@ -143,6 +143,90 @@ TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
   EXPECT_EQ(compared("swirl", {"particles.per_axis=300"}), 1);       // has a picture of the error
   EXPECT_LT(compared("enright", {"particles.per_axis=100"}), 0.09);  // long paths, few steps
   EXPECT_LT(compared("rotating_cone", {"reference.points=100"}), 0.0075);
+}
+
+// What measuring takes is counted, so it can be bounded without a clock: paths that flee from the domain, a jump on
+// which paths stick, a wind with a kink at every cell, a rate that no step likes.
+TEST(PointsCompared, TakeNoMoreWorkThanIsAllowed) {
+  const auto scene_of = [](const std::string& velocity, const std::string& more = "") {
+    return input::parse_case("gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
+                                 "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
+                                 "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
+                                 "[evaluate]\nper_axis = 64\n" +
+                                 more,
+                             "stiff.toml")
+        .scene;
+  };
+  const double few = 2.5e6;  // a tenth of a second
+  for (const char* velocity :
+       {"u = [\"-1000*(x-0.5)\", \"0\"]", "u = [\"-30000*(x-0.5)\", \"0\"]", "u = [\"x<0.62 ? 1 : 0\", \"0\"]",
+        "u = [\"x<0.5 ? -1 : 1\", \"0\"]", "u = [\"abs(sin(300*x))\", \"abs(sin(300*y))\"]",
+        "u = [\"sin(1e5*x)\", \"cos(1e5*y)\"]"}) {
+    const Case scene = scene_of(velocity);
+    const Scene parts = make_scene(scene);
+    const std::size_t particles = seed_scene(parts, 0).size();
+    const double allowed = std::max(few, 0.15 * work_of(scene, parts, particles).total());
+    const Comparison plan = plan_comparison(scene, parts, particles, 0);
+    EXPECT_EQ(plan.points == 0, !plan.left_out.empty()) << velocity;
+    if (plan.points == 0) continue;
+    EXPECT_GE(plan.points, 16u) << velocity;
+    // And it does not take more when it is done.
+    std::vector<double> rho;
+    double rates = 0;
+    const auto reference = make_reference(scene, parts, 0, plan.following);
+    const GridSample sample =
+        sample_of_grid(parts.evaluation, std::vector<double>(parts.evaluation.size(), 1.0), plan.points);
+    for (const double t : scene.output.times)
+      rates += static_cast<double>(plan.points >= parts.evaluation.size()
+                                       ? reference->evaluate(t, rho).rates
+                                       : reference->evaluate_at(t, sample.points, rho).rates);
+    // The points beside the largest value, and blocks of 256 that take the steps of their worst.
+    EXPECT_LT(rates * work_of_exact_rate(parts), 2 * allowed) << velocity << " " << plan.points;
+  }
+}
+
+TEST(PointsCompared, AreFollowedByHalfStepsThroughManyKinks) {
+  const Case wind = built_in("gridded_wind", {"particles.per_axis=60", "output.images=[]"});
+  Case scene = wind;
+  scene.reference = {};
+  scene.reference.kind = ReferenceSpec::Kind::characteristics;
+  scene.checks.clear();
+  const Scene parts = make_scene(scene);
+  const Comparison plan = plan_comparison(scene, parts, seed_scene(parts, 0).size(), 0);
+  EXPECT_GE(plan.points, 64u);
+  EXPECT_TRUE(plan.following.by_half_steps);
+  EXPECT_NE(plan.word.find("half as long"), std::string::npos);
+  // What is found so is what the formula of this case says, to the interpolation of its wind.
+  std::vector<std::size_t> points;
+  for (std::size_t i = 0; i < 40; ++i) points.push_back((2 * i + 1) * parts.evaluation.size() / 80);
+  std::vector<double> by_steps, exact;
+  make_reference(scene, parts, 0, plan.following)->evaluate_at(scene.output.times.back(), points, by_steps);
+  make_reference(wind, parts, 0)->evaluate_at(scene.output.times.back(), points, exact);
+  double largest = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) largest = std::max(largest, std::abs(by_steps[i] - exact[i]));
+  EXPECT_LT(largest, 1e-2);  // 1e-4 in a place of the wind times slopes of 20 at the edge of the spiral
+  // Asked for, it is measured.
+  scene.reference.points = 20;
+  EXPECT_EQ(plan_comparison(scene, parts, 100, 0).points, 20u);
+  EXPECT_FALSE(plan_comparison(scene, parts, 100, 0).following.by_half_steps);
+}
+
+TEST(PointsCompared, AreMeasuredWhereACheckAsksForThem) {
+  Case scene = built_in("rotating_cone", {"particles.per_axis=41"});
+  scene.velocity = {ExpressionVelocity{{"sin(1e6*x*y)", "cos(1e6*x*y)"}}};  // no path that could be followed
+  const Scene parts = make_scene(scene);
+  const auto plan = [&] { return plan_comparison(scene, parts, seed_scene(parts, 0).size(), 0); };
+  scene.output.images.clear();
+  scene.checks.clear();
+  EXPECT_EQ(plan().points, 0u);
+  EXPECT_NE(plan().left_out.find("reference.points = 64"), std::string::npos);
+  scene.checks.push_back({.what = CheckSpec::Quantity::mass, .max = 2});
+  EXPECT_EQ(plan().points, 0u);
+  scene.checks.push_back({.what = CheckSpec::Quantity::l1, .max = 2});
+  EXPECT_EQ(plan().points, 64u);
+  scene.checks.clear();
+  scene.accuracy.target = 0.1;
+  EXPECT_EQ(plan().points, 64u);
 }
 
 TEST(Budget, SaysWhatItDoesNotCover) {

@@ -71,13 +71,12 @@ TEST(Jump, OfAGriddedWindAtTheEdgeOfItsDataRuns) {
   data->times = {0};
   data->values = {{1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0}};
   Case scene = plane("u = [\"0\", \"0\"]");
-  scene.velocity = {FileVelocity{.file = "wind.vti",
-                                 .arrays = {},
-                                 .interpolation = "linear",
-                                 .outside = "zero",
-                                 .missing = "",
-                                 .missing_value = {},
-                                 .data = data}};
+  FileVelocity wind;
+  wind.file = "wind.vti";
+  wind.interpolation = "linear";
+  wind.outside = "zero";
+  wind.data = data;
+  scene.velocity = {wind};
   EXPECT_EQ(refusal(scene), "");
   EXPECT_EQ(Simulation(scene).run().warnings.size(), 1u);
 }

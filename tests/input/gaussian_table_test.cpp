@@ -190,7 +190,7 @@ TEST_F(GaussianTables, GetThePromisedMessages) {
            {"gaussians = \"commented.csv\"",
             "commented.csv:7:1: the sample at (0, 0) stands in line 4 already, with different values"},
            {"gaussians = \"id.csv\"",
-            "id.csv:1:1: column \"id\" is not one of those that are wanted; the columns must be x,y,u,v"},
+            "id.csv:1:1: column \"id\" is not one of those that are wanted; the columns must be x,y,u,v: remove it"},
            {"gaussians = \"blanks.csv\"",
             "blanks.csv:1:1: names are separated by blanks in \"x y u v\"; separate names and numbers by commas, as in "
             "x,y,u,v"},

@@ -40,6 +40,13 @@ TEST(Explain, NamesTheWordThatWasMeant) {
   EXPECT_EQ(gaussdrift_in(folder, "explain overlap --schema").exit_code, 2);
 }
 
+TEST(Explain, SaysWhatIsPossibleInPlaceOfWordsOfOtherPrograms) {
+  const ScratchFolder folder;
+  EXPECT_NE(gaussdrift_in(folder, "explain periodic").err.find("the domain is not periodic"), std::string::npos);
+  EXPECT_NE(gaussdrift_in(folder, "explain sgn").err.find("write sign(a)"), std::string::npos);
+  EXPECT_NE(gaussdrift_in(folder, "explain effects").out.find("vortex goes with charge, remesh"), std::string::npos);
+}
+
 TEST(Explain, GivesTheSameAsJson) {
   const ScratchFolder folder;
   const auto one = nlohmann::json::parse(gaussdrift_in(folder, "explain overlap --json").out);

@@ -37,8 +37,8 @@ TEST(WrittenDensities, HaveTheTimesOfTheirFiles) {
   fs::remove(folder / run / "density.pvd");
   EXPECT_EQ(times_compared(folder, run, run), (std::vector<double>{0.25, 1}));
   const Outcome apart = gaussdrift_in(folder, "compare " + run + "/density/density_0000.vti " + last);
-  EXPECT_EQ(apart.exit_code, 6);
-  EXPECT_NE(apart.err.find("at t = 0.25 in the one and at t = 1 in the other"), std::string::npos) << apart.err;
+  EXPECT_EQ(apart.exit_code, 0);  // two files may be compared whatever their times: has it come back?
+  EXPECT_NE(apart.err.find("density_0000.vti is at t = 0.25, " + last + " at t = 1"), std::string::npos) << apart.err;
 }
 
 TEST(WrittenDensities, AreInTheOrderOfTheirNumbersAndDrawnUnderThem) {

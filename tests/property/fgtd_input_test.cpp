@@ -189,6 +189,29 @@ TEST(FgtdMemory, AutomaticTakesAMethodThatFits) {
   EXPECT_THROW(fgtd::Plan<3>(sources, weights, 2.0, options), fgtd::MemoryLimitError);
 }
 
+TEST(FgtdTime, IsRefusedBeforeTheWorkBegins) {
+  Arguments arguments;
+  for (const fgtd::Method method : fgtd::methods()) {
+    arguments.options = {.tolerance = 1e-3, .method = method};
+    const fgtd::Choice choice = arguments.plan().choice();
+    arguments.options.most_seconds = choice.seconds;
+    EXPECT_NO_THROW(arguments.plan()) << fgtd::to_string(method);
+    arguments.options.most_seconds = choice.seconds / 2;
+    try {
+      arguments.plan();
+      ADD_FAILURE() << fgtd::to_string(method);
+    } catch (const fgtd::TimeLimitError& error) {
+      EXPECT_EQ(error.seconds, choice.seconds);
+      EXPECT_EQ(error.method, choice.method);
+      EXPECT_EQ(std::string(error.what()).rfind("fgtd: " + fgtd::to_string(choice.method) + " would take about 1 s", 0),
+                0u)
+          << error.what();
+    }
+  }
+  arguments.options = {.most_seconds = nan};
+  EXPECT_EQ(refusal(arguments), "fgtd: Options::most_seconds = nan, must be at least 0");
+}
+
 TEST(FgtdMemory, DoesNotDependOnSigma) {
   const auto sources = naive::random_points<3>(100, 46);
   const Eigen::MatrixXd weights = Eigen::MatrixXd::Ones(100, 1);

@@ -113,6 +113,68 @@ TEST(Characteristics, FollowAGrowthThatDependsOnPlaceAndTime) {
   EXPECT_LT(largest_difference(rho, exact), 2.2e-16);  // exp of a polynomial along a straight way: rounding alone
 }
 
+// Backwards u = -k (x - 1/2) flees from the domain like e^kt. Steps of a quarter of the domain would be 10^40; half of
+// the way back is a few hundred.
+TEST(Characteristics, FleeFromTheDomainInFewSteps) {
+  const ExpressionField sink({"-1000*(x-0.5)", "0"}, {});
+  const auto density = written("exp(-8*((x-0.5)^2+y^2))");
+  const Lattice grid = make_lattice(2, {}, {1, 1, 0}, 8);
+  const ScalarRate divergence = [](double, const PointsView& x, double* values) {
+    for (std::size_t i = 0; i < x.count; ++i) values[i] -= 1000;
+  };
+  const auto reference = characteristics(sink, density, divergence, grid, {.steady = true, .end = 0.2});
+  std::vector<double> rho;
+  const ReferenceReport report = reference->evaluate(0.2, rho);
+  EXPECT_EQ(report.untraced, 0u);
+  EXPECT_LT(report.rates, 64u * 12 * 2000);
+  for (const double value : rho) EXPECT_EQ(value, 0);
+  // Near the middle there is something still, e^3 times as much on an interval e^3 times as narrow.
+  const Lattice near = make_lattice(2, {0.49, 0, 0}, {0.51, 0.02, 0}, 9);
+  characteristics(sink, density, divergence, near, {.steady = true, .end = 0.003})->evaluate(0.003, rho);
+  EXPECT_LT(largest_difference(rho, sampled(near,
+                                            [](double x, double y, double) {
+                                              const double from = (x - 0.5) * std::exp(3.0);
+                                              return std::exp(3.0 - 8 * (from * from + y * y));
+                                            })),
+            1e-8);
+}
+
+// By fixed steps, as through kinks where exact paths are too dear: of the order of the method.
+TEST(Characteristics, FollowPathsByFixedStepsToo) {
+  const ExpressionField rotation({"-y", "x"}, {});
+  const auto density = written(hill);
+  const Lattice grid = lattice(15);
+  const ScalarRate decay = [](double, const PointsView& x, double* values) {
+    for (std::size_t i = 0; i < x.count; ++i) values[i] += 0.5;
+  };
+  std::vector<double> exact, rho;
+  characteristics(rotation, density, decay, grid, {.steady = true, .end = 2})->evaluate(2, exact);
+  std::vector<double> errors;
+  for (const double step : {0.2, 0.1}) {
+    const auto reference =
+        characteristics(rotation, density, decay, grid,
+                        {.steady = true, .end = 2, .steps_by = &time::find_tableau("rk4"), .step = step});
+    const ReferenceReport first = reference->evaluate(1, rho), second = reference->evaluate(2, rho);
+    EXPECT_EQ(first.rates + second.rates, grid.size() * 4 * static_cast<std::size_t>(std::lround(2 / step)));
+    EXPECT_EQ(second.untraced, 0u);
+    errors.push_back(largest_difference(rho, exact));
+  }
+  EXPECT_NEAR(std::log2(errors[0] / errors[1]), 4, 0.3);
+  // Points do not see each other: what leaves the known is lost alone.
+  const ExpressionField half({"x < 0 ? sqrt(-1-x^2) : 1", "0"}, {});
+  const auto lost =
+      characteristics(half, density, {}, grid, {.end = 0.5, .steps_by = &time::find_tableau("rk4"), .step = 0.01});
+  const ReferenceReport report = lost->evaluate(0.5, rho);
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const bool gone = grid.coordinate(0, i % grid.points[0]) < 0.5;
+    expected += gone;
+    EXPECT_EQ(std::isnan(rho[i]), gone) << i;
+  }
+  EXPECT_EQ(report.untraced, expected);
+  EXPECT_FALSE(report.trouble.empty());
+}
+
 TEST(Characteristics, HoldAVastGrowthWithoutOverflowWhereThereIsNothing) {
   const ExpressionField rest({"0", "0"}, {});
   const RadialDensity disk(RadialDensity::Profile::disk, 2, {}, 0.5, 1);
