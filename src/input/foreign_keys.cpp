@@ -119,6 +119,8 @@ constexpr ForeignKey list[] = {
 
 }  // namespace
 
+std::span<const ForeignKey> foreign_keys() { return list; }
+
 const ForeignKey* find_foreign_key(std::string_view word) {
   std::string bare;
   for (const char c : word)

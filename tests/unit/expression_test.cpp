@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "expression/foreign_names.hpp"
+
 namespace gaussdrift {
 namespace {
 
@@ -281,6 +283,31 @@ TEST(Expression, RefusesWithPlaceAndRemedy) {
       EXPECT_EQ(error.length(), refusal.length) << refusal.text;
     }
   }
+}
+
+// What is offered in place of a foreign word is a formula that is taken.
+TEST(Expression, OffersFormulasThatItTakes) {
+  const std::vector<std::string> names{"a", "b", "low", "high", "condition"};
+  int offered = 0;
+  for (const char* word :
+       {"sgn",     "signum",  "if",      "iif",    "ifelse",    "where",  "select",  "piecewise", "heaviside",
+        "step",    "fabs",    "sqr",     "square", "power",     "arcsin", "arccos",  "arctan",    "arctan2",
+        "arcsinh", "arccosh", "arctanh", "sec",    "csc",       "cot",    "lg",      "exp2",      "expm1",
+        "log1p",   "erfc",    "fmod",    "rem",    "remainder", "fmin",   "minimum", "fmax",      "maximum",
+        "clamp",   "clip",    "int",     "trunc",  "rint",      "norm",   "radians", "deg2rad",   "degrees",
+        "rad2deg", "avg",     "sum",     "not"}) {
+    std::string text(expression::instead_of_function(word));
+    ASSERT_FALSE(text.empty()) << word;
+    EXPECT_FALSE(is_reserved_name(word)) << word << " is a function here";
+    const std::size_t write = text.find("write "), written = text.find("written ");
+    text = write == 0 ? text.substr(6) : text.substr(written + 8);
+    for (std::size_t end = 0; !text.empty(); text = end == std::string::npos ? "" : text.substr(end + 4)) {
+      end = text.find(" or ");
+      EXPECT_NO_THROW(Expression(text.substr(0, end), names, {})) << word << ": " << text;
+      ++offered;
+    }
+  }
+  EXPECT_GT(offered, 50);
 }
 
 // A parameter may have the name of a word that is refused where it is not known.
