@@ -255,9 +255,9 @@ std::string to_text(const Case& scene, const Description& r) {
   text += fmt::format("velocity   {}\n", r.velocity);
   for (const std::string& warning : r.step_warnings) text += fmt::format("           {}\n", warning);
   text += fmt::format("density    {}\n", r.initial_density);
-  text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight\n",
+  text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight{}\n",
                       grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
-                      scene.particles.cutoff, grouped(r.particles));
+                      scene.particles.cutoff, grouped(r.particles), r.seeding.carried.size() > 1 ? " or charge" : "");
   if (r.seeding.left_out > 0)
     text += fmt::format(
         "           {} with less than {:g} of the largest weight are left out: {:.1e} of the mass{} "

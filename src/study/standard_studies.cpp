@@ -39,6 +39,13 @@ auto cheapest_below(SomeExperiment& experiment, double error) {
   return best;
 }
 
+/// The conclusion where no run has an error.
+std::string no_error(const Experiment& experiment) {
+  return experiment.samples.empty()
+             ? "Nothing was run."
+             : fmt::format("No run has an error to tell: {}.", experiment.samples.front().failure);
+}
+
 }  // namespace
 
 Experiment study_transform(const Case& scene, int threads, double seconds) {
@@ -397,7 +404,6 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   finish(experiment, scene);
   if (left_out > 0)
     experiment.notes.push_back(fmt::format("{} combinations were left out to keep to the time", left_out));
-  experiment.notes.push_back("for a smooth density the error falls with the cutoff's order in per_axis: 2, 4, 6, 8");
   const Sample *best = nullptr, *now = nullptr;
   for (const Sample& sample : experiment.samples) {
     if (!sample.failure.empty()) continue;
@@ -415,6 +421,9 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
           fmt::format("; the case's own {:.2g} can be had with {} in {:.2g} instead of {:.2g} s", now->error,
                       settings_of(*same, experiment.keys), same->seconds, now->seconds);
     experiment.conclusion += ".";
+    experiment.notes.push_back("for a smooth density the error falls with the cutoff's order in per_axis: 2, 4, 6, 8");
+  } else {
+    experiment.conclusion = no_error(experiment);
   }
   return experiment;
 }
@@ -475,7 +484,7 @@ Experiment study_whole(const Case& scene, const StudyOptions& options, double se
     if (same && same != &experiment.samples.front())
       experiment.conclusion += fmt::format(", and {:.2g} can be had in {:.2g} s", same->error, same->seconds);
   }
-  experiment.conclusion += ".";
+  experiment.conclusion = experiment.conclusion.empty() ? no_error(experiment) : experiment.conclusion + ".";
   return experiment;
 }
 

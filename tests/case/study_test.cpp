@@ -96,6 +96,24 @@ TEST(Study, VariesKeysAndKeepsWhatCannotRun) {
   EXPECT_NE(stiff.experiments[0].samples[1].failure.find("amplifies a pure rotation"), std::string::npos);
 }
 
+// A cone that has been blown out of the domain at the end: no lattice and no target changes that.
+TEST(Study, ConcludesNothingFromRunsWithNothingLeft) {
+  const Case blown =
+      input::parse_case(
+          "gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\nu = [\"1\", \"0\"]\n"
+          "[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\nper_axis = 20\n"
+          "[time]\nend = 2\nstep = 0.1\n[evaluate]\nper_axis = 11\n[output]\ntimes = [2]\nimages = []\n",
+          "blown.toml", {})
+          .scene;
+  StudyOptions options;
+  options.repeats = 0;
+  for (const Experiment& experiment : {study_lattice(blown, options, 0.1), study_whole(blown, options, 0.1)}) {
+    EXPECT_EQ(experiment.conclusion,
+              "No run has an error to tell: nothing is left to compare (all of the mass has left the domain).");
+    for (const std::string& note : experiment.notes) EXPECT_EQ(note.find("smooth"), std::string::npos) << note;
+  }
+}
+
 TEST(Study, RefusesWhatItCannotVary) {
   StudyOptions options;
   options.file = cases + "decay.toml";
