@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "base/error.hpp"
@@ -191,16 +192,20 @@ Affordable affordable_paths(const Case& description, const Scene& scene, double 
     const double bound = allowed / (8 * rate * static_cast<double>(tried * stages));
     const auto most = static_cast<std::size_t>(std::clamp(bound, 16.0, static_cast<double>(usual)));
     std::vector<std::size_t> points;
-    for (std::size_t i = 0; i < tried; ++i) points.push_back((2 * i + 1) * whole / (2 * tried));
+    // By the golden ratio: an even stride may meet one column of the grid alone.
+    for (std::size_t i = 0; i < tried; ++i) {
+      const double along = std::fmod((static_cast<double>(i) + 0.5) * std::numbers::phi, 1.0);
+      points.push_back(std::min(whole - 1, static_cast<std::size_t>(along * static_cast<double>(whole))));
+    }
     std::vector<double> ignored;
     const ReferenceReport trial =
         make_reference(description, scene, threads, {.most_steps = most})->evaluate_at(last, points, ignored);
     if (most < usual && 2 * trial.exhausted > tried) continue;
     found.work = rate * static_cast<double>(trial.rates) / static_cast<double>(tried);
     found.points = points_for(found.work);
-    // No path may take far more than these did.
-    const std::size_t steps = trial.rates / (tried * stages);
-    found.following.most_steps = most < usual ? std::min(usual, std::max<std::size_t>(200, 16 * steps)) : usual;
+    // No path may take far more than these did: a block of 256 takes the steps of its worst, one through kinks its own.
+    const std::size_t steps = trial.rates / (tried * stages), times = has_smooth_paths(scene) ? 16 : 4;
+    found.following.most_steps = most < usual ? std::min(usual, std::max<std::size_t>(200, times * steps)) : usual;
     break;
   }
   const time::Tableau& tableau = time::find_tableau(description.time.method);

@@ -101,9 +101,10 @@ double time_steps(const Case& description, Carrier& carrier, const Particles& pa
 }
 
 // Seconds of the reference of all outputs, from tracing some points spread over the grid to the last one.
-double time_reference(const Case& description, const Scene& scene, std::size_t all, int threads) {
+double time_reference(const Case& description, const Scene& scene, const Comparison& compared, int threads) {
+  const std::size_t all = compared.points;
   if (all == 0) return 0;
-  const auto reference = make_reference(description, scene, threads);
+  const auto reference = make_reference(description, scene, threads, compared.following);
   const auto& times = description.output.times;
   const std::size_t most = has_smooth_paths(scene) ? 2048 : 24;
   std::vector<std::size_t> points;
@@ -208,10 +209,10 @@ Description describe(const Case& description, int threads) {
     predict_chosen_steps(description, scene, particles, threads, result);
   else
     result.step_seconds = time_steps(description, carrier, particles);
-  const std::size_t compared_points = description.reference.kind == ReferenceSpec::Kind::none
-                                          ? 0
-                                          : plan_comparison(description, scene, particles.size(), threads).points;
-  result.reference_seconds = time_reference(description, scene, compared_points, threads);
+  const Comparison plan = plan_comparison(description, scene, particles.size(), threads);
+  const std::size_t compared_points = plan.points;
+  result.reference = plan.left_out.empty() ? plan.word : plan.left_out;
+  result.reference_seconds = time_reference(description, scene, plan, threads);
   result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
 
   const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
@@ -268,6 +269,7 @@ std::string to_text(const Case& scene, const Description& r) {
     text += fmt::format("           {}\n", beyond);
   text += fmt::format("effects    {}\n", effects_text(r.effects));
   for (const std::string& warning : r.effect_warnings) text += fmt::format("           {}\n", warning);
+  if (!r.reference.empty()) text += fmt::format("reference  {}\n", r.reference);
   text += fmt::format("transform  {}\n", r.density.choice);
   text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n",
                       scene.evaluate.tolerance, r.density.measured_error, r.density.sample);
@@ -301,6 +303,7 @@ std::string to_json(const Case& scene, const Description& r) {
                                         {"velocity", r.velocity},
                                         {"density", r.initial_density},
                                         {"reference", to_string(scene.reference.kind)},
+                                        {"reference_paths", r.reference},
                                         {"largest_speed", r.largest_speed},
                                         {"largest_divergence", r.largest_divergence},
                                         {"effects", effects},

@@ -15,6 +15,7 @@ struct Description {
   std::string velocity;                      // formula
   std::string initial_density;               // formula, smoothness, mass where it is known
   std::vector<std::string> effects;          // beside transport, their equations
+  std::string reference;                     // why there is none, or what is not exact about it; empty: nothing
   std::vector<std::string> step_warnings;    // what is not exact about the steps
   std::vector<std::string> effect_warnings;  // what is not exact about them here
   double largest_speed = 0;                  // of |u| at the particles, over sampled times
