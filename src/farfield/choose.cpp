@@ -12,17 +12,13 @@
 namespace farfield::detail {
 namespace {
 
-/// The promise is about the root of the sum of squares over all targets. The error of one charge at one target is as
-/// large as the table says at the corners of clusters that face each other only, and where the sources are the targets
-/// a charge's neighbours see it exactly: the whole is smaller by more than this factor, 148 in 3D and 46 in 2D in the
-/// worst of the cases that the tests try (docs/farfield.md). Targets elsewhere may all lie in such corners.
-template <int d>
-constexpr double of_the_whole = d == 3 ? 16 : 4;
+/// What the core of a blob that is taken for a point may cost, of the tolerance.
+double core_share(const Problem& problem) { return problem.interaction == Interaction::blob ? 0.1 : 0; }
 
-/// exp(-r^2/eps^2) is below a tenth of the tolerance at the smallest distance of clusters that are coupled.
+/// exp(-r^2/eps^2) is below that share at the smallest distance of clusters that are coupled.
 double smallest_side(const Problem& problem, double tolerance) {
   if (problem.interaction != Interaction::blob) return 0;
-  return std::sqrt(std::log(10 / tolerance) / problem.inverse_squared_core);
+  return std::sqrt(std::log(1 / (core_share(problem) * tolerance)) / problem.inverse_squared_core);
 }
 
 template <int d>
@@ -48,15 +44,18 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   const bool any = options.method == Method::automatic;
   if (options.method == Method::direct) return direct();
 
-  const double gain = problem.self ? of_the_whole<d> : 1, smallest = Degrees<d>::smallest_error() / gain;
+  // The table holds the largest error of one charge at one target, so the promise holds for every target and charge.
+  const double kept = 1 - core_share(problem),
+               smallest = (Degrees<d>::smallest_error() + substitution_error(Precision::full)) / kept;
   if (options.tolerance < smallest) {
     if (any) return direct();
     throw ToleranceError("farfield: Options::tolerance = " + text(options.tolerance) + " cannot be promised by " +
                          to_string(options.method) + " here, must be at least " + text(smallest) +
                          "; leave the method to auto or direct");
   }
-  const Degrees<d> degrees(options.tolerance * gain);
   const Precisions precisions = precisions_for(options.tolerance, problem.interaction);
+  const Degrees<d> degrees(options.tolerance * kept,
+                           options.tolerance * kept - substitution_error(precisions.substitutes));
   const Costs<d> costs(problem, degrees, precisions);
   if (any && problem.sources + problem.targets < 1000) return direct();  // nothing to be gained, not even by floats
 
@@ -86,7 +85,10 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   choice.seconds = prediction->seconds;
   check_seconds(choice.method, choice.seconds, options.most_seconds);
   choice.degree = degrees.highest;
-  choice.bound = std::max({degrees.error / gain, error_of(precisions.points), 10 * error_of(precisions.substitutes)});
+  choice.bound =
+      std::max(std::max(degrees.error, degrees.one_sided_error + substitution_error(precisions.substitutes)) +
+                   core_share(problem) * options.tolerance,
+               error_of(precisions.points));
   choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction->leaf_size;
   choice.clusters = tree.clusters().size();
   choice.levels = static_cast<int>(tree.levels());

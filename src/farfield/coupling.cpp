@@ -77,7 +77,7 @@ Coupling make_coupling(const Interpolation<d>& interpolation, const int* k) {
     }
     const std::size_t size = block.functions.size();
     if (size == 0) continue;
-    block.matrix.assign(size * size, 0.0);
+    block.matrix.assign(size * size + padding, 0.0);
     for (std::size_t to = 0; to < parities.size(); ++to) {
       const std::size_t columns = interpolation.functions_of(parities[to]).size();
       if (columns == 0) continue;
@@ -85,7 +85,7 @@ Coupling make_coupling(const Interpolation<d>& interpolation, const int* k) {
         const std::size_t rows = interpolation.functions_of(parities[from]).size();
         if (rows == 0) continue;
         // half[a... of the target][j] is needed transposed: first by j, then the sum over j
-        half.assign(octant * columns, 0.0);
+        half.assign(octant * columns + padding, 0.0);
         fastest_kernels().product({.rows = octant,
                                    .depth = octant,
                                    .width = columns,

@@ -74,28 +74,121 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return sum;
 }
 
-/// Largest error at the targets (k away) of the expansion of one charge at y.
+/// The field of one charge at y, expanded around the cluster of targets, k away.
 template <int d>
-double error_of_expansion(int degree, const std::vector<double>& coefficients, const std::vector<Point<d>>& targets,
-                          const std::vector<std::vector<double>>& values, const int* k, const Point<d>& y) {
-  std::vector<double> slope[d];
-  double* pointers[d];
-  for (int l = 0; l < d; ++l) {
-    slope[l].resize(coefficients.size());
-    pointers[l] = slope[l].data();
-  }
-  differentiate<d>(degree, coefficients.data(), pointers);
-  double worst = 0;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    Point<d> gradient, x = targets[i], difference;
-    for (std::size_t l = 0; l < d; ++l) {
-      gradient[l] = stretch * dot(slope[l], values[i]);
-      x[l] += k[l];
+class Expansion {
+ public:
+  Expansion(int degree, std::vector<double> coefficients, const int* k, const Point<d>& y)
+      : degree_(degree), coefficients_(std::move(coefficients)), k_(k), y_(y) {
+    double* pointers[d];
+    for (int l = 0; l < d; ++l) {
+      slope_[l].resize(coefficients_.size());
+      pointers[l] = slope_[l].data();
     }
-    const double r = distance<d>(x, y, difference);
-    worst = std::max(worst, relative_error<d>(dot(coefficients, values[i]), gradient, difference, r));
+    differentiate<d>(degree_, coefficients_.data(), pointers);
   }
-  return worst;
+
+  /// At the target x, whose harmonics are `values`.
+  double error(Point<d> x, const std::vector<double>& values) const {
+    Point<d> gradient, difference;
+    for (std::size_t l = 0; l < d; ++l) {
+      gradient[l] = stretch * dot(slope_[l], values);
+      x[l] += k_[l];
+    }
+    const double r = distance<d>(x, y_, difference);
+    return relative_error<d>(dot(coefficients_, values), gradient, difference, r);
+  }
+  double error(const Point<d>& x) const { return error(x, harmonics_at<d>(degree_, x)); }
+
+ private:
+  int degree_;
+  std::vector<double> coefficients_, slope_[d];
+  const int* k_;
+  Point<d> y_;
+};
+
+template <int d>
+Expansion<d> coupled(const Coupling& coupling, const int* k, const Point<d>& y) {
+  const std::vector<double> moments = harmonics_at<d>(coupling.degree, y);
+  std::vector<double> coefficients(moments.size());
+  for (const auto& block : coupling.blocks) {
+    const std::size_t size = block.functions.size();
+    for (std::size_t b = 0; b < size; ++b)
+      for (std::size_t a = 0; a < size; ++a)
+        coefficients[block.functions[a]] += block.matrix[b * size + a] * moments[block.functions[b]];
+  }
+  return {coupling.degree, std::move(coefficients), k, y};
+}
+
+/// The potential of a charge at y fitted in the cube around the origin.
+template <int d>
+Expansion<d> fitted(const Interpolation<d>& interpolation, const Point<d>& y) {
+  static constexpr int here[3] = {};
+  std::vector<double> at_nodes(interpolation.nodes()), coefficients(functions<d>(interpolation.degree()));
+  for (std::size_t s = 0; s < Interpolation<d>::reflections; ++s)
+    for (std::size_t i = 0; i < interpolation.octant(); ++i) {
+      Point<d> x, difference;
+      for (std::size_t l = 0; l < d; ++l) x[l] = interpolation.node(s, i, l);
+      const double r = distance<d>(x, y, difference);
+      at_nodes[s * interpolation.octant() + i] = d == 3 ? 1 / r : std::log(r);
+    }
+  interpolation.fit(at_nodes.data(), coefficients.data());
+  return {interpolation.degree(), std::move(coefficients), here, y};
+}
+
+/// Onto the surface of a cube three times as large: at distance 1 from the cube, nearest points included.
+template <int d>
+Point<d> around_cube(Point<d> y) {
+  double largest = 0;
+  for (const double x : y) largest = std::max(largest, std::abs(x));
+  for (double& x : y) x *= largest > 0 ? 1.5 / largest : 0;
+  if (largest == 0) y[0] = 1.5;
+  return y;
+}
+
+/// Largest error over sources y and targets x in the unit cube; expansion(y) makes that of a source. The search starts
+/// at samples and climbs from the worst of them: one coordinate after the other, by steps that are halved.
+template <int d, class Make>
+double largest_error(int degree, int samples, unsigned seed, bool climb, const Make& expansion) {
+  const auto sources = samples_of_cube<d>(samples, seed), targets = samples_of_cube<d>(samples, seed + 1);
+  std::vector<std::vector<double>> values;
+  for (const auto& x : targets) values.push_back(harmonics_at<d>(degree, x));
+  struct Start {
+    double error;
+    Point<d> x, y;
+  };
+  std::vector<Start> starts;
+  for (const auto& y : sources) {
+    const Expansion<d> expanded = expansion(y);
+    Start worst{-1, {}, y};
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      const double error = expanded.error(targets[i], values[i]);
+      if (error > worst.error) worst = {error, targets[i], y};
+    }
+    starts.push_back(worst);
+  }
+  std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.error > b.error; });
+  double largest = starts.front().error;
+  if (!climb) return largest;
+  starts.resize(std::min<std::size_t>(starts.size(), 4));
+  for (Start& at : starts) {
+    for (double step = 0.1; step > 0.004; step /= 2)
+      for (bool moved = true; moved;) {
+        moved = false;
+        for (int l = 0; l < 2 * d; ++l)
+          for (const double sign : {-1.0, 1.0}) {
+            Start next = at;
+            double& moving = l < d ? next.x[static_cast<std::size_t>(l)] : next.y[static_cast<std::size_t>(l - d)];
+            moving = std::clamp(moving + sign * step, -0.5, 0.5);
+            next.error = expansion(next.y).error(next.x);
+            if (!(next.error > at.error * 1.0001)) continue;
+            at = next;
+            moved = true;
+          }
+      }
+    largest = std::max(largest, at.error);
+  }
+  return largest;
 }
 
 }  // namespace
@@ -118,58 +211,23 @@ std::vector<std::array<int, 3>> offset_classes<3>() {
 }
 
 template <int d>
-double measure_pair_error(const Interpolation<d>& interpolation, const int* k, int samples, unsigned seed) {
+double measure_pair_error(const Interpolation<d>& interpolation, const int* k, int samples, unsigned seed, bool climb) {
   const Coupling coupling = make_coupling<d>(interpolation, k);
-  const auto sources = samples_of_cube<d>(samples, seed), targets = samples_of_cube<d>(samples, seed + 1);
-  std::vector<std::vector<double>> values;
-  for (const auto& x : targets) values.push_back(harmonics_at<d>(interpolation.degree(), x));
-  double worst = 0;
-  for (const auto& y : sources) {
-    const std::vector<double> moments = harmonics_at<d>(interpolation.degree(), y);
-    std::vector<double> coefficients(moments.size());
-    for (const auto& block : coupling.blocks) {
-      const std::size_t size = block.functions.size();
-      for (std::size_t b = 0; b < size; ++b)
-        for (std::size_t a = 0; a < size; ++a)
-          coefficients[block.functions[a]] += block.matrix[b * size + a] * moments[block.functions[b]];
-    }
-    worst = std::max(worst, error_of_expansion<d>(interpolation.degree(), coefficients, targets, values, k, y));
-  }
-  return worst;
+  return largest_error<d>(interpolation.degree(), samples, seed, climb,
+                          [&](const Point<d>& y) { return coupled<d>(coupling, k, y); });
 }
 
 // By symmetry the error of interpolated targets in the field of one charge; the field's is the larger one there, since
 // differentiating the interpolant costs accuracy that the kernel's own derivative does not.
 template <int d>
-double measure_one_sided_error(const Interpolation<d>& interpolation, int samples, unsigned seed) {
-  const auto targets = samples_of_cube<d>(samples, seed), around = samples_of_cube<d>(samples, seed + 1);
-  std::vector<std::vector<double>> values;
-  for (const auto& x : targets) values.push_back(harmonics_at<d>(interpolation.degree(), x));
-  const int k[3] = {};
-  double worst = 0;
-  for (Point<d> y : around) {
-    // at distance 1 from the cube: onto the surface of a cube three times as large, nearest points included
-    double largest = 0;
-    for (const double x : y) largest = std::max(largest, std::abs(x));
-    if (largest == 0) continue;
-    for (double& x : y) x *= 1.5 / largest;
-    std::vector<double> at_nodes(interpolation.nodes()), coefficients(functions<d>(interpolation.degree()));
-    for (std::size_t s = 0; s < Interpolation<d>::reflections; ++s)
-      for (std::size_t i = 0; i < interpolation.octant(); ++i) {
-        Point<d> x, difference;
-        for (std::size_t l = 0; l < d; ++l) x[l] = interpolation.node(s, i, l);
-        const double r = distance<d>(x, y, difference);
-        at_nodes[s * interpolation.octant() + i] = d == 3 ? 1 / r : std::log(r);
-      }
-    interpolation.fit(at_nodes.data(), coefficients.data());
-    worst = std::max(worst, error_of_expansion<d>(interpolation.degree(), coefficients, targets, values, k, y));
-  }
-  return worst;
+double measure_one_sided_error(const Interpolation<d>& interpolation, int samples, unsigned seed, bool climb) {
+  return largest_error<d>(interpolation.degree(), samples, seed, climb,
+                          [&](const Point<d>& y) { return fitted<d>(interpolation, around_cube<d>(y)); });
 }
 
-template double measure_pair_error<2>(const Interpolation<2>&, const int*, int, unsigned);
-template double measure_pair_error<3>(const Interpolation<3>&, const int*, int, unsigned);
-template double measure_one_sided_error<2>(const Interpolation<2>&, int, unsigned);
-template double measure_one_sided_error<3>(const Interpolation<3>&, int, unsigned);
+template double measure_pair_error<2>(const Interpolation<2>&, const int*, int, unsigned, bool);
+template double measure_pair_error<3>(const Interpolation<3>&, const int*, int, unsigned, bool);
+template double measure_one_sided_error<2>(const Interpolation<2>&, int, unsigned, bool);
+template double measure_one_sided_error<3>(const Interpolation<3>&, int, unsigned, bool);
 
 }  // namespace farfield::detail

@@ -17,12 +17,12 @@ template <int d>
 std::vector<std::array<int, 3>> offset_classes();
 
 /// Largest error, relative to |field| and |potential| of the pair (in 2D the potential's to 1), over `samples` points
-/// in each cluster, corners and edges among them.
+/// in each cluster, corners and edges among them. With `climb` the search goes on uphill from the worst of them.
 template <int d>
-double measure_pair_error(const Interpolation<d>& interpolation, const int* k, int samples, unsigned seed);
+double measure_pair_error(const Interpolation<d>& interpolation, const int* k, int samples, unsigned seed, bool climb);
 
 /// The same with the sources alone interpolated, for targets at a distance of 1 or more.
 template <int d>
-double measure_one_sided_error(const Interpolation<d>& interpolation, int samples, unsigned seed);
+double measure_one_sided_error(const Interpolation<d>& interpolation, int samples, unsigned seed, bool climb);
 
 }  // namespace farfield::detail

@@ -7,6 +7,7 @@ namespace farfield::detail {
 namespace {
 
 constexpr std::size_t substitutes_together = 1024;
+constexpr double substitutes_larger = 10;
 
 /// Largest distance along an axis of some points from a centre.
 template <int d>
@@ -46,8 +47,10 @@ Precisions precisions_for(double tolerance, Interaction interaction) {
       if (loss * error_of(precision) <= tolerance) return precision;
     return Precision::full;
   };
-  return {best(1), best(10), point_beyond};
+  return {best(1), best(4 * substitutes_larger), point_beyond};
 }
+
+double substitution_error(Precision precision) { return substitutes_larger * error_of(precision); }
 
 template <int d>
 PairsJob NearField<d>::job_for(const Cluster& leaf, Sums& sums) const {

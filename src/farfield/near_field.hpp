@@ -12,10 +12,13 @@ struct Precisions {
   double point_beyond;  // of PairsJob
 };
 
-/// What keeps a tolerance. Substitute charges may be ten times larger in all than the charges they stand for.
+/// What keeps a tolerance; substitution takes a quarter of it at most.
 Precisions precisions_for(double tolerance, Interaction interaction);
 /// Largest error of a sum relative to the sum of its terms' sizes.
 double error_of(Precision precision);
+/// What computing with substitute charges adds to the error of their interpolation: in all they may be ten times larger
+/// than the charges they stand for.
+double substitution_error(Precision precision);
 
 /// Everything in the order of the tree.
 template <int d>

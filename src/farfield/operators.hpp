@@ -14,14 +14,15 @@ namespace farfield::detail {
 /// the measured table.
 template <int d>
 struct Degrees {
-  /// `tolerable` is at least smallest_error().
-  explicit Degrees(double tolerable);
+  /// Of two clusters, and where one side alone is interpolated; at least smallest_error().
+  Degrees(double tolerable, double tolerable_one_sided);
   static double smallest_error();
 
   /// Of clusters |k_l| apart; 0 if they touch.
   int between(const int* k) const { return at_offset[octant_number<d>(k)]; }
 
-  double error = 0;  // the largest, at most the tolerable
+  double error = 0;            // the largest of two clusters, at most the tolerable
+  double one_sided_error = 0;  // the same where one side alone is interpolated
   int highest = 1;
   int one_sided = 1;
   int at_offset[octant_offsets<d>] = {};

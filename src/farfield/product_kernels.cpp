@@ -5,21 +5,14 @@
 namespace farfield::detail::FARFIELD_ISA {
 namespace {
 
-/// `rows` rows of C, `columns` vectors wide, of which the last has `valid` numbers.
+/// `rows` rows of C, `columns` vectors wide, of which the last has `valid` numbers. What is read of B beyond them is
+/// the next row or the padding; what comes of it is not stored.
 template <int rows, int columns>
 FARFIELD_INLINE void block(const ProductJob& job, const double* a, const double* b, double* c, std::size_t valid) {
   Vector sum[rows][columns] = {};
   for (std::size_t k = 0; k < job.depth; ++k) {
     Vector right[columns];
-    for (int v = 0; v < columns; ++v) {
-      const double* const from = b + k * job.b_stride + static_cast<std::size_t>(v) * lanes;
-      if (v + 1 < columns || valid == lanes) {
-        right[v] = load(from);
-      } else {
-        right[v] = Vector{};
-        for (std::size_t i = 0; i < valid; ++i) right[v][i] = from[i];
-      }
-    }
+    for (int v = 0; v < columns; ++v) right[v] = load(b + k * job.b_stride + static_cast<std::size_t>(v) * lanes);
     for (int i = 0; i < rows; ++i) {
       const double left = a[static_cast<std::size_t>(i) * job.a_stride + k];
       for (int v = 0; v < columns; ++v) sum[i][v] += right[v] * left;

@@ -105,7 +105,7 @@ TEST(FarfieldPartition, IsTheSameForATreeThatWasPruned) {
 
 template <int d>
 void expect_exact_transfer(double tolerable) {
-  const detail::Operators<d> operators(detail::Degrees<d>(tolerable), false, 1);
+  const detail::Operators<d> operators(detail::Degrees<d>(tolerable, tolerable), false, 1);
   const std::size_t count = operators.functions();
   std::vector<double> parent(count), child(count);
   naive::Random random(5);
@@ -140,18 +140,18 @@ TEST(FarfieldOperators, PolynomialsOfTheParentAreExactInTheChild) {
 /// Other samples than those of the table, which holds the largest error up to the safety factor of Degrees.
 TEST(FarfieldOperators, ErrorsAreAsTheTableSays) {
   for (const double tolerable : {1e-2, 1e-4, 1e-6}) {
-    const detail::Degrees<3> degrees(tolerable);
+    const detail::Degrees<3> degrees(tolerable, tolerable);
     EXPECT_LE(degrees.error, tolerable);
     for (const std::array<int, 3> k : {std::array{2, 0, 0}, std::array{2, 2, 1}, std::array{3, 3, 3}}) {
       const detail::Interpolation<3> interpolation(degrees.between(k.data()));
-      EXPECT_LE(detail::measure_pair_error<3>(interpolation, k.data(), 150, 77), tolerable);
+      EXPECT_LE(detail::measure_pair_error<3>(interpolation, k.data(), 150, 77, false), tolerable);
     }
-    const detail::Degrees<2> flat(tolerable);
+    const detail::Degrees<2> flat(tolerable, tolerable);
     for (const std::array<int, 3> k : {std::array{2, 0, 0}, std::array{3, 2, 0}}) {
       const detail::Interpolation<2> interpolation(flat.between(k.data()));
-      EXPECT_LE(detail::measure_pair_error<2>(interpolation, k.data(), 150, 77), tolerable);
+      EXPECT_LE(detail::measure_pair_error<2>(interpolation, k.data(), 150, 77, false), tolerable);
     }
-    EXPECT_LE(detail::measure_one_sided_error<2>(detail::Interpolation<2>(flat.one_sided), 150, 77), tolerable);
+    EXPECT_LE(detail::measure_one_sided_error<2>(detail::Interpolation<2>(flat.one_sided), 150, 77, false), tolerable);
   }
 }
 

@@ -20,8 +20,8 @@ void print() {
   for (int degree = 1; degree <= table_degrees<d>; ++degree) {
     const Interpolation<d> interpolation(degree);
     for (std::size_t c = 0; c < offsets.size(); ++c)
-      table[c].push_back(measure_pair_error<d>(interpolation, offsets[c].data(), 250, 1));
-    table.back().push_back(measure_one_sided_error<d>(interpolation, 250, 1));
+      table[c].push_back(measure_pair_error<d>(interpolation, offsets[c].data(), 250, 1, true));
+    table.back().push_back(measure_one_sided_error<d>(interpolation, 250, 1, true));
   }
   for (std::size_t c = 0; c < table.size(); ++c) {
     std::printf("    {");
