@@ -7,8 +7,8 @@ namespace farfield::detail {
 namespace {
 
 // Measured by tools/bench/bench_farfield on 3 GHz with AVX2.
-constexpr double multiplication = 0.13e-9;    // within a product of matrices
-constexpr double moved_number = 1.6e-9;       // gathered, scattered
+constexpr double multiplication = 0.07e-9;    // within a product of matrices
+constexpr double moved_number = 1.0e-9;       // gathered, scattered
 constexpr double function_at_point = 0.9e-9;  // moments; expansion of potential and field twice as much
 constexpr double sorted_point = 40e-9;        // on every level of the tree
 constexpr double listed_coupling = 60e-9;

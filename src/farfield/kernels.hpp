@@ -46,7 +46,7 @@ struct PairsJob {
   double* field[3];   // null: not wanted
 };
 
-/// C (rows x width) += A (rows x depth) B (depth x width), all row-major.
+/// C (rows x width) += A (rows x depth) B (depth x width), all row-major; B is readable `padding` numbers past its end.
 struct ProductJob {
   std::size_t rows, depth, width;
   const double* a;

@@ -5,6 +5,10 @@
 namespace farfield::detail::FARFIELD_ISA {
 namespace {
 
+constexpr int rows_together = lanes == 8 ? 8 : 4;  // as many sums as there are registers for
+constexpr int widest = 3;                          // vectors
+constexpr std::size_t deepest = 128;               // rows of B that stay in the first cache
+
 /// `rows` rows of C, `columns` vectors wide, of which the last has `valid` numbers. What is read of B beyond them is
 /// the next row or the padding; what comes of it is not stored.
 template <int rows, int columns>
@@ -29,30 +33,54 @@ FARFIELD_INLINE void block(const ProductJob& job, const double* a, const double*
     }
 }
 
+/// The rows that are left, fewer than `rows`.
+template <int rows, int columns>
+FARFIELD_INLINE void last_rows(const ProductJob& job, std::size_t count, const double* a, double* c,
+                               std::size_t valid) {
+  if constexpr (rows > 0) {
+    if (count == rows)
+      block<rows, columns>(job, a, job.b, c, valid);
+    else
+      last_rows<rows - 1, columns>(job, count, a, c, valid);
+  }
+}
+
 template <int columns>
-FARFIELD_INLINE void panel(const ProductJob& job, std::size_t first, std::size_t valid) {
-  const double* const b = job.b + first;
+FARFIELD_INLINE void panel(ProductJob job, std::size_t valid) {
+  constexpr std::size_t together = rows_together, width = columns * lanes;
+  alignas(64) double packed[deepest * width];  // B's rows may be pages apart
+  if (job.rows > together) {
+    for (std::size_t k = 0; k < job.depth; ++k)
+      for (std::size_t v = 0; v < width; v += lanes) store(packed + k * width + v, load(job.b + k * job.b_stride + v));
+    job.b = packed;
+    job.b_stride = width;
+  }
   std::size_t i = 0;
-  for (; i + 4 <= job.rows; i += 4)
-    block<4, columns>(job, job.a + i * job.a_stride, b, job.c + first + i * job.c_stride, valid);
-  const double* const a = job.a + i * job.a_stride;
-  double* const c = job.c + first + i * job.c_stride;
-  if (job.rows - i == 3) block<3, columns>(job, a, b, c, valid);
-  if (job.rows - i == 2) block<2, columns>(job, a, b, c, valid);
-  if (job.rows - i == 1) block<1, columns>(job, a, b, c, valid);
+  for (; i + together <= job.rows; i += together)
+    block<rows_together, columns>(job, job.a + i * job.a_stride, job.b, job.c + i * job.c_stride, valid);
+  last_rows<rows_together - 1, columns>(job, job.rows - i, job.a + i * job.a_stride, job.c + i * job.c_stride, valid);
 }
 
 }  // namespace
 
 void product(const ProductJob& job) {
-  std::size_t x = 0;
-  for (; x + 3 * lanes <= job.width; x += 3 * lanes) panel<3>(job, x, lanes);
-  const std::size_t rest = job.width - x;
-  if (rest == 0) return;
-  const std::size_t count = (rest + lanes - 1) / lanes, valid = rest - (count - 1) * lanes;
-  if (count == 1) panel<1>(job, x, valid);
-  if (count == 2) panel<2>(job, x, valid);
-  if (count == 3) panel<3>(job, x, valid);
+  for (std::size_t k = 0; k < job.depth; k += deepest)
+    for (std::size_t x = 0; x < job.width; x += widest * lanes) {
+      ProductJob part = job;
+      part.depth = job.depth - k < deepest ? job.depth - k : deepest;
+      part.a += k;
+      part.b += k * job.b_stride + x;
+      part.c += x;
+      const std::size_t rest = job.width - x;
+      if (rest >= widest * lanes) {
+        panel<widest>(part, lanes);
+        continue;
+      }
+      const std::size_t count = (rest + lanes - 1) / lanes, valid = rest - (count - 1) * lanes;
+      if (count == 1) panel<1>(part, valid);
+      if (count == 2) panel<2>(part, valid);
+      if (count == 3) panel<3>(part, valid);
+    }
 }
 
 }  // namespace farfield::detail::FARFIELD_ISA

@@ -84,8 +84,8 @@ TEST(FarfieldMethods, TheFieldAloneIsTheSameField) {
   }
 }
 
-// What is asked for is not far from what is paid for: unit charges in a cube have errors below the tolerance by less
-// than four digits.
+// Errors of unit charges in a cube mostly cancel, so they stay far below the tolerance; how near the worst charges come
+// to it is the matter of search_test.cpp. Here the error falls with the tolerance.
 TEST(FarfieldMethods, AchievedErrorFollowsTheTolerance) {
   const auto points = naive::cube<3>(4000, 11);
   const Eigen::VectorXd charges = Eigen::VectorXd::Ones(4000);
