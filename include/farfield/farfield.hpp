@@ -136,7 +136,7 @@ struct Choice {
   Kernel kernel = Kernel::coulomb;
   Method method = Method::direct;
   double tolerance = 0;  // what was asked for
-  double bound = 0;      // of what is promised, <= tolerance unless `direct`
+  double bound = 0;      // what the promise holds with in place of tolerance (see Plan); <= tolerance unless `direct`
   double seconds = 0;    // predicted for one evaluation and its share of the plan, one thread
   std::size_t sources = 0;
   std::size_t targets = 0;
@@ -158,13 +158,14 @@ template <int d>
 class Engine;
 }
 
-/// Sums for fixed points and any charges. What is promised, for every target set and all charges, with f~ the computed
-/// and f the exact field, phi the potential, norms over all targets i and sums over all sources j at r_ij > 0:
-///   ||f - f~||_2      <= tolerance || (sum_j |q_j| / r_ij^(d-1))_i ||_2        (vortex_blob: 1 / (2 pi) of that)
-///   ||phi - phi~||_2  <= tolerance || (sum_j |q_j| / r_ij)_i ||_2              in 3D
-///   ||phi - phi~||_2  <= tolerance || (sum_j |q_j| (1 + |ln r_ij|))_i ||_2     in 1D and 2D
-/// where d - 1 is 1 in 1D too. It holds target by target and charge by charge, so cancellation does not weaken it.
-/// Rounding adds about 1e-15 times the same sums.
+/// Sums for fixed points and any charges. What is promised, for all points, all charges and every target i, with f~ the
+/// computed and f the exact field, phi the potential, and sums over all sources j at r_ij > 0:
+///   |f_i - f~_i|      <= tolerance sum_j |q_j| / r_ij^(d-1)        (vortex_blob: 1 / (2 pi) of that)
+///   |phi_i - phi~_i|  <= tolerance sum_j |q_j| / r_ij              in 3D
+///   |phi_i - phi~_i|  <= tolerance sum_j |q_j| (1 + |ln r_ij|)     in 1D and 2D
+/// where d - 1 is 1 in 1D too. It holds target by target and charge by charge, so neither cancellation nor a crowd of
+/// targets at the worst place weakens it, and so it holds in every norm over the targets. Rounding adds about 1e-15
+/// times the same sums. The error of a charge at a target is a measured one: docs/farfield.md, "The promise".
 template <int d>
 class Plan {
   static_assert(1 <= d && d <= 3, "farfield: dimensions 1 to 3");

@@ -97,8 +97,8 @@ TEST(FarfieldMethods, AchievedErrorFollowsTheTolerance) {
     values.potential = Eigen::VectorXd(values.potential.head(300));
     values.field = farfield::Points<3>(values.field.leftCols(300));
     const double achieved = naive::errors<3>(values, exact).field;
-    EXPECT_LE(achieved, tolerance);
-    EXPECT_GE(achieved, tolerance * 1e-4);
+    EXPECT_LE(achieved, 2e-3 * tolerance);    // measured: 7e-4 at the loosest
+    EXPECT_GE(achieved, 2.2e-5 * tolerance);  // 6.6e-5 at the tightest
   }
 }
 
