@@ -15,6 +15,16 @@ namespace {
 /// What the core of a blob that is taken for a point may cost, of the tolerance.
 double core_share(const Problem& problem) { return problem.interaction == Interaction::blob ? 0.1 : 0; }
 
+/// What rounding may cost where potentials at the nodes of a cluster are fitted, of the tolerance.
+constexpr double fit_share = 0.125;
+
+/// The steepest fit (partition.hpp) that keeps to that. A fit enlarges rounding less than 10 times (interpolation.cpp),
+/// differentiating a polynomial 2 n^2 times (Markov), and a charge may be twice as far away as its leaf is wide.
+double steepest_fit(double tolerance, int degree) {
+  constexpr double rounding = 2.2e-16;
+  return fit_share * tolerance / (rounding * 10 * 2 * degree * degree * 2);
+}
+
 /// exp(-r^2/eps^2) is below that share at the smallest distance of clusters that are coupled.
 double smallest_side(const Problem& problem, double tolerance) {
   if (problem.interaction != Interaction::blob) return 0;
@@ -45,8 +55,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   if (options.method == Method::direct) return direct();
 
   // The table holds the largest error of one charge at one target, so the promise holds for every target and charge.
-  const double kept = 1 - core_share(problem),
-               smallest = (Degrees<d>::smallest_error() + substitution_error(Precision::full)) / kept;
+  const double kept = 1 - core_share(problem), smallest = Degrees<d>::smallest_error() / (kept - fit_share);
   if (options.tolerance < smallest) {
     if (any) return direct();
     throw ToleranceError("farfield: Options::tolerance = " + text(options.tolerance) + " cannot be promised by " +
@@ -54,8 +63,8 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
                          "; leave the method to auto or direct");
   }
   const Precisions precisions = precisions_for(options.tolerance, problem.interaction);
-  const Degrees<d> degrees(options.tolerance * kept,
-                           options.tolerance * kept - substitution_error(precisions.substitutes));
+  const double rounded = std::max(substitution_error(precisions.substitutes), fit_share * options.tolerance);
+  const Degrees<d> degrees(options.tolerance * kept, options.tolerance * kept - rounded);
   const Costs<d> costs(problem, degrees, precisions);
   if (any && problem.sources + problem.targets < 1000) return direct();  // nothing to be gained, not even by floats
 
@@ -86,8 +95,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   check_seconds(choice.method, choice.seconds, options.most_seconds);
   choice.degree = degrees.highest;
   choice.bound =
-      std::max(std::max(degrees.error, degrees.one_sided_error + substitution_error(precisions.substitutes)) +
-                   core_share(problem) * options.tolerance,
+      std::max(std::max(degrees.error, degrees.one_sided_error + rounded) + core_share(problem) * options.tolerance,
                error_of(precisions.points));
   choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction->leaf_size;
   choice.clusters = tree.clusters().size();
@@ -101,7 +109,10 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
                options.memory_limit);
   std::shared_ptr<const Operators<d>> operators;  // a single cluster needs none
   if (choice.clusters > 1) operators = Operators<d>::get(degrees, couple, options.threads);
-  Partition partition = make_partition<d>(tree, costs.nodes(), couple, options.threads);
+  Partition partition = make_partition<d>(tree, {.enough = costs.nodes(),
+                                                 .couple = couple,
+                                                 .steepest_fit = steepest_fit(options.tolerance, degrees.one_sided),
+                                                 .threads = options.threads});
   choice.work = work_of<d>(partition, tree, costs.nodes());
   typename Clustered<d>::Parts parts{std::move(tree), std::move(partition), std::move(operators), precisions,
                                      options.threads};

@@ -165,12 +165,15 @@ void SymmetricMethod<d>::add_from_points(const Buffer<double>& charges, PerClust
     std::vector<double> values(interpolation.nodes()), sum(interpolation.nodes()),
         fitted(detail::functions<d>(interpolation.degree()));
     const Index* const leaves = this->partition_.from_points.first(i);
+    double charge = 0;
     for (std::size_t n = 0; n < count; ++n) {
-      this->near_.at_nodes(this->tree_.clusters()[i], interpolation, this->tree_.clusters()[leaves[n]].sources, charges,
-                           values.data());
+      const Range range = this->tree_.clusters()[leaves[n]].sources;
+      this->near_.at_nodes(this->tree_.clusters()[i], interpolation, range, charges, values.data());
       for (std::size_t k = 0; k < values.size(); ++k) sum[k] += values[k];
+      for (std::size_t j = range.begin; j < range.end; ++j) charge += charges[j];
     }
     interpolation.fit(sum.data(), fitted.data());
+    if (d == 2) fitted[0] += this->problem_.log_shift * charge;
     for (std::size_t k = 0; k < fitted.size(); ++k)
       coefficients[i * functions + this->operators_->place(k)] += fitted[k];
   });

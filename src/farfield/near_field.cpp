@@ -188,7 +188,6 @@ void NearField<d>::at_nodes(const Cluster& cluster, const Interpolation<d>& inte
   job.charge = charges.data();
   job.runs = &range;
   job.run_count = 1;
-  job.log_shift = problem_.log_shift;
   Buffer<double> potential(nodes + padding);
   std::fill(potential.begin(), potential.end(), 0.0);
   job.potential = potential.data();

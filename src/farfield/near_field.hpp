@@ -45,7 +45,8 @@ class NearField {
   /// What has gathered acts on the leaf.
   void act(const Cluster& leaf, Substitutes& substitutes, Sums& sums) const;
 
-  /// Potential of the sources in `range` at the nodes of a cluster, overwritten.
+  /// Potential of the sources in `range` at the nodes of a cluster, overwritten; in 2D without log_shift, which is for
+  /// the fitted constant: large numbers at nodes cost digits.
   void at_nodes(const Cluster& cluster, const Interpolation<d>& interpolation, Range range,
                 const Buffer<double>& charges, double* values) const;
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "base/parallel.hpp"
 
@@ -36,21 +38,23 @@ void append_lists(Lists<Entry>& lists, std::size_t begin, std::size_t end, int t
 template <int d>
 class Maker {
  public:
-  Maker(const Tree<d>& tree, std::size_t enough, bool couple, int threads)
-      : tree_(tree), clusters_(tree.clusters()), enough_(enough), couple_(couple), threads_(threads) {}
+  Maker(const Tree<d>& tree, const PartitionOptions& options)
+      : tree_(tree), clusters_(tree.clusters()), options_(options) {}
 
   Partition make() {
     for (std::size_t level = 0; level < tree_.levels(); ++level) {
       const std::size_t begin = tree_.level_begin(level), end = tree_.level_begin(level + 1);
-      append_lists(colleagues_, begin, end, threads_, [&](std::size_t i, auto& list) { find_colleagues(i, list); });
-      append_lists(coarse_, begin, end, threads_, [&](std::size_t i, auto& list) { find_coarse(i, list, nullptr); });
-      append_lists(partition_.from_points, begin, end, threads_,
+      append_lists(colleagues_, begin, end, options_.threads,
+                   [&](std::size_t i, auto& list) { find_colleagues(i, list); });
+      append_lists(coarse_, begin, end, options_.threads,
+                   [&](std::size_t i, auto& list) { find_coarse(i, list, nullptr); });
+      append_lists(partition_.from_points, begin, end, options_.threads,
                    [&](std::size_t i, auto& list) { find_coarse(i, unused(), &list); });
-      if (couple_) find_couplings(level);
+      if (options_.couple) find_couplings(level);
     }
-    append_lists(partition_.runs, 0, clusters_.size(), threads_,
+    append_lists(partition_.runs, 0, clusters_.size(), options_.threads,
                  [&](std::size_t i, auto& list) { find_near(i, &list, nullptr); });
-    append_lists(partition_.from_clusters, 0, clusters_.size(), threads_,
+    append_lists(partition_.from_clusters, 0, clusters_.size(), options_.threads,
                  [&](std::size_t i, auto& list) { find_near(i, nullptr, &list); });
     return std::move(partition_);
   }
@@ -88,12 +92,20 @@ class Maker {
     }
   }
 
+  /// Potentials of the leaf at the nodes of a cluster of targets beside its field times the cluster's side: a charge
+  /// may be as far away as the leaf is wide. 1/r over 1/r^2; in 2D ln r over 1/r, where ln r follows from the unit.
+  static double steepness(const Cluster& target, const Cluster& leaf) {
+    const double ratio = std::ldexp(1.0, target.level - leaf.level);
+    return d == 3 ? ratio : ratio * (1 + leaf.level * std::numbers::ln2);
+  }
+
   /// Larger leaves of sources that it touches, or has too few targets for; the others go to `from_points`.
   void find_coarse(std::size_t i, List& list, List* from_points) const {
     const Cluster& target = clusters_[i];
     if (target.level == 0 || target.target_count() == 0) return;
     const auto add = [&](Index s) {
-      const bool apart = couple_ && target.target_count() > enough_ && !touch<d>(target, clusters_[s]);
+      const bool apart = options_.couple && target.target_count() > options_.enough &&
+                         !touch<d>(target, clusters_[s]) && steepness(target, clusters_[s]) <= options_.steepest_fit;
       if (!apart) list.push_back(s);
       if (apart && from_points) from_points->push_back(s);
     };
@@ -108,7 +120,7 @@ class Maker {
     const std::size_t begin = tree_.level_begin(level), end = tree_.level_begin(level + 1);
     const std::size_t chunks = (end - begin + CouplingChunk::size - 1) / CouplingChunk::size;
     std::vector<CouplingChunk> made(chunks);
-    gaussdrift::base::parallel_for(chunks, threads_, [&](std::size_t c) {
+    gaussdrift::base::parallel_for(chunks, options_.threads, [&](std::size_t c) {
       constexpr int span = 7;  // offsets -3 .. 3 an axis
       std::array<std::size_t, span * span * span + 1> first{};
       struct Found {
@@ -166,7 +178,7 @@ class Maker {
     const auto visit = [&](Index s, bool touches) {
       const Cluster& cluster = clusters_[s];
       if (cluster.source_count() == 0) return;
-      if (!touches && cluster.source_count() > enough_) {
+      if (!touches && cluster.source_count() > options_.enough) {
         if (from_clusters) from_clusters->push_back(s);
       } else if (!touches || cluster.leaf()) {
         add_run(cluster);
@@ -185,7 +197,7 @@ class Maker {
     const Index* const near = colleagues_.first(i);
     for (std::size_t n = 0; n < colleagues_.count(i); ++n) visit(near[n], true);
     close();
-    if (!couple_) {
+    if (!options_.couple) {
       // Nothing was coupled on the way down: for every ancestor the clusters that it would have been coupled with.
       for (std::size_t t = i; clusters_[t].level > 0; t = clusters_[t].parent)
         for_each_candidate(clusters_[t], [&](Index s) {
@@ -206,9 +218,7 @@ class Maker {
 
   const Tree<d>& tree_;
   const std::vector<Cluster>& clusters_;
-  std::size_t enough_;
-  bool couple_;
-  int threads_;
+  const PartitionOptions options_;
   Lists<Index> colleagues_, coarse_;
   Partition partition_;
 };
@@ -224,8 +234,8 @@ double Partition::bytes() const {
 }
 
 template <int d>
-Partition make_partition(const Tree<d>& tree, std::size_t enough, bool couple, int threads) {
-  return Maker<d>(tree, enough, couple, threads).make();
+Partition make_partition(const Tree<d>& tree, const PartitionOptions& options) {
+  return Maker<d>(tree, options).make();
 }
 
 template <int d>
@@ -250,7 +260,7 @@ Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes)
 
 template Work work_of<2>(const Partition&, const Tree<2>&, std::size_t);
 template Work work_of<3>(const Partition&, const Tree<3>&, std::size_t);
-template Partition make_partition<2>(const Tree<2>&, std::size_t, bool, int);
-template Partition make_partition<3>(const Tree<3>&, std::size_t, bool, int);
+template Partition make_partition<2>(const Tree<2>&, const PartitionOptions&);
+template Partition make_partition<3>(const Tree<3>&, const PartitionOptions&);
 
 }  // namespace farfield::detail

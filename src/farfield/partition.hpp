@@ -7,6 +7,7 @@
 //   runs           everything else: ranges of sources for a leaf of targets
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -47,10 +48,17 @@ struct Partition {
   double bytes() const;
 };
 
-/// One side is interpolated alone where the other has more points than `enough`. With `couple` false no pair of
-/// clusters is coupled (method tree): targets of a leaf see admissible clusters.
+struct PartitionOptions {
+  std::size_t enough = 0;  // one side is interpolated alone where the other has more points
+  bool couple = true;  // false (method tree): no pair of clusters is coupled, leaves of targets see admissible clusters
+  /// Largest size of potentials at the nodes of a cluster of targets, beside the field that they are fitted for: their
+  /// rounding is divided by the side of the cluster.
+  double steepest_fit = HUGE_VAL;
+  int threads = 1;
+};
+
 template <int d>
-Partition make_partition(const Tree<d>& tree, std::size_t enough, bool couple, int threads);
+Partition make_partition(const Tree<d>& tree, const PartitionOptions& options);
 
 /// What is done for one evaluation, with so many nodes in place of a cluster.
 template <int d>

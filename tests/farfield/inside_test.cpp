@@ -37,7 +37,7 @@ void expect_every_pair_once(const farfield::Points<d>& sources, const farfield::
   detail::Problem problem;
   fill<d>(problem, sources, targets);
   const detail::Tree<d> tree(problem, 3, 0, 1);
-  const detail::Partition partition = detail::make_partition<d>(tree, enough, couple, 1);
+  const detail::Partition partition = detail::make_partition<d>(tree, {.enough = enough, .couple = couple});
   std::vector<int> times(problem.sources * problem.targets);
   const auto add = [&](detail::Range at, detail::Range from) {
     for (std::size_t i = at.begin; i < at.end; ++i)

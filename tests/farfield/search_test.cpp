@@ -217,6 +217,33 @@ TEST(FarfieldSearch, TheWorstPlaceKeepsThePromise) { search_everywhere(3, 3, 8);
 // By hand and nightly: minutes.
 TEST(FarfieldSearch, DISABLED_TheWorstPlaceKeepsThePromiseAtLength) { search_everywhere(18, 8, 40); }
 
+// A crowd beside a large leaf that holds the charge: potentials at the nodes of the crowd's clusters differ little, and
+// the field is what they differ by.
+TEST(FarfieldSearch, AFarChargeKeepsThePromiseInASmallCrowd) {
+  for (const double size : {1e-3, 1e-8}) {
+    farfield::Points<3> points(3, 3003);
+    points.leftCols(3000) = (naive::cube<3>(3000, 1) * size).array() + 0.5;
+    points.col(3000) << 0.26, 0.4, 0.45;
+    points.col(3001).setZero();
+    points.col(3002).setConstant(0.99999);
+    Eigen::VectorXd charges = Eigen::VectorXd::Zero(3003);
+    charges[3000] = 1;
+    const auto exact = naive::sum<3>(Kernel::coulomb, points.col(3000), points, Eigen::VectorXd::Ones(1));
+    for (const double tolerance : {1e-4, 1e-7, 2e-8}) {
+      const farfield::Plan<3> plan(Kernel::coulomb, points, {.tolerance = tolerance, .method = Method::symmetric});
+      const auto errors = naive::errors<3>(plan.evaluate(charges), exact);
+      EXPECT_LE(std::max(errors.field, errors.potential), tolerance)
+          << "crowd of size " << size << ", " << plan.choice();
+      const farfield::Points<2> flat = points.topRows(2);
+      const farfield::Plan<2> plane(Kernel::log, flat, {.tolerance = tolerance, .method = Method::symmetric});
+      const auto in_plane = naive::errors<2>(
+          plane.evaluate(charges), naive::sum<2>(Kernel::log, flat.col(3000), flat, Eigen::VectorXd::Ones(1)));
+      EXPECT_LE(std::max(in_plane.field, in_plane.potential), tolerance)
+          << "crowd of size " << size << ", " << plane.choice();
+    }
+  }
+}
+
 // The construction that broke the promise while it was relaxed: error over tolerance was 3.7 to 4.9 in space.
 template <int d>
 void expect_promise_for_a_crowd(Kernel kernel, double core, Eigen::Index company, Eigen::Index crowd,
