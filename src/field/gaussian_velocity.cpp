@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
+#include <string>
 
 #include "base/error.hpp"
 #include "base/number.hpp"
@@ -116,7 +116,7 @@ GaussianFit fit_as_needed(const GaussianModelOptions& options, const fgtd::Point
     return fit;
   };
   if (!options.regularise) return fitted();
-  std::exception_ptr first;
+  std::string why;
   for (const double tried : {0., 1e-12, 1e-10, 1e-8, 1e-6}) {
     how.regularisation = tried;
     try {
@@ -124,11 +124,17 @@ GaussianFit fit_as_needed(const GaussianModelOptions& options, const fgtd::Point
       // A field that misses its samples is not what was asked for; smoothing that much is for the user to decide.
       constexpr double near_enough = 1e-2;
       if (tried == 0 || fit.misfit <= near_enough) return fit;
-    } catch (const GaussiansTooWide&) {
-      if (!first) first = std::current_exception();
+    } catch (const GaussiansTooWide& error) {
+      if (why.empty()) why = error.what();
+    } catch (const InputError&) {  // smoothed, samples that are too wild do not follow from each other either
+      if (tried == 0) throw;
     }
   }
-  std::rethrow_exception(first);
+  // What was tried in vain is not recommended.
+  why.resize(std::min(why.size(), why.find("; lower width")));
+  throw InputError(why +
+                   "; regularisation up to 1e-6 does not help: lower width, or remove samples that lie very close "
+                   "together");
 }
 
 template <int d>
