@@ -70,12 +70,13 @@ std::string progress_text(const Progress& progress) {
                      progress.time, progress.end, steps, per_step, duration(left));
 }
 
-ProgressLine::ProgressLine() : terminal_(rewrites_lines()) {}
+ProgressLine::ProgressLine(double first) : terminal_(rewrites_lines()), first_(first) {}
 
 void ProgressLine::show(const Progress& progress) { show(progress_text(progress)); }
 
 void ProgressLine::show(const std::string& text) {
   const double now = watch_.seconds();
+  if (now < first_) return;
   if (!terminal_ && last_ < 0) last_ = 0;  // short runs leave no progress lines in a file
   if (last_ >= 0 && now - last_ < (terminal_ ? terminal_interval : plain_interval)) return;
   last_ = now;

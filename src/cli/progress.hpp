@@ -10,7 +10,8 @@ namespace gaussdrift::cli {
 
 class ProgressLine {
  public:
-  ProgressLine();
+  /// On a terminal the first line comes after so many seconds.
+  explicit ProgressLine(double first = 0);
   ~ProgressLine() { clear(); }
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -23,6 +24,7 @@ class ProgressLine {
 
  private:
   bool terminal_;
+  double first_;
   bool visible_ = false;
   base::Stopwatch watch_;
   double last_ = -1;  // seconds at which the line was last written

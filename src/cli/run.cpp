@@ -20,6 +20,7 @@
 #include "study/accuracy.hpp"
 #include "study/budget.hpp"
 #include "study/describe.hpp"
+#include "study/footprint.hpp"
 #include "study/report.hpp"
 #include "study/reproduce_claims.hpp"
 #include "study/reproduce_cone.hpp"
@@ -51,7 +52,12 @@ Case read(const CaseOptions& options) {
 /// The case as it is, or with the settings that its accuracy.target asks for, which are told.
 Case settled(Case scene, const CaseOptions& options) {
   if (!scene.accuracy.target) return scene;
-  study::AccuracyChoice choice = study::choose_for_accuracy(scene, *scene.accuracy.target, options.threads);
+  study::AccuracyChoice choice;
+  {
+    ProgressLine line(1);
+    choice = study::choose_for_accuracy(scene, *scene.accuracy.target, options.threads,
+                                        [&](const std::string& what) { line.show(what); });
+  }
   put(options.json ? stderr : stdout, study::to_text(choice));
   return std::move(choice.scene);
 }
@@ -361,6 +367,7 @@ std::optional<study::Budget> look_back(const Case& scene, RunSummary& summary, c
 ExitCode run(const RunOptions& options) {
   const Case asked = read(options.scene), scene = settled(asked, options.scene);
   const fs::path folder = options.folder.empty() ? fs::path("output") / scene.name : options.folder;
+  study::refuse_what_does_not_fit(scene, options.scene.threads);
   Simulation simulation(scene, options.scene.threads);
   simulation.prepare();  // what cannot begin must not cost an earlier run
   const std::string provenance = provenance_of(scene, folder, options);
@@ -419,7 +426,12 @@ ExitCode run(const RunOptions& options) {
 
 ExitCode check(const CaseOptions& options) {
   const Case scene = settled(read(options), options);
-  const study::Description description = study::describe(scene, options.threads);
+  study::Description description;
+  {
+    ProgressLine line(1);
+    description =
+        study::describe(scene, options.threads, [&](const std::string& what) { line.show("check: " + what); });
+  }
   say("{}", options.json ? study::to_json(scene, description) : study::to_text(scene, description));
   return ExitCode::ok;
 }

@@ -1,6 +1,7 @@
 // gaussdrift sum: tables in, a table out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
+#include "study/footprint.hpp"
 #include "study/sum_pairs.hpp"
 #include "study/sum_points.hpp"
 #include "write/atomic_file.hpp"
@@ -137,6 +139,9 @@ double read_points(const SumOptions& options, study::PointsRequest& request) {
   request.tell = [](const std::string& what) { note("{}\n", what); };
   if (!options.grid.empty()) request.grid = study::parse_grid(options.grid);
   const input::CoordinateNames coordinates = study::parse_columns(options.columns);
+  // Of what a machine or a limit has, nearly all: the rest is the program.
+  request.memory_limit = static_cast<std::size_t>(
+      std::min(static_cast<double>(request.memory_limit), 0.9 * study::memory_of_this_machine()));
   const base::Stopwatch reading;
   const auto read = [&](const fs::path& file, input::PointsRole role) {
     input::PointsTable table = input::read_points_table(file, role, request.memory_limit, coordinates);

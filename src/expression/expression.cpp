@@ -250,6 +250,14 @@ std::vector<RoughSpot> Expression::rough_spots() const {
   return spots;
 }
 
+double Expression::cost() const {
+  // Measured on rows: half a nanosecond for what is one instruction, 10 to 20 for a function or a power.
+  double sum = 0;
+  for (const Step& step : implementation_->program)
+    sum += step.operation == Operation::call || step.operation == Operation::power ? 0.4 : 0.015;
+  return sum;
+}
+
 bool Expression::uses(std::string_view name) const {
   const auto& names = implementation_->used_names;
   return std::find(names.begin(), names.end(), name) != names.end();

@@ -58,6 +58,9 @@ class Expression {
   /// What the expression has that is not differentiable everywhere, each once.
   std::vector<RoughSpot> rough_spots() const;
 
+  /// What a value costs, roughly, in values of a formula with a sine or two (some 40 ns of one core).
+  double cost() const;
+
   const std::string& text() const;
   /// Does the text mention this variable or constant?
   bool uses(std::string_view name) const;

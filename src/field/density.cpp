@@ -161,10 +161,18 @@ void WrittenDensity::add(const PointsView& x, double* values) const {
   }
 }
 
+double WrittenDensity::cost() const { return std::max(1.0, expression_.cost()); }
+
 std::string WrittenDensity::describe() const { return "rho_0 = " + expression_.text(); }
 
 void SumDensity::add(const PointsView& x, double* values) const {
   for (const auto& part : parts_) part->add(x, values);
+}
+
+double SumDensity::cost() const {
+  double sum = 0;
+  for (const auto& part : parts_) sum += part->cost();
+  return sum;
 }
 
 std::string SumDensity::describe() const {

@@ -18,6 +18,8 @@ class InitialDensity {
   virtual ~InitialDensity() = default;
   /// values[i] += rho_0(x_i). Values that are not finite are passed on; the caller reports them with their place.
   virtual void add(const PointsView& x, double* values) const = 0;
+  /// What a value costs, roughly, in values of a formula with a sine or two.
+  virtual double cost() const { return 1; }
   /// One line for people: formula, smoothness, and the mass where it is known.
   virtual std::string describe() const = 0;
   /// The integral over all space; nothing where no closed form is known.
@@ -94,6 +96,7 @@ class WrittenDensity : public InitialDensity {
   /// Throws ExpressionError.
   WrittenDensity(const std::string& text, int dimension, const std::vector<std::pair<std::string, double>>& params);
   void add(const PointsView& x, double* values) const override;
+  double cost() const override;
   std::string describe() const override;
 
  private:
@@ -104,6 +107,7 @@ class SumDensity : public InitialDensity {
  public:
   explicit SumDensity(std::vector<std::unique_ptr<InitialDensity>> parts) : parts_(std::move(parts)) {}
   void add(const PointsView& x, double* values) const override;
+  double cost() const override;
   std::string describe() const override;
   std::optional<double> mass() const override;
 

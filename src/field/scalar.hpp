@@ -1,6 +1,7 @@
 // Scalar fields of place and time: rates that weights change by.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ class ScalarField {
   virtual bool is_steady() const = 0;
   /// False if it or a derivative of it jumps somewhere.
   virtual bool is_smooth() const = 0;
+  /// What a value costs, roughly, in values of a formula with a sine or two.
+  virtual double cost() const { return 1; }
   /// Its formula.
   virtual std::string describe() const = 0;
 };
@@ -32,6 +35,7 @@ class WrittenScalar : public ScalarField {
   void add(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override { return steady_; }
   bool is_smooth() const override { return expression_.rough_spots().empty(); }
+  double cost() const override { return std::max(1.0, expression_.cost()); }
   std::string describe() const override { return expression_.text(); }
 
  private:

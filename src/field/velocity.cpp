@@ -70,6 +70,12 @@ bool ExpressionField::is_smooth() const {
                      [](const Expression& part) { return part.rough_spots().empty(); });
 }
 
+double ExpressionField::cost() const {
+  double sum = 0;
+  for (const Expression& part : components_) sum += part.cost();
+  return std::max(1.0, sum);
+}
+
 bool ExpressionField::is_solenoidal() const {
   constexpr std::array coordinates{"x", "y", "z"};
   for (std::size_t k = 0; k < components_.size(); ++k)
@@ -104,6 +110,8 @@ void StreamfunctionField::add_divergence(double /*t*/, const PointsView& /*x*/, 
 bool StreamfunctionField::is_steady() const { return !psi_.uses("t"); }
 
 bool StreamfunctionField::is_smooth() const { return psi_.rough_spots().empty(); }
+
+double StreamfunctionField::cost() const { return std::max(1.0, 3 * psi_.cost()); }  // with two derivatives
 
 std::string StreamfunctionField::describe() const {
   return fmt::format("u = (d psi/dy, -d psi/dx), psi = {}, div u = 0", psi_.text());

@@ -51,6 +51,7 @@ class ExpressionField : public VelocityField {
   void add_divergence(double t, const PointsView& x, double* values) const override;
   bool is_steady() const override;
   bool is_smooth() const override;
+  double cost() const override;
   std::string describe() const override;
 
  private:
@@ -68,6 +69,7 @@ class StreamfunctionField : public VelocityField {
   bool is_steady() const override;
   bool is_smooth() const override;
   bool is_solenoidal() const override { return true; }
+  double cost() const override;
   std::string describe() const override;
 
  private:

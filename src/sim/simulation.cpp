@@ -174,7 +174,8 @@ Work work_of(const Case& description, const Scene& scene, std::size_t particles)
 }
 
 double work_of_exact_rate(const Scene& scene) {
-  return scene.velocity->cost() + 0.3 + (scene.reaction_rate ? 1 : 0) + (scene.velocity->is_solenoidal() ? 0 : 0.5);
+  const double divergence = scene.velocity->is_solenoidal() ? 0 : std::max(0.5, scene.velocity->cost() / 2);
+  return scene.velocity->cost() + 0.3 + (scene.reaction_rate ? scene.reaction_rate->cost() : 0) + divergence;
 }
 
 Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads) {
@@ -263,13 +264,17 @@ Comparison plan_comparison(const Case& description, const Scene& scene, std::siz
   return plan;
 }
 
-Particles seed_scene(const Scene& scene, int threads, SeedReport* report) {
+Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report) {
   std::vector<Carried> carried{
       {"the initial density", [&](const PointsView& x, double* values) { scene.density->add(x, values); }}};
   if (scene.charge)
     carried.push_back(
         {"effects.charge.density", [&](const PointsView& x, double* values) { scene.charge->add(0, x, values); }});
-  Particles particles = seed(scene.seeding, carried, scene.threshold, threads, report);
+  return seed(lattice, carried, scene.threshold, threads, report);
+}
+
+Particles seed_scene(const Scene& scene, int threads, SeedReport* report) {
+  Particles particles = seed_lattice(scene, scene.seeding, threads, report);
   if (std::all_of(particles.alpha.begin(), particles.alpha.end(), [](double alpha) { return alpha == 0; }))
     throw InputError(
         "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or "

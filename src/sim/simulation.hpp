@@ -95,6 +95,9 @@ struct Comparison {
 /// 16, unless a check or a target needs them.
 Comparison plan_comparison(const Case& description, const Scene& scene, std::size_t particles, int threads);
 
+/// The same on any lattice, and none where there is nothing.
+Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report = nullptr);
+
 /// Particles of the scene at t = 0: every lattice point with density or charge that exceeds the threshold. The report
 /// tells of both, in that order. Throws NumericalError where one is not finite, InputError if rho_0 is 0 everywhere.
 Particles seed_scene(const Scene& scene, int threads, SeedReport* report = nullptr);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -37,7 +38,7 @@ int most_per_axis(const Case& description) {
 }
 
 /// Smoothing and quadrature alone: steps and transform are chosen afterwards.
-struct Trial {
+struct Settings {
   int per_axis = 0;
   double overlap = 2;
   double error = 0;  // of both
@@ -45,27 +46,56 @@ struct Trial {
   std::size_t particles = 0;
 };
 
-Trial try_lattice(Case scene, int per_axis, double overlap, int threads) {
+/// What a search may take, has taken and says while it does.
+struct Search {
+  Allowance allowance;
+  std::function<void(const std::string&)> doing;
+  std::size_t lattices = 0;
+  bool stopped = false;  // a lattice would have taken too much
+  int threads = 0;
+};
+
+/// Nothing if the prediction would take too much work: a sixth of what the search may take altogether, for what is
+/// chosen is predicted some six times more, or what is left of that.
+std::optional<Settings> try_lattice(Case scene, int per_axis, double overlap, Search& search) {
   scene.particles.per_axis = per_axis;
   scene.particles.overlap = overlap;
-  const Scene parts = make_scene(scene, threads);
-  const Budget budget = predict_budget(scene, parts, Effort::whatever, threads, Causes::lattice);
+  if (search.doing)
+    search.doing(fmt::format("trying cutoff = \"{}\", overlap = {:g}, per_axis = {}", scene.particles.cutoff, overlap,
+                             per_axis));
+  const Scene parts = make_scene(scene, search.threads);
+  Allowance one{std::min(search.allowance.left(), search.allowance.work / 6)};
+  const Budget budget = predict_budget(scene, parts, one, search.threads, Causes::lattice);
+  search.allowance.spent += one.spent;
+  if (budget.too_dear) {
+    search.stopped = true;
+    return std::nullopt;
+  }
   if (!budget.known()) throw InputError("no settings can be chosen for this accuracy: " + budget.not_covered);
-  return {per_axis, overlap, std::max(budget.total, budget.smoothing), budget.quadrature,
-          seed_scene(parts, threads).size()};
+  ++search.lattices;
+  return Settings{per_axis, overlap, std::max(budget.total, budget.smoothing), budget.quadrature, budget.particles};
 }
 
 /// The coarsest lattice of this cutoff and overlap that meets `wanted`, with no more particles than `most_carried`;
-/// nothing if none does. `best`: the smallest error seen. `gaps`: more overlap would help, a finer lattice would not.
-std::optional<Trial> find_lattice(const Case& scene, double wanted, double overlap, double most_carried, int threads,
-                                  double& best, bool& gaps) {
-  const int order = cutoff_order(scene.particles.cutoff), most = most_per_axis(scene);
+/// nothing if none does, or if the search ends. `best`: the smallest error seen. `gaps`: more overlap would help, a
+/// finer lattice would not.
+std::optional<Settings> find_lattice(const Case& scene, double wanted, double overlap, double most_carried,
+                                     Search& search, double& best, bool& gaps) {
+  const int order = cutoff_order(scene.particles.cutoff);
+  int most = most_per_axis(scene);
   gaps = false;
   int per_axis = std::clamp(scene.particles.per_axis, fewest_per_axis, most);
-  std::optional<Trial> good;
+  std::optional<Settings> good;
   int too_coarse = 0;
   for (int round = 0; round < 7; ++round) {
-    const Trial trial = try_lattice(scene, per_axis, overlap, threads);
+    const std::optional<Settings> tried = try_lattice(scene, per_axis, overlap, search);
+    if (!tried) {  // too dear: is a coarser one good enough?
+      most = per_axis - 1;
+      per_axis = good ? (too_coarse + good->per_axis) / 2 : per_axis / 2;
+      if (per_axis <= std::max(too_coarse, fewest_per_axis) || (good && per_axis > 0.93 * good->per_axis)) break;
+      continue;
+    }
+    const Settings& trial = *tried;
     best = std::min(best, trial.error);
     // Particles drawn apart: their sum has ripples, however fine the lattice.
     gaps = trial.quadrature > 0.3 * trial.error;
@@ -113,11 +143,13 @@ double step_for(const Case& scene, const Scene& parts, double wanted, int thread
 
 }  // namespace
 
-AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads) {
+AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads,
+                                   const std::function<void(const std::string&)>& doing, double most_work) {
   if (const std::string reason = budget_not_covered(description); !reason.empty())
     throw InputError("no settings can be chosen for this accuracy: " + reason);
   AccuracyChoice choice;
   choice.target = target;
+  Search search{.allowance = {most_work}, .doing = doing, .threads = threads};
   double best = std::numeric_limits<double>::infinity(), cheapest = best;
   std::optional<Case> chosen;
   for (const double aim : aims) {
@@ -130,8 +162,8 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
       for (const double overlap : {2.0, 3.0, 4.5, 7.0}) {
         const double dearer = 1 + 0.1 * cutoff_order(cutoff);  // more terms in the transform, all in one pass
         bool gaps = false;
-        const std::optional<Trial> trial =
-            find_lattice(scene, aim * target, overlap, cheapest / dearer, threads, best, gaps);
+        const std::optional<Settings> trial =
+            find_lattice(scene, aim * target, overlap, cheapest / dearer, search, best, gaps);
         if (!trial && gaps) continue;
         if (!trial) break;
         const double cost = static_cast<double>(trial->particles) * dearer;
@@ -145,6 +177,21 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
       }
     }
   }
+  choice.lattices = search.lattices;
+  choice.work = search.allowance.spent;
+  if (!chosen && search.stopped)
+    throw InputError(fmt::format(
+        "no settings for an error of {:g} were found: the search is bounded, and {} lattices were tried{}. Finer ones "
+        "were left out because their errors take too long to predict. Choose particles.per_axis and time.step "
+        "yourself; "
+        "`run` measures the error",
+        target, search.lattices,
+        std::isfinite(best) ? fmt::format(", with errors of {:.1e} at least", best) : std::string()));
+  if (search.stopped)
+    choice.left_out = fmt::format(
+        "the search is bounded: {} lattices were tried, finer ones were left out because their errors take "
+        "too long to predict; there may be cheaper settings",
+        search.lattices);
   if (!chosen)
     throw InputError(fmt::format(
         "an error of {:g} cannot be met with at most {:.0e} lattice points: the smallest predicted is {:.1e}; ask for "
@@ -178,8 +225,9 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
 }
 
 std::string to_text(const AccuracyChoice& choice) {
-  return fmt::format("chosen {}; predicted error {:.2g} for a target of {:g}\n", fmt::join(choice.settings, ", "),
-                     choice.predicted.total, choice.target);
+  return fmt::format("chosen {}; predicted error {:.2g} for a target of {:g}\n{}", fmt::join(choice.settings, ", "),
+                     choice.predicted.total, choice.target,
+                     choice.left_out.empty() ? "" : fmt::format("       {}\n", choice.left_out));
 }
 
 }  // namespace gaussdrift::study

@@ -378,6 +378,8 @@ std::string nothing_to_explain(const Particles& last, double outside, double tim
   return fmt::format("at t = {:.4g} {}", time, why_nothing_is_left(outside, weight));
 }
 
+constexpr const char* too_much_work =
+    "this would take longer than a prediction may; accuracy.budget = \"measured\" lets the run tell its errors apart";
 constexpr const char* lost_paths = "the paths of some particles could not be followed";
 
 using Better = std::vector<std::pair<std::string, double>>;
@@ -592,7 +594,9 @@ Budget covered_or_why(const Tell& tell) {
   }
 }
 
-Budget predict(const Case& description, const Scene& scene, Effort effort, int threads, Causes causes);
+/// `allowance`: null for any work.
+Budget predict(const Case& description, const Scene& scene, Effort effort, Allowance* allowance, int threads,
+               Causes causes);
 Budget measure(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads);
 
 }  // namespace
@@ -609,7 +613,11 @@ std::string budget_not_covered(const Case& description) {
 }
 
 Budget predict_budget(const Case& description, const Scene& scene, Effort effort, int threads, Causes causes) {
-  return covered_or_why([&] { return predict(description, scene, effort, threads, causes); });
+  return covered_or_why([&] { return predict(description, scene, effort, nullptr, threads, causes); });
+}
+
+Budget predict_budget(const Case& description, const Scene& scene, Allowance& allowance, int threads, Causes causes) {
+  return covered_or_why([&] { return predict(description, scene, Effort::whatever, &allowance, threads, causes); });
 }
 
 Budget measure_budget(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort,
@@ -619,7 +627,30 @@ Budget measure_budget(const Case& description, const Scene& scene, const LastFra
 
 namespace {
 
-Budget predict(const Case& description, const Scene& scene, Effort effort, int threads, Causes causes) {
+/// What predict() will take, roughly, beside the exact density.
+double work_of_prediction(const Case& description, const Scene& scene, const Particles& seeded, const Carrying& how,
+                          double allowed, Causes causes) {
+  const auto n = static_cast<double>(seeded.size()), d = static_cast<double>(seeded.dimension);
+  const bool smooth = has_smooth_paths(scene);
+  // In blocks of particles a rate takes less than half of what one alone does.
+  const double together = smooth ? 0.4 : 1;
+  const double path = together * work_of_a_path(description, scene, seeded, how, allowed);
+  // The step of a method of order 8 goes with the eighth root of the tolerance: 1e-12 and 1e-13 instead of 1e-8. A
+  // path through kinks costs milliseconds.
+  const double sharp = smooth ? 4 * path : 1e5 * work_of_exact_rate(scene);
+  const double sum = (d == 2 ? 5 : 25) * (n + static_cast<double>(scene.evaluation.size()));
+  double work = 2 * n * path + 2 * sum;
+  if (causes == Causes::all) {
+    const double thin = std::min(n, 3000 * std::pow(2, d));
+    const double steps = thin * rates_of_steps(description, scene);
+    work += static_cast<double>(higher_cutoffs(description).size()) * sum;
+    work += smooth ? std::min(steps, 4e7) * scene.velocity->cost() + thin * sharp : 3 * steps * scene.velocity->cost();
+  }
+  return work;
+}
+
+Budget predict(const Case& description, const Scene& scene, Effort effort, Allowance* allowance, int threads,
+               Causes causes) {
   Budget budget;
   budget.not_covered = budget_not_covered(description);
   if (!budget.known()) return budget;
@@ -629,18 +660,38 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, int t
   // A path through kinks is dear: then by the steps of the case.
   const Carrying how{.exactly = smooth_paths, .paths = paths};
 
+  const double seeding_work = static_cast<double>(scene.seeding.size()) * scene.density->cost();
+  const auto too_dear = [&](double spent) {
+    budget.not_covered = too_much_work;
+    budget.too_dear = true;
+    allowance->spent += spent;
+    return budget;
+  };
+  // All points are looked at here, and again for each piece of advice.
+  const double looking = (causes == Causes::all ? 1.0 : 0.1) * seeding_work;
+  if (allowance && looking > allowance->left() / 4) return too_dear(0);
   SeedReport seeding;
   const Particles seeded = seed_scene(scene, threads, &seeding);
+  budget.particles = seeded.size();
   budget.not_covered = about_beyond(part_beyond(scene.density->mass(), seeded, scene.seeding));
   if (!budget.known()) return budget;
-  const double allowed = effort == Effort::whatever ? std::numeric_limits<double>::infinity()
-                                                    : work_allowed(description, scene, seeded.size(), share_predicted);
+  const double allowed = allowance ? allowance->left() - looking
+                         : effort == Effort::whatever
+                             ? std::numeric_limits<double>::infinity()
+                             : work_allowed(description, scene, seeded.size(), share_predicted);
   const Affordable knowable = points_to_know(description, scene, smooth_paths ? 2048 : 128, allowed / 3, threads);
-  if (knowable.points == 0 ||
-      (effort == Effort::share_of_run &&
-       static_cast<double>(seeded.size() * 2) * 1.3 * work_of_a_path(description, scene, seeded, how, allowed) +
-               static_cast<double>(knowable.points) * knowable.work >
-           allowed)) {
+  if (allowance) {
+    // A fifth of it at most has gone into finding that out.
+    if (knowable.points == 0) return too_dear(looking + allowed / 5);
+    const double work = static_cast<double>(knowable.points) * knowable.work +
+                        work_of_prediction(description, scene, seeded, how, allowed, causes);
+    if (!(work <= allowed)) return too_dear(looking + allowed / 5);
+    allowance->spent += looking + work;
+  } else if (knowable.points == 0 ||
+             (effort == Effort::share_of_run &&
+              static_cast<double>(seeded.size() * 2) * 1.3 * work_of_a_path(description, scene, seeded, how, allowed) +
+                      static_cast<double>(knowable.points) * knowable.work >
+                  allowed)) {
     budget.not_covered = "it would cost more than a tenth of the run; `check` predicts it";
     return budget;
   }

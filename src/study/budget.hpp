@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,9 @@ struct Budget {
   std::vector<std::string> advice;  // what could be saved, what would help
   std::size_t probes = 0;           // points at which the causes were told apart
   double outside = 0;               // part of sum |alpha_j| outside the domain at the last output
+  std::size_t particles = 0;        // at the start, of a prediction
   std::string not_covered;          // why there are no numbers; empty: there are
+  bool too_dear = false;            // they would have taken more work than was allowed
 
   bool known() const { return not_covered.empty(); }
 };
@@ -40,12 +43,25 @@ enum class Effort {
   share_of_run,  // measured: 9 % of the work of the run, predicted: 5 %, or a tenth of a second; else not covered
 };
 
+/// Work that predictions may take, all together, and what they have taken: estimated before it is done and counted as
+/// Work is (sim/simulation.hpp), so that what is left out does not depend on the machine.
+struct Allowance {
+  double work = std::numeric_limits<double>::infinity();
+  double spent = 0;
+
+  double left() const { return work - spent; }
+};
+
 /// Which causes: those of the lattice and the blobs alone, or the steps as well.
 enum class Causes { lattice, all };
 
 /// Before the run. Paths are followed at 1e-8, exact densities at some thousand grid points, steps taken with a
 /// sample of the particles or longer and scaled with the method's order: a small part of the run, or seconds.
 Budget predict_budget(const Case& description, const Scene& scene, Effort effort, int threads,
+                      Causes causes = Causes::all);
+
+/// The same for at most what is left of the allowance, else Budget::too_dear.
+Budget predict_budget(const Case& description, const Scene& scene, Allowance& allowance, int threads,
                       Causes causes = Causes::all);
 
 /// Keeps what measure_budget() needs: the last output of a run.

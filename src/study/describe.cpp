@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include "base/error.hpp"
@@ -15,19 +17,51 @@
 #include "base/stopwatch.hpp"
 #include "sim/outside.hpp"
 #include "sim/simulation.hpp"
+#include "study/footprint.hpp"
+#include "study/trial.hpp"
 #include "time/schedule.hpp"
+#include "time/tableau.hpp"
+#include "write/vtk_files.hpp"
 
 namespace gaussdrift::study {
 
 namespace {
 
-// Up to this many particles, evenly spread over the list, stand for all when fields are sampled.
-constexpr std::size_t sampled_particles = 2000;
+constexpr double enough_seconds = 0.05;  // for a timing
+// Work that the parts of a check may take (sim/simulation.hpp): together two seconds of one core, or less.
+constexpr double work_of_steps = 2e6, work_of_paths = 4e6, work_of_samples = 2e6;
+/// The prediction of the errors may take half as much again as steps, density and pictures of the run, within bounds.
+constexpr double least_work_of_errors = 3e7, most_work_of_errors = 2.5e8;
+constexpr std::size_t most_particles = 400'000, most_with_method = 30'000;  // of a trial; with a method asked by name
+constexpr double most_pairs = 3e8;                                          // summed one by one
+constexpr std::size_t written_particles = 20'000, written_points = 40'000;  // of a file that is made on trial
 
-Particles sample_of(const Particles& all) {
+/// Processor seconds of this thread. Trials run on one thread and are timed by it: other programs on the machine, and
+/// threads that wait for each other in a small trial, do not count.
+class ProcessorClock {
+ public:
+  double seconds() const { return now() - start_; }
+
+ private:
+  static double now() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+  double start_ = now();
+};
+
+/// Of what one thread takes, for `threads` of them: `serial` is the share that is not divided.
+double shared(double seconds, int threads, double serial) {
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  return seconds * (serial + (1 - serial) / std::min(static_cast<double>(threads), static_cast<double>(cores)));
+}
+constexpr double serial_steps = 0.05, serial_sum = 0.15, serial_drifts = 0.15;
+
+Particles sample_of(const Particles& all, std::size_t most) {
   Particles some;
   some.dimension = all.dimension;
-  const std::size_t wanted = std::min(sampled_particles, all.size());
+  const std::size_t wanted = std::min(most, all.size());
   for (std::size_t i = 0; i < wanted; ++i) {
     const std::size_t j = i * all.size() / wanted;
     for (int k = 0; k < all.dimension; ++k) some.position[k].push_back(all.position[k][j]);
@@ -51,7 +85,9 @@ Columns velocity_at(const VelocityField& field, double t, const Particles& parti
 }
 
 void sample_field(const Scene& scene, const Particles& particles, double end, Description& result) {
-  Particles sample = sample_of(particles);
+  // Up to this many particles, evenly spread over the list, stand for all: velocity and divergence, three times.
+  const double affordable = work_of_samples / (6 * scene.velocity->cost());
+  const Particles sample = sample_of(particles, static_cast<std::size_t>(std::clamp(affordable, 20.0, 2000.0)));
   for (const double t : {0.0, 0.5 * end, end}) {
     const Columns u = velocity_at(*scene.velocity, t, sample);
     for (std::size_t j = 0; j < sample.size(); ++j) {
@@ -80,75 +116,196 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
   result.divergence_noise = 1e3 * std::numeric_limits<double>::epsilon() * result.largest_speed / scene.core_radius;
 }
 
-// Seconds a step, from a few steps of a copy that is thrown away.
-double time_steps(const Case& description, Carrier& carrier, const Particles& particles) {
-  if (description.time.end <= 0) return 0;
-  const time::Interval interval(0, description.time.end, description.time.step);
-  base::StageTimes ignored;
-  Particles copy = particles;
-  // The fastest of several batches: the first pay for starting threads, and other programs may disturb any of them.
+/// What fits into the work of a few steps.
+std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_t particles) {
+  const time::Tableau& tableau = time::find_tableau(spec.time.method);
+  const double stages = tableau.stages;
+  Case one_step = spec;
+  one_step.time.step = one_step.time.end = 1;
+  one_step.time.method = "rk4";
+  one_step.output.times = {1};
+  // Of one particle of so many, in a step.
+  const double rates = work_of(one_step, scene, particles).transport / static_cast<double>(particles) / 4 * stages;
+  const double reaction = scene.reaction_rate ? stages * scene.reaction_rate->cost() : 0;
+  double each = rates + reaction;
+  const auto& diffusion = spec.effects.diffusion;
+  if (diffusion && diffusion->method == DiffusionSpec::Method::particle_exchange) {
+    // Nodes of the halo that are looked at around a particle at the rim, and three sums over the particles.
+    const double halo = 2 * spec.particles.overlap * std::sqrt(std::log(1 / diffusion->tolerance)) + 1;
+    each += 0.2 * std::pow(halo, spec.domain.dimension) + 60;
+  }
+  // Few particles that move each other are summed pair by pair, so that fewer cost less each.
+  const double least = !spec.effects.drifts() ? 20 : spec.domain.dimension == 2 ? 30'000 : 12'000;
+  return static_cast<std::size_t>(std::clamp(work_of_steps / each, least, 1e9));
+}
+
+/// Particles that move each other leave the lattice at once, and sums over a lattice are cheaper than others.
+void shake(Particles& particles, double spacing) {
+  constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
+  for (int k = 0; k < particles.dimension; ++k)
+    for (std::size_t j = 0; j < particles.size(); ++j)
+      particles.position[k][j] +=
+          spacing * 0.8 *
+          (std::fmod(static_cast<double>((j + 1) * static_cast<std::size_t>(2 * k + 1)) * golden, 1.0) - 0.5);
+}
+
+/// Seconds a step on one thread, from a few steps of a copy that is thrown away.
+double time_steps(const Case& spec, const Scene& scene, const Particles& particles) {
+  if (spec.time.end <= 0) return 0;
+  const time::Interval interval(0, spec.time.end, spec.time.step);
+  // The fastest of several batches: the first find nothing in the caches.
   double fastest = std::numeric_limits<double>::infinity();
-  std::size_t taken = 0;
-  const base::Stopwatch watch;
-  for (std::size_t count = 1; taken < interval.steps() && watch.seconds() < 0.05; count *= 2) {
-    count = std::min(count, interval.steps() - taken);
-    const base::Stopwatch batch;
-    carrier.advance(copy, interval, taken, count, 0, ignored);
-    fastest = std::min(fastest, batch.seconds() / static_cast<double>(count));
-    taken += count;
+  const ProcessorClock watch;
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    Carrier carrier(spec, scene, 1);
+    Particles copy = particles;
+    carrier.begin(copy);
+    if (spec.effects.drifts()) shake(copy, scene.seeding.spacing);
+    base::StageTimes ignored;
+    std::size_t taken = 0;
+    const ProcessorClock begun;
+    for (std::size_t count = 1; taken < interval.steps() && (taken == 0 || begun.seconds() < enough_seconds / 2);
+         count *= 2) {
+      count = std::min(count, interval.steps() - taken);
+      const ProcessorClock batch;
+      carrier.advance(copy, interval, taken, count, 0, ignored);
+      fastest = std::min(fastest, batch.seconds() / static_cast<double>(count));
+      taken += count;
+    }
+    if (watch.seconds() > (repeat == 0 ? 4 : 1) * enough_seconds) break;
   }
   return fastest;
 }
 
-// Seconds of the reference of all outputs, from tracing some points spread over the grid to the last one.
-double time_reference(const Case& description, const Scene& scene, const Comparison& compared, int threads) {
+/// Seconds of the reference of all outputs, from the paths of some grid points over as much of the run as an amount of
+/// work allows.
+double time_reference(const Case& spec, const Scene& scene, const Comparison& compared, int threads, double& traced) {
   const std::size_t all = compared.points;
-  if (all == 0) return 0;
-  const auto reference = make_reference(description, scene, threads, compared.following);
-  const auto& times = description.output.times;
-  const std::size_t most = has_smooth_paths(scene) ? 2048 : 24;
-  std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < std::min(all, most); ++i)
-    points.push_back(
-        static_cast<std::size_t>((static_cast<double>(i) + 0.5) / static_cast<double>(std::min(all, most)) *
-                                 static_cast<double>(scene.evaluation.size())));
+  if (spec.reference.kind == ReferenceSpec::Kind::none || all == 0) return 0;
+  const auto& times = spec.output.times;
+  const auto some = [&](std::size_t count) {
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i < count; ++i)
+      points.push_back(static_cast<std::size_t>((static_cast<double>(i) + 0.5) / static_cast<double>(count) *
+                                                static_cast<double>(scene.evaluation.size())));
+    return points;
+  };
   std::vector<double> rho;
-  const base::Stopwatch watch;
-  reference->evaluate_at(times.back(), points, rho);
-  double outputs = 1;  // in units of the last one: a flow that depends on t is traced to the start for each
-  if (description.reference.kind == ReferenceSpec::Kind::exact)
-    outputs = static_cast<double>(times.size());
-  else if ((!scene.velocity->is_steady() || all < scene.evaluation.size()) && times.back() > 0)
+  if (spec.reference.kind == ReferenceSpec::Kind::exact) {
+    const std::vector<std::size_t> points = some(std::min<std::size_t>(all, 2048));
+    const auto reference = make_reference(spec, scene, 1);
+    const ProcessorClock watch;
+    reference->evaluate_at(times.back(), points, rho);
+    return watch.seconds() * static_cast<double>(times.size()) * static_cast<double>(all) /
+           static_cast<double>(points.size());
+  }
+  // In units of the last output: a flow that depends on t is traced to the start for each.
+  double outputs = 1;
+  if ((!scene.velocity->is_steady() || all < scene.evaluation.size()) && times.back() > 0)
     outputs = std::accumulate(times.begin(), times.end(), 0.0) / times.back();
-  return watch.seconds() * outputs * static_cast<double>(all) / static_cast<double>(points.size());
+  const bool smooth = has_smooth_paths(scene);
+  const double rate = 12 * work_of_exact_rate(scene);
+  std::size_t count = std::min<std::size_t>(all, smooth ? 64 : 8);
+  double part = 1;  // of the run, traced
+  const bool by_steps = compared.following.by_half_steps;
+  if (by_steps) {
+    const double rates = 2 * times.back() / spec.time.step * time::find_tableau(spec.time.method).stages;
+    part = std::clamp(work_of_paths / (rates * work_of_exact_rate(scene) * static_cast<double>(count)), 2e-7, 1.0);
+  }
+  double each = 0;  // seconds of a point over the whole run
+  for (bool again = false; part > 1e-7;) {
+    const double most_steps = std::max(2.0, work_of_paths / (rate * static_cast<double>(count)));
+    const auto reference = make_reference(
+        spec, scene, 1, {.most_steps = by_steps ? 0 : static_cast<std::size_t>(most_steps), .by_half_steps = by_steps});
+    const std::vector<std::size_t> points = some(count);
+    const ProcessorClock watch;
+    const ReferenceReport report = reference->evaluate_at(part * times.back(), points, rho);
+    const double now = watch.seconds() / static_cast<double>(count) / part;
+    const double rates = static_cast<double>(report.rates);
+    traced += rates;
+    if (2 * report.exhausted > count) {
+      part /= 8;
+      continue;
+    }
+    each = again ? std::min(each, now) : now;
+    // More points where they are cheap, and the last of them twice: a better timing.
+    const std::size_t more = std::min<std::size_t>(all, 8 * count);
+    if (!again && smooth && more > count && rates * work_of_exact_rate(scene) * 8 < work_of_paths) {
+      count = more;
+      continue;
+    }
+    if (again) break;
+    again = true;
+  }
+  return shared(each * outputs * static_cast<double>(all), threads, serial_steps);
 }
 
-// Steps that a method will choose, and seconds a step, from a trial with a sample of the particles that stops after a
-// while and is extrapolated.
-void predict_chosen_steps(const Case& description, const Scene& scene, const Particles& particles, int threads,
-                          Description& result) {
-  Case transport = description;
-  transport.effects = {};
-  Carrier trial(transport, scene, threads);
-  Particles sample = sample_of(particles);
+/// Steps that a method will choose, and seconds a step for one particle, from a trial that stops after an amount of
+/// work and is extrapolated.
+struct ChosenSteps {
+  double steps = 0, seconds = 0;
+};
+ChosenSteps try_chosen_steps(const Case& spec, const Scene& scene, const Particles& particles) {
+  struct Enough {};
+  Carrier trial(spec, scene, 1);
+  Particles moved = particles;
+  trial.begin(moved);
   base::StageTimes ignored;
-  const base::Stopwatch watch;
-  const double end = description.time.end;
-  double now = 0;
-  constexpr int pieces = 20;  // of the run, so that a long one can be left early; each costs at most a step
-  for (int i = 1; i <= pieces && watch.seconds() < 0.2 && now < end; ++i) {
-    const double to = i == pieces ? end : end * i / pieces;
-    result.steps += trial.carry(sample, now, to, result.steps, ignored, [](double, std::size_t) {});
-    now = to;
+  const ProcessorClock watch;
+  const double end = spec.time.end;
+  double now = 0, steps = 0, seconds = 0;
+  const double step_work =
+      static_cast<double>(moved.size()) * time::find_tableau(spec.time.method).stages * work_of_exact_rate(scene);
+  try {
+    trial.carry(moved, 0, end, 0, ignored, [&](double time, std::size_t taken) {
+      now = time;
+      steps = static_cast<double>(taken);
+      seconds = watch.seconds();
+      if (steps * step_work > work_of_paths && seconds > enough_seconds / 2) throw Enough{};
+    });
+  } catch (const Enough&) {
   }
-  if (now <= 0) return;
-  result.step_seconds = watch.seconds() / static_cast<double>(std::max<std::size_t>(1, result.steps)) *
-                        static_cast<double>(particles.size()) / static_cast<double>(sample.size());
-  result.steps = static_cast<std::size_t>(std::ceil(static_cast<double>(result.steps) * end / now));
+  if (!(now > 0)) return {};
+  return {std::ceil(steps * end / now), seconds / steps};
 }
 
 bool wants(const Case& scene, OutputSpec::Vtk kind) {
   return std::find(scene.output.vtk.begin(), scene.output.vtk.end(), kind) != scene.output.vtk.end();
+}
+
+/// Seconds of the files of all outputs: a file is made in memory, as text, which is timed with a small one; and handed
+/// to the disk, for which a usual speed is taken.
+double time_files(const Case& spec, const Trial& trial, const Extent& extent) {
+  constexpr double disk = 2.5e-9, small_file = 4e-3;  // seconds a byte, and to be sure that a file is there
+  const auto frames = static_cast<double>(spec.output.times.size());
+  double seconds = small_file * (10 + frames);  // tables and notes
+  const auto whole = [&](double bytes, std::size_t tried, double tried_seconds) {
+    seconds += frames * (bytes * (tried_seconds / static_cast<double>(tried) + disk) + 2 * small_file);
+  };
+  const auto timed = [](const auto& make) {
+    double fastest = std::numeric_limits<double>::infinity();
+    std::size_t bytes = 1;
+    for (int i = 0; i < 2; ++i) {
+      const ProcessorClock watch;
+      bytes = make().size();
+      fastest = std::min(fastest, watch.seconds());
+    }
+    return std::pair{bytes, fastest};
+  };
+  if (wants(spec, OutputSpec::Vtk::density)) {
+    DensityGrid grid{trial.grid, {}};
+    grid.lattice.points = {std::min(written_points, trial.grid.size()), 1, 1};
+    grid.rho.assign(grid.lattice.size(), 1.0 / 3);
+    const auto [bytes, took] = timed([&] { return write::density_text("density.vti", grid, 0); });
+    whole(bytes_of_density_file(extent), bytes, took);
+  }
+  if (wants(spec, OutputSpec::Vtk::particles)) {
+    const Particles some = sample_of(trial.particles, written_particles);
+    const std::vector<double> velocity(some.size() * static_cast<std::size_t>(some.dimension), 1.0 / 3);
+    const auto [bytes, took] = timed([&] { return write::particle_text("particles.vtp", some, velocity, 0); });
+    whole(bytes_of_particle_file(extent), bytes, took);
+  }
+  return seconds;
 }
 
 std::string grouped(std::size_t number) {
@@ -158,6 +315,88 @@ std::string grouped(std::size_t number) {
     text += digits[i];
   }
   return text;
+}
+
+/// The density at the start, and the seconds that an output of the case takes.
+void try_density(const Case& spec, const Trial& trial, int threads, Description& result) {
+  DensityOptions options;
+  options.tolerance = spec.evaluate.tolerance;
+  options.method = spec.evaluate.method;
+  options.threads = 1;  // the density is the same for any
+  const auto n = static_cast<double>(trial.particles.size());
+  Lattice grid = trial.grid;
+  const bool pairs = spec.evaluate.method == "direct";
+  for (std::size_t k = 0; pairs && n * static_cast<double>(grid.size()) > most_pairs; k = (k + 1) % max_dimension)
+    grid.points[k] = (grid.points[k] + 1) / 2;  // of the same spacing: pairs cost the same wherever they are
+  const ProcessorClock watch;
+  const DensityGrid density = evaluate_density(trial.particles, trial.scene.cutoff, grid, options, &result.density);
+  const double both = result.density.evaluate_seconds + result.density.measure_seconds,
+               of_sum = both > 0 ? result.density.evaluate_seconds / both : 1;
+  const double took = watch.seconds();
+  // Of the first sum: those of a run find as little in the caches, for their memory is new each time.
+  const double seconds = took * of_sum;
+  result.density_maximum = *std::max_element(density.rho.begin(), density.rho.end());
+  const auto all = static_cast<double>(result.particles), points = static_cast<double>(result.grid_points),
+             m = static_cast<double>(grid.size());
+  const auto measured = [](double particles) { return std::max(2e7, 4 * particles); };  // pairs
+  const double sum = seconds * (pairs ? all * points / (n * m) : (all + points) / (n + m));
+  result.evaluate_seconds = shared(sum, threads, serial_sum) +
+                            shared(took * (1 - of_sum) * measured(all) / measured(n), threads, serial_steps);
+}
+
+void predict_errors(const Case& spec, const Trial& trial, int threads, Description& result) {
+  if (trial.part.stride > 1) {
+    result.budget.not_covered = budget_not_covered(spec);
+    if (!result.budget.known()) return;
+    result.budget.not_covered = fmt::format(
+        "a prediction follows all particles, which are too many here; accuracy.budget = \"measured\" lets "
+        "the run tell its errors apart");
+    result.budget.too_dear = true;
+    return;
+  }
+  Allowance allowance{std::clamp(1.5 * work_of(spec, trial.scene, trial.particles.size()).total(), least_work_of_errors,
+                                 most_work_of_errors)};
+  result.budget = predict_budget(spec, trial.scene, allowance, threads);
+  result.work_of_errors = allowance.spent;
+}
+
+/// Steps, the seconds of one, and what effects make of the particles.
+void try_steps(const Case& spec, Trial& trial, int threads, Description& result) {
+  thin_out(trial, particles_for_steps(trial.spec, trial.scene, trial.particles.size()), threads);
+  const double seeded = static_cast<double>(trial.particles.size()), each = trial.carried / seeded;
+  Particles particles = trial.particles;
+  Carrier carrier(trial.spec, trial.scene, threads);
+  carrier.begin(particles);
+  result.step_warnings = carrier.warnings();
+  for (const auto& effect : carrier.effects())
+    if (const std::string warning = effect->warning(); !warning.empty()) result.effect_warnings.push_back(warning);
+  const Carrier as_written(spec, trial.scene, threads);
+  for (const auto& effect : as_written.effects()) result.effects.push_back(effect->describe());
+  // A halo lies around the particles: like their surface.
+  const double halo = static_cast<double>(particles.size()) - seeded;
+  result.particles_at_end = trial.carried + halo * std::pow(each, 1 - 1 / static_cast<double>(spec.domain.dimension));
+  if (carrier.is_adaptive()) {
+    const ChosenSteps chosen = try_chosen_steps(trial.spec, trial.scene, trial.particles);
+    result.steps = static_cast<std::size_t>(chosen.steps);
+    result.step_seconds = chosen.seconds;
+  } else {
+    result.steps = total_steps(spec);
+    result.step_seconds = time_steps(trial.spec, trial.scene, trial.particles);
+  }
+  result.step_seconds = shared(result.step_seconds * result.particles_at_end / static_cast<double>(particles.size()),
+                               threads, spec.effects.drifts() ? serial_drifts : serial_steps);
+}
+
+/// After the last output: the error budget, the table of tolerances and the page.
+double time_report(const Case& spec, const Description& result, double run) {
+  double seconds = 0;
+  if (spec.reference.kind != ReferenceSpec::Kind::none && spec.accuracy.budget != AccuracySpec::Budget::none &&
+      budget_not_covered(spec).empty())
+    seconds += std::max(0.1, 0.1 * run);
+  if (!spec.output.report) return seconds;
+  const double most = std::max(0.5, 0.1 * run), tolerances = 6, once = result.evaluate_seconds;
+  if (once <= most / tolerances) seconds += std::min(most, 3 * tolerances * once);
+  return seconds + (spec.output.images.empty() ? 0.02 : 0.25);
 }
 
 std::string bytes_text(double bytes) {
@@ -175,66 +414,74 @@ std::string effects_text(const std::vector<std::string>& effects) {
 
 }  // namespace
 
-Description describe(const Case& description, int threads) {
+Description describe(const Case& spec, int asked_threads, const std::function<void(const std::string&)>& doing) {
+  const auto now = [&](const char* what) {
+    if (doing) doing(what);
+  };
   Description result;
-  result.threads = base::resolve_threads(threads);
-  const Scene scene = make_scene(description);
-  Particles particles = seed_scene(scene, threads, &result.seeding);
-  result.beyond_at_start = part_beyond(scene.density->mass(), particles, scene.seeding);
-  Carrier carrier(description, scene, threads);
-  carrier.begin(particles);
-  result.step_warnings = carrier.warnings();
-  for (const auto& effect : carrier.effects()) {
-    result.effects.push_back(effect->describe());
-    if (const std::string warning = effect->warning(); !warning.empty()) result.effect_warnings.push_back(warning);
-  }
+  const int threads = result.threads = base::resolve_threads(asked_threads);
+  const double before = memory_of_this_process();
+  now("counting particles");
+  const ProcessorClock counting;
+  Trial trial = make_trial(spec, spec.evaluate.method == "auto" ? most_particles : most_with_method, 1);
+  result.seed_seconds =
+      shared(counting.seconds() * static_cast<double>(trial.lattice.size()) / static_cast<double>(trial.looked_at),
+             threads, serial_sum);
+  const Scene& scene = trial.scene;
+  result.whole = trial.whole;
+  result.seeding = trial.seeding;
+  result.seeding.left_out = static_cast<std::size_t>(static_cast<double>(trial.seeding.left_out) *
+                                                     std::pow(trial.part.stride, trial.lattice.dimension));
+  if (trial.whole) result.beyond_at_start = part_beyond(scene.density->mass(), trial.particles, scene.seeding);
   result.velocity = scene.velocity->describe();
   result.initial_density = scene.density->describe();
-  result.lattice_points = scene.seeding.size();
-  result.particles = particles.size();
+  result.lattice_points = trial.lattice.size();
+  result.looked_at = trial.looked_at;
+  result.particles = static_cast<std::size_t>(trial.carried);
   result.grid_points = scene.evaluation.size();
-  result.steps = total_steps(description);
-  result.frames = description.output.times.size();
-  result.spacing = scene.seeding.spacing;
-  result.core_radius = scene.core_radius;
-  sample_field(scene, particles, description.time.end, result);
+  result.frames = spec.output.times.size();
+  result.spacing = trial.lattice.spacing;
+  result.core_radius = spec.particles.overlap * trial.lattice.spacing;
+  now("looking at the velocity");
+  sample_field(scene, trial.particles, spec.time.end, result);
 
-  DensityOptions options;
-  options.tolerance = description.evaluate.tolerance;
-  options.method = description.evaluate.method;
-  options.threads = threads;
-  const DensityGrid density = evaluate_density(particles, scene.cutoff, scene.evaluation, options, &result.density);
-  result.density_maximum = *std::max_element(density.rho.begin(), density.rho.end());
-  if (carrier.is_adaptive())
-    predict_chosen_steps(description, scene, particles, threads, result);
-  else
-    result.step_seconds = time_steps(description, carrier, particles);
-  const Comparison plan = plan_comparison(description, scene, particles.size(), threads);
-  const std::size_t compared_points = plan.points;
+  now("summing the density at the start");
+  try_density(spec, trial, threads, result);
+  if (!trial.whole || trial.grid.size() < result.grid_points)
+    result.left_out.push_back(fmt::format("the density at the start is that of {} particles on {} grid points, {}",
+                                          grouped(trial.particles.size()), grouped(trial.grid.size()),
+                                          trial.part.stride > 1 ? "with wider blobs" : "as far as they were met"));
+
+  // Errors before the lattice is thinned out for the steps.
+  const Comparison plan = plan_comparison(spec, scene, result.particles, threads);
+  const std::size_t compared = plan.points;
   result.reference = plan.left_out.empty() ? plan.word : plan.left_out;
-  result.reference_seconds = time_reference(description, scene, plan, threads);
-  result.evaluate_seconds = result.density.evaluate_seconds + result.density.measure_seconds;
+  now("predicting the errors");
+  predict_errors(spec, trial, threads, result);
 
-  const auto pictures = static_cast<double>(description.output.images.size() * result.frames);
+  now("trying some steps");
+  try_steps(spec, trial, threads, result);
+  now("tracing exact paths");
+  result.reference_seconds = time_reference(spec, scene, plan, threads, result.paths_traced);
+  now("making files");
+  const Extent extent{.lattice_points = static_cast<double>(result.lattice_points),
+                      .particles = result.particles_at_end,
+                      .grid_points = static_cast<double>(result.grid_points),
+                      .compared_everywhere = compared > 0 && compared >= result.grid_points};
+  result.file_seconds = time_files(spec, trial, extent);
+
+  const auto frames = static_cast<double>(result.frames),
+             pictures = frames * static_cast<double>(spec.output.images.size());
   result.picture_seconds =
       pictures > 0 ? 0.4 + 0.13 * pictures : 0;  // start of the renderer, and a picture, on two cores
-  const auto frames = static_cast<double>(result.frames), n = static_cast<double>(result.particles),
-             m = static_cast<double>(result.grid_points), d = static_cast<double>(description.domain.dimension);
-  result.seconds = static_cast<double>(result.steps) * result.step_seconds + frames * result.evaluate_seconds +
-                   result.reference_seconds + result.picture_seconds;
-  // Positions, weights, ids, a stepped copy, the sorted copy of the transform; density, its transform's result and
-  // sample.
-  result.memory_bytes = n * 8 * (4 * d + 6) + m * 8 * 3 + (pictures > 0 ? 3e8 + frames * m * 4 : 0);
-  // Numbers are written as base64, four letters for three bytes; with the error beside rho, three arrays instead of
-  // one.
-  constexpr double base64 = 4. / 3;
-  const bool compared = compared_points >= result.grid_points;
-  if (wants(description, OutputSpec::Vtk::density))
-    result.disk_bytes += frames * (base64 * 8 * m * (compared ? 3 : 1) + 1500);
-  if (wants(description, OutputSpec::Vtk::particles)) result.disk_bytes += frames * (base64 * 8 * n * 9 + 2500);
-  result.disk_bytes += pictures * 8e4;
-  if (description.output.report) result.disk_bytes += 5e4 + (pictures > 0 ? 5e5 : 0);  // the page and its picture
-  result.budget = predict_budget(description, scene, Effort::whatever, threads);
+  const double run = result.seed_seconds + static_cast<double>(result.steps) * result.step_seconds +
+                     frames * result.evaluate_seconds + result.reference_seconds + result.picture_seconds +
+                     result.file_seconds;
+  result.report_seconds = time_report(spec, result, run);
+  result.seconds = run + result.report_seconds;
+  result.memory_bytes = before + memory_of_run(spec, extent);
+  result.memory_there = memory_of_this_machine();
+  result.disk_bytes = disk_of_run(spec, extent);
   return result;
 }
 
@@ -256,9 +503,10 @@ std::string to_text(const Case& scene, const Description& r) {
   text += fmt::format("velocity   {}\n", r.velocity);
   for (const std::string& warning : r.step_warnings) text += fmt::format("           {}\n", warning);
   text += fmt::format("density    {}\n", r.initial_density);
-  text += fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {} carry weight{}\n",
-                      grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius,
-                      scene.particles.cutoff, grouped(r.particles), r.seeding.carried.size() > 1 ? " or charge" : "");
+  text +=
+      fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}\n",
+                  grouped(r.lattice_points), r.spacing, scene.particles.overlap, r.core_radius, scene.particles.cutoff,
+                  r.whole ? "" : "about ", grouped(r.particles), r.seeding.carried.size() > 1 ? " or charge" : "");
   if (r.seeding.left_out > 0)
     text += fmt::format(
         "           {} with less than {:g} of the largest weight are left out: {:.1e} of the mass{} "
@@ -279,11 +527,18 @@ std::string to_text(const Case& scene, const Description& r) {
   text += fmt::format("           max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum,
                       grouped(r.grid_points));
   text += fmt::format(
-      "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (steps {:.2g}, density "
-      "{:.2g}, reference {:.2g}, pictures {:.2g}); memory {}; disk {}\n",
-      grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads,
+      "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (seeding {:.2g}, steps "
+      "{:.2g}, density "
+      "{:.2g}, reference {:.2g}, files {:.2g}, pictures {:.2g}, report {:.2g}); memory {}; disk {}\n",
+      grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads, r.seed_seconds,
       static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
-      r.reference_seconds, r.picture_seconds, bytes_text(r.memory_bytes), bytes_text(r.disk_bytes));
+      r.reference_seconds, r.file_seconds, r.picture_seconds, r.report_seconds, bytes_text(r.memory_bytes),
+      bytes_text(r.disk_bytes));
+  if (r.memory_bytes >= r.memory_there)
+    text += fmt::format("           there are {} of memory here, so `run` refuses this case: lower {}\n",
+                        bytes_text(r.memory_there),
+                        r.particles > r.grid_points ? "particles.per_axis" : "evaluate.per_axis");
+  for (const std::string& sentence : r.left_out) text += fmt::format("sampled    {}\n", sentence);
   if (r.budget.known() && r.budget.outside >= 1e-3)
     text += fmt::format("leaving    {} of the mass is outside the domain at the last output\n",
                         percent_text(r.budget.outside));
@@ -315,6 +570,8 @@ std::string to_json(const Case& scene, const Description& r) {
                                         {"mass_left_out", r.seeding.carried.front().part()},
                                         {"mass_outside_at_start", r.beyond_at_start},
                                         {"mass_outside_at_end", r.budget.outside},
+                                        {"particles_counted", r.whole},
+                                        {"lattice_points_looked_at", r.looked_at},
                                         {"spacing", r.spacing},
                                         {"core_radius", r.core_radius},
                                         {"grid_points", r.grid_points},
@@ -325,10 +582,17 @@ std::string to_json(const Case& scene, const Description& r) {
                                          {{"chosen", r.density.choice},
                                           {"measured_error", r.density.measured_error},
                                           {"achievable", r.density.achievable}}},
+                                        {"sampled", r.left_out},
                                         {"budget", to_json(r.budget)},
                                         {"predicted",
                                          {{"seconds", r.seconds},
+                                          {"seed_seconds", r.seed_seconds},
+                                          {"step_seconds", static_cast<double>(r.steps) * r.step_seconds},
+                                          {"density_seconds", static_cast<double>(r.frames) * r.evaluate_seconds},
                                           {"reference_seconds", r.reference_seconds},
+                                          {"file_seconds", r.file_seconds},
+                                          {"picture_seconds", r.picture_seconds},
+                                          {"report_seconds", r.report_seconds},
                                           {"memory_bytes", r.memory_bytes},
                                           {"disk_bytes", r.disk_bytes},
                                           {"threads", r.threads}}}};

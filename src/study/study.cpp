@@ -13,6 +13,7 @@
 #include "input/read_case.hpp"
 #include "particle/cutoff.hpp"
 #include "sim/simulation.hpp"
+#include "study/footprint.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -110,6 +111,7 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
   bare.checks.clear();
   try {
+    refuse_what_does_not_fit(bare, options.threads);
     std::vector<double> seconds;
     std::string left_out;  // why there is no error
     for (int repeat = 0; repeat <= options.repeats; ++repeat) {
@@ -184,6 +186,7 @@ Study run_study(const StudyOptions& options) {
       study.experiments.push_back(std::move(experiment));
       if (options.table_grew) options.table_grew(study.experiments.back());
     };
+    refuse_what_does_not_fit(scene, options.threads);
     tell("the Gauss transform");
     add(study_transform(scene, options.threads, 0.1 * options.seconds));
     tell("steps");

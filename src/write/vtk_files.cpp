@@ -66,7 +66,7 @@ void collect_errors(vtkObject* source, std::string& messages) {
 
 // VTK writes into memory and the file is written in one piece: its writers are not safe on a disk that fills up.
 template <class Writer>
-void write_dataset(const fs::path& file, vtkDataSet* data) {
+std::string text_of(const fs::path& file, vtkDataSet* data) {
   std::string messages;
   vtkNew<Writer> writer;
   collect_errors(writer, messages);
@@ -79,7 +79,7 @@ void write_dataset(const fs::path& file, vtkDataSet* data) {
   if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError)
     throw FileError(fmt::format("cannot write {}: {} {}", file.string(),
                                 vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()), messages));
-  write_text(file, writer->GetOutputString());
+  return writer->GetOutputString();
 }
 
 std::string escaped(std::string_view text) {
@@ -113,7 +113,8 @@ void check_size(const fs::path& file, std::string_view what, std::size_t is, std
 
 }  // namespace
 
-void write_density(const fs::path& file, const DensityGrid& density, double time, const std::vector<double>* exact) {
+std::string density_text(const fs::path& file, const DensityGrid& density, double time,
+                         const std::vector<double>* exact) {
   const Lattice& lattice = density.lattice;
   check_size(file, "rho", density.rho.size(), lattice.size());
   vtkNew<vtkImageData> image;
@@ -131,11 +132,15 @@ void write_density(const fs::path& file, const DensityGrid& density, double time
     image->GetPointData()->AddArray(borrowed<vtkDoubleArray>("error", error));
   }
   set_time(image, time);
-  write_dataset<vtkXMLImageDataWriter>(file, image);
+  return text_of<vtkXMLImageDataWriter>(file, image);
 }
 
-void write_particles(const fs::path& file, const Particles& particles, const std::vector<double>& velocity,
-                     double time) {
+void write_density(const fs::path& file, const DensityGrid& density, double time, const std::vector<double>* exact) {
+  write_text(file, density_text(file, density, time, exact));
+}
+
+std::string particle_text(const fs::path& file, const Particles& particles, const std::vector<double>& velocity,
+                          double time) {
   const auto count = static_cast<vtkIdType>(particles.size());
   const int dimension = particles.dimension;
   check_size(file, "id", particles.id.size(), particles.size());
@@ -174,7 +179,12 @@ void write_particles(const fs::path& file, const Particles& particles, const std
   cloud->GetPointData()->SetScalars(borrowed<vtkDoubleArray>("alpha", particles.alpha));
   cloud->GetPointData()->SetVectors(u);
   set_time(cloud, time);
-  write_dataset<vtkXMLPolyDataWriter>(file, cloud);
+  return text_of<vtkXMLPolyDataWriter>(file, cloud);
+}
+
+void write_particles(const fs::path& file, const Particles& particles, const std::vector<double>& velocity,
+                     double time) {
+  write_text(file, particle_text(file, particles, velocity, time));
 }
 
 void Collection::add(double time, const fs::path& data) {

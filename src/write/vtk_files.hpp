@@ -21,6 +21,12 @@ void write_density(const std::filesystem::path& file, const DensityGrid& density
 void write_particles(const std::filesystem::path& file, const Particles& particles, const std::vector<double>& velocity,
                      double time);
 
+/// The texts of these files; messages call them `file`.
+std::string density_text(const std::filesystem::path& file, const DensityGrid& density, double time,
+                         const std::vector<double>* exact = nullptr);
+std::string particle_text(const std::filesystem::path& file, const Particles& particles,
+                          const std::vector<double>& velocity, double time);
+
 /// A ParaView collection: `add` writes the whole .pvd again, beside its name, and renames it. Throws FileError.
 class Collection {
  public:

@@ -1,0 +1,164 @@
+// `check` looks at samples: how much it looks at does not grow with the case, and what it says of the case is right.
+// Work is counted, in values of density and velocity, not timed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "input/read_case.hpp"
+#include "study/accuracy.hpp"
+#include "study/describe.hpp"
+#include "study/trial.hpp"
+
+namespace gaussdrift::study {
+namespace {
+
+/// A bump of radius 0.2 that is carried once to the right, in 2D or 3D.
+std::string text_of(int dimension) {
+  const bool space = dimension == 3;
+  const auto point = [&](const std::string& number) {
+    return "[" + number + ", " + number + (space ? ", " + number + "]" : "]");
+  };
+  return "gaussdrift = 1\n[domain]\nmin = " + point("0") + "\nmax = " + point("1") +
+         "\n[velocity]\nu = [\"0.1\", \"0\"" + (space ? ", \"0\"" : "") +
+         "]\n[density]\nshape = \"wendland\"\ncenter = " + point("0.5") +
+         "\nradius = 0.2\n[particles]\nper_axis = 21\n[time]\nend = 1\nstep = 0.5\n[evaluate]\nper_axis = 20\n"
+         "[output]\nframes = 2\nimages = []\nreport = \"none\"\n[reference]\nkind = \"none\"\n";
+}
+
+Case bump(std::vector<std::string> overrides, int dimension = 2) {
+  return input::parse_case(text_of(dimension), "bump.toml", overrides).scene;
+}
+
+Case built_in(const std::string& name, const std::vector<std::string>& overrides) {
+  return input::read_case(SOURCE_DIR "/cases/" + name + ".toml", overrides).scene;
+}
+
+TEST(Trial, OfAFewParticlesIsTheCase) {
+  const Case spec = bump({"particles.per_axis=101"});
+  const Trial trial = make_trial(spec, 400'000, 0);
+  const Particles all = seed_scene(make_scene(spec), 0);
+  EXPECT_TRUE(trial.whole);
+  EXPECT_EQ(trial.particles.alpha, all.alpha);
+  EXPECT_EQ(trial.particles.position[1], all.position[1]);
+  EXPECT_EQ(trial.carried, static_cast<double>(all.size()));
+  EXPECT_EQ(trial.grid.points, trial.scene.evaluation.points);
+}
+
+// A lattice of up to 2 10^9 points: the density is asked for at a few hundred thousand of them.
+TEST(Trial, CountsParticlesFromASample) {
+  struct Large {
+    int dimension, per_axis;
+    double radius;
+  };
+  for (const Large& large : {Large{2, 5001, 0.2}, Large{2, 40'001, 0.2}, Large{2, 40'001, 0.004}, Large{3, 1001, 0.2},
+                             Large{3, 1001, 0.03}}) {
+    const Trial trial = make_trial(
+        bump({"particles.per_axis=" + std::to_string(large.per_axis), "density.radius=" + std::to_string(large.radius)},
+             large.dimension),
+        100'000, 0);
+    const double ball = large.dimension == 2 ? std::numbers::pi : 4 * std::numbers::pi / 3;
+    const double exact = ball * std::pow(large.radius * (large.per_axis - 1), large.dimension);
+    EXPECT_NEAR(trial.carried / exact, 1, 0.03) << large.per_axis << ", radius " << large.radius;
+    EXPECT_LE(trial.particles.size(), 100'000u);
+    EXPECT_LE(trial.looked_at, 1'500'000u) << large.per_axis << ", radius " << large.radius;
+    // The mass is that of the case: weights have grown with the cells.
+    double mass = 0;
+    for (const double alpha : trial.particles.alpha) mass += alpha;
+    EXPECT_NEAR(mass / trial.scene.density->mass().value(), 1, 0.02);
+  }
+}
+
+TEST(Trial, SaysThatItMetNothing) {
+  EXPECT_THROW(make_trial(bump({"particles.per_axis=40001", "density.radius=2e-5"}), 100'000, 0), InputError);
+  EXPECT_THROW(make_trial(bump({"density.center=[0.51, 0.51]", "density.radius=1e-3"}), 100'000, 0), InputError);
+}
+
+TEST(Trial, IsThinnedOutToSelfSimilarOnes) {
+  const Case spec = bump({"particles.per_axis=201", "effects.diffusion.D=1e-4"});
+  Trial trial = make_trial(spec, 400'000, 0);
+  const double carried = trial.carried;
+  thin_out(trial, 1000, 0);
+  EXPECT_FALSE(trial.whole);
+  EXPECT_LE(trial.particles.size(), 1000u);
+  EXPECT_GE(trial.particles.size(), 200u);
+  EXPECT_EQ(trial.carried, carried);
+  const double times = static_cast<double>(trial.part.stride);
+  EXPECT_NEAR(trial.scene.core_radius, 2 * trial.scene.seeding.spacing, 1e-15);
+  EXPECT_NEAR(trial.spec.effects.diffusion->coefficient, 1e-4 * times * times, 1e-18);  // D/eps^2 stays
+}
+
+TEST(Check, OfALargeCaseSamplesAndSaysSo) {
+  const Description whole = describe(bump({"particles.per_axis=301"}), 0);
+  EXPECT_TRUE(whole.whole);
+  EXPECT_TRUE(whole.left_out.empty());
+  const Description large = describe(bump({"particles.per_axis=30001"}), 0);
+  EXPECT_FALSE(large.whole);
+  EXPECT_LE(large.looked_at, 1'500'000u);
+  EXPECT_EQ(large.lattice_points, 30'001u * 30'001u);
+  EXPECT_NEAR(static_cast<double>(large.particles), 1e4 * static_cast<double>(whole.particles),
+              0.02 * static_cast<double>(large.particles));
+  EXPECT_EQ(large.left_out.size(), 1u);
+  EXPECT_EQ(large.budget.not_covered.find("a prediction follows all particles"), 0u) << large.budget.not_covered;
+  EXPECT_NEAR(large.memory_bytes / (1e4 * whole.particles_at_end * 340), 1, 0.3);
+}
+
+// 800 terms, and paths that fly apart at the rate 4000: following them took 45 s of processor, the run 0.05 s.
+TEST(Check, LeavesOutErrorsThatTakeLongerThanTheRun) {
+  std::string terms = "0";
+  for (int i = 0; i < 800; ++i) terms += "+5*x";
+  const Case spec = bump({"velocity.u=[\"" + terms + "\", \"0\"]", "reference.kind=\"characteristics\""});
+  EXPECT_GT(make_scene(spec).velocity->cost(), 20);  // of a formula with a sine or two
+  const Description told = describe(spec, 0);
+  EXPECT_TRUE(told.budget.too_dear) << told.budget.not_covered;
+  EXPECT_LE(told.work_of_errors, 3e7);
+  EXPECT_LE(told.paths_traced * 20, 2e7);
+}
+
+// A vortex for 10^6 units of time: one path from the end to the start takes 10^7 steps.
+TEST(Check, TracesAPartOfALongRun) {
+  const Case spec = built_in("swirl_remesh", {"params.T=1e6", "particles.per_axis=14", "evaluate.per_axis=14"});
+  const Description told = describe(spec, 0);
+  EXPECT_EQ(told.steps, 20'000'000u);
+  EXPECT_LE(told.paths_traced, 2e7);
+  // 5 outputs of 196 points, twice and a half the last: some 10^5 steps of 12 rates of 40 ns each at least.
+  EXPECT_GT(told.reference_seconds, 1e-3);
+}
+
+TEST(Check, PredictsErrorsWhereTheyTakeLessThanTheRun) {
+  const Description told = describe(built_in("rotating_cone", {}), 0);
+  EXPECT_TRUE(told.budget.known()) << told.budget.not_covered;
+  EXPECT_NEAR(told.budget.total, 0.024, 0.001);  // published: the cone's height falls by that
+  EXPECT_TRUE(told.whole);
+}
+
+TEST(Check, OfAnAbsurdCaseSaysThatItDoesNotFit) {
+  const Description told = describe(bump({"particles.per_axis=46000"}), 0);
+  EXPECT_GT(told.memory_bytes, 6e10);
+  EXPECT_LT(told.memory_bytes, 1.3e11);
+}
+
+TEST(Accuracy, SearchesForABoundedWhileAndSaysWhatItLeftOut) {
+  const Case cone = built_in("rotating_cone", {});
+  const AccuracyChoice free = choose_for_accuracy(cone, 1e-2, 0);
+  EXPECT_TRUE(free.left_out.empty()) << free.left_out;
+  EXPECT_LE(free.work, most_work_of_search);
+  EXPECT_GE(free.lattices, 4u);
+  // With a tenth of that work there is less to choose from, or nothing.
+  const double little = 0.1 * free.work;
+  try {
+    const AccuracyChoice bounded = choose_for_accuracy(cone, 1e-2, 0, {}, little);
+    EXPECT_LE(bounded.work, little);
+    EXPECT_LT(bounded.lattices, free.lattices);
+    EXPECT_NE(to_text(bounded).find("the search is bounded"), std::string::npos) << to_text(bounded);
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the search is bounded"), std::string::npos) << error.what();
+  }
+  EXPECT_THROW(choose_for_accuracy(cone, 1e-2, 0, {}, 1e4), InputError);
+}
+
+}  // namespace
+}  // namespace gaussdrift::study

@@ -1,0 +1,190 @@
+// What `check` says of memory against what `run` takes, and what both take at most: the largest resident set that the
+// system counted for the process.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program/program.hpp"
+
+namespace gaussdrift {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool sanitized = true;  // keeps what is freed
+#else
+constexpr bool sanitized = false;
+#endif
+
+struct Measured {
+  int exit_code = -1;
+  double peak = 0;  // bytes
+  std::string out;
+};
+
+Measured measured(const ScratchFolder& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), PROGRAM);
+  const fs::path out = folder / "stdout.txt";
+  const pid_t child = fork();
+  if (child == 0) {
+    const int to = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(to, STDOUT_FILENO);
+    dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
+    if (chdir(folder.path().c_str()) != 0) _exit(127);
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    execv(PROGRAM, argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1024.0 * static_cast<double>(usage.ru_maxrss), read_file(out)};
+}
+
+const std::string plain = R"(gaussdrift = 1
+[domain]
+min = [0, 0]
+max = [1, 1]
+[velocity]
+u = ["0.1", "0"]
+[density]
+shape = "wendland"
+center = [0.5, 0.5]
+radius = 0.2
+[particles]
+per_axis = 21
+[time]
+end = 1
+step = 0.5
+[evaluate]
+per_axis = 40
+[output]
+frames = 1
+images = []
+vtk = []
+report = "none"
+[reference]
+kind = "none"
+)";
+
+const std::string in_space = R"(gaussdrift = 1
+[domain]
+min = [0, 0, 0]
+max = [1, 1, 1]
+[velocity]
+u = ["0.1", "0", "0"]
+[density]
+shape = "wendland"
+center = [0.5, 0.5, 0.5]
+radius = 0.3
+[particles]
+per_axis = 21
+[time]
+end = 1
+step = 0.5
+[evaluate]
+per_axis = 20
+[output]
+frames = 1
+images = []
+vtk = []
+report = "none"
+[reference]
+kind = "none"
+)";
+
+struct Size {
+  std::string name, text;
+  std::vector<std::string> set;
+};
+
+class Footprint : public testing::TestWithParam<Size> {};
+
+TEST_P(Footprint, IsPredictedWithinAFactorOf1Point3) {
+  if (sanitized) GTEST_SKIP() << "sanitizers take memory of their own";
+  const Size& size = GetParam();
+  const ScratchFolder folder;
+  write_file(folder / "c.toml", size.text);
+  std::vector<std::string> arguments{"c.toml", "--json"};
+  for (const std::string& key : size.set) arguments.insert(arguments.end(), {"--set", key});
+  std::vector<std::string> check{"check"}, run{"run", "--out", "r"};
+  check.insert(check.end(), arguments.begin(), arguments.end());
+  run.insert(run.end(), arguments.begin(), arguments.end());
+  const Measured predicted = measured(folder, check), taken = measured(folder, run);
+  ASSERT_EQ(predicted.exit_code, 0);
+  ASSERT_EQ(taken.exit_code, 0);
+  const double told = nlohmann::json::parse(predicted.out)["predicted"]["memory_bytes"];
+  EXPECT_LT(told / taken.peak, 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
+  EXPECT_GT(told / taken.peak, 1 / 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
+  EXPECT_LT(predicted.peak, 200e6);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, Footprint,
+    testing::Values(
+        Size{"nothing_written", plain, {"particles.per_axis=1500"}},
+        Size{"particle_files", plain, {"particles.per_axis=1500", "output.vtk=[\"particles\"]", "output.frames=2"}},
+        Size{"density_files", plain, {"particles.per_axis=100", "evaluate.per_axis=1500", "output.vtk=[\"density\"]"}},
+        Size{"compared",
+             plain,
+             {"particles.per_axis=100", "evaluate.per_axis=700", "output.vtk=[\"density\"]", "reference.kind=\"exact\"",
+              "reference.rho=\"x\""}},
+        Size{"pictures", plain, {"particles.per_axis=100", "evaluate.per_axis=500", "output.images=[\"heatmap\"]"}},
+        Size{"page", plain, {"particles.per_axis=1000", "output.report=\"html\"", "output.vtk=[\"particles\"]"}},
+        Size{"order_8", plain, {"particles.per_axis=1200", "particles.cutoff=\"gauss8\""}},
+        Size{"diffusion",
+             plain,
+             {"particles.per_axis=400", "effects.diffusion.D=1e-6", "effects.diffusion.method=\"particle-exchange\"",
+              "time.step=1"}},
+        Size{"remeshing", plain, {"particles.per_axis=700", "effects.remesh.every=1"}},
+        Size{"vortex", plain, {"particles.per_axis=300", "effects.vortex.tolerance=1e-3", "time.step=1"}},
+        Size{"in_space", in_space, {"particles.per_axis=150"}},
+        Size{"in_space_written",
+             in_space,
+             {"particles.per_axis=80", "evaluate.per_axis=100", "output.vtk=[\"particles\", \"density\"]"}}),
+    [](const auto& size) { return size.param.name; });
+
+TEST(Check, OfAnAbsurdCaseTakesMegabytesAndTheRunIsRefusedBeforeItBegins) {
+  const ScratchFolder folder;
+  write_file(folder / "c.toml", plain);
+  const Measured check = measured(folder, {"check", "c.toml", "--set", "particles.per_axis=46000"});
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_NE(check.out.find("about 26"), std::string::npos) << check.out;  // 2.65e8 particles
+  EXPECT_TRUE(sanitized || check.peak < 200e6) << check.peak;
+  // A tenth of that, with a limit of three gigabytes.
+  const std::string limit = sanitized ? "ulimit -d 3000000;" : "ulimit -v 3000000;";
+  for (const std::string verb : {"run", "study"}) {
+    const Outcome refused = gaussdrift_in(folder, verb + " c.toml --set particles.per_axis=15000", limit);
+    EXPECT_EQ(refused.exit_code, 3) << verb;
+    EXPECT_NE(refused.err.find("the run would take about"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("there are 3.07 GB; lower particles.per_axis"), std::string::npos) << refused.err;
+    EXPECT_FALSE(fs::exists(folder / "output"));
+  }
+}
+
+TEST(Inputs, ThatAreNoFilesOfTextAreRefusedWithoutReadingThem) {
+  const ScratchFolder folder;
+  for (const std::string verb : {"check /dev/zero", "run /dev/zero", "study /dev/zero", "check .",
+                                 "sum --sources /dev/zero --sigma 1", "sum --sources . --sigma 1"}) {
+    const Outcome refused = gaussdrift_in(folder, verb);
+    EXPECT_EQ(refused.exit_code, 6) << verb;
+    EXPECT_NE(refused.err.find(verb.find("zero") == std::string::npos ? "is a folder" : "is a device"),
+              std::string::npos)
+        << refused.err;
+  }
+  write_file(folder / "c.toml", plain);
+  const Outcome huge = gaussdrift_in(folder, "check huge.toml", "truncate -s 1T huge.toml;");
+  EXPECT_EQ(huge.exit_code, 3);
+  EXPECT_NE(huge.err.find("a case file has at most 4.0 MB"), std::string::npos) << huge.err;
+  EXPECT_EQ(gaussdrift_in(folder, "check c.toml --set particles.overlap=1e-300").exit_code, 3);
+}
+
+}  // namespace
+}  // namespace gaussdrift
