@@ -38,7 +38,7 @@ class GaussianVelocity : public VelocityField {
     for (int l = 0; l < d; ++l)
       Eigen::Map<Eigen::VectorXd>(u.axis[static_cast<std::size_t>(l)], values.rows()) += values.col(l);
   }
-  double cost() const override { return std::max(1.0, 0.03 * static_cast<double>(sum_.sources())); }
+  double cost() const override { return std::max(1.0, 0.04 * static_cast<double>(sum_.sources())); }
   // Each Gaussian is free of divergence, and derivatives from fgtd keep that to rounding [Sch06, Bemerkung 6.4.3].
   void add_divergence(double /*t*/, const PointsView& x, double* values) const override {
     for (int l = 0; l < d; ++l)

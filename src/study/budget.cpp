@@ -632,8 +632,8 @@ double work_of_prediction(const Case& description, const Scene& scene, const Par
                           double allowed, Causes causes) {
   const auto n = static_cast<double>(seeded.size()), d = static_cast<double>(seeded.dimension);
   const bool smooth = has_smooth_paths(scene);
-  // In blocks of particles a rate takes less than half of what one alone does.
-  const double together = smooth ? 0.4 : 1;
+  // In blocks of particles a formula takes less than half of what one alone does.
+  const double together = smooth && scene.velocity->cost() <= 2 ? 0.4 : 1;
   const double path = together * work_of_a_path(description, scene, seeded, how, allowed);
   // The step of a method of order 8 goes with the eighth root of the tolerance: 1e-12 and 1e-13 instead of 1e-8. A
   // path through kinks costs milliseconds.
