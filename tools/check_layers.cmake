@@ -18,7 +18,7 @@ set(may_write base particle sim case)
 set(may_render base particle sim case write)
 set(may_input base expression field read case)
 set(may_study base expression fgtd farfield field particle effect time read sim write render input case)
-set(may_cli base study sim write render read input time case fgtd)
+set(may_cli base expression study sim write render read input time case fgtd)
 
 cmake_policy(VERSION 3.25)
 get_filename_component(ROOT "${ROOT}" ABSOLUTE)
