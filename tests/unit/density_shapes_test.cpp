@@ -130,7 +130,8 @@ TEST(SlottedDisk, HasTheMassOfItsArea) {
     const SlottedDisk disk(2, {}, 15, width, length, 2);
     // Columns of the disk, less what the slot takes of those within half its width. The circle's ends are like roots.
     const double whole = 2 * 225 * std::numbers::pi;
-    const double slot = 2 * 2 * integral([&](double x) { return length - 15 + std::sqrt(225 - x * x); }, width / 2, 64);
+    const double slot =
+        2 * 2 * integral([cut = length](double x) { return cut - 15 + std::sqrt(225 - x * x); }, width / 2, 64);
     EXPECT_NEAR(disk.mass().value(), whole - slot, 7e-13) << "three roundings of 1400";
     // And by counting lattice points, which is right to about the perimeter times the spacing.
     double area = 0;

@@ -66,8 +66,8 @@ TEST(Derivative, OfEveryFunctionAgreesWithDifferences) {
     for (const auto& [x, y] : {std::pair{0.31, 0.42}, std::pair{0.57, 0.11}, std::pair{0.7, 0.9}}) {
       const auto [dx, dy] = slopes(text, x, y);
       const double h = 1e-4;
-      const auto difference = [&](double hx, double hy) {  // of order 4
-        const auto f = [&](double k) { return expression.evaluate({x + k * hx, y + k * hy}); };
+      const auto difference = [&, x0 = x, y0 = y](double hx, double hy) {  // of order 4
+        const auto f = [&](double k) { return expression.evaluate({x0 + k * hx, y0 + k * hy}); };
         return (8 * (f(1) - f(-1)) - (f(2) - f(-2))) / (12 * h);
       };
       EXPECT_NEAR(dx, difference(h, 0), 4e-12 * (1 + std::abs(dx))) << text;  // rounding / h, and h^4: 1.5e-12
