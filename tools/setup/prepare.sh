@@ -3,12 +3,21 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 cd "$root"
+program=$root/build/release/gaussdrift
 
 packages_to_build="g++ cmake ninja-build pkg-config libvtk9-dev libosmesa6-dev libeigen3-dev libtomlplusplus-dev
   libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-dejavu-core"
 packages_to_test="libgtest-dev python3 python3-vtk9 clang libomp-dev"
 
 say() { printf '%s\n' "$*" >&2; }
+
+# Whether the program is there and no source is younger. Then it runs whatever became of the packages that it was built with,
+# as where a later one has removed them.
+is_built() {
+  [[ -x $program ]] || return 1
+  local younger
+  younger=$(find CMakeLists.txt CMakePresets.json cmake include src -newer "$program" -print -quit) && [[ -z $younger ]]
+}
 
 # install_missing PACKAGE...
 install_missing() {
