@@ -276,9 +276,21 @@ TEST(Run, RefusesWhatDoesNotFitInMemory) {
   write_file(folder / "small.toml", small_case);
   const Outcome refused = gaussdrift_in(folder, "run small.toml --set evaluate.per_axis=46000");
   EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_NE(refused.err.find("would take 16.9 GB, at most 8.59 GB are used; lower evaluate.per_axis"),
+  EXPECT_NE(refused.err.find("the run would take about 271 GB of memory for 170 particles and 2.12e+09 grid points"),
             std::string::npos)
       << refused.err;
+  EXPECT_NE(refused.err.find("lower evaluate.per_axis"), std::string::npos) << refused.err;
+}
+
+// GCC's run-time library shows the settings that it has found: first as it was called, then as it calls itself.
+TEST(Run, ThreadsThatWaitSleepUnlessTheUserHasSaidHowTheyWait) {
+  const ScratchFolder folder;
+  const std::string sleep = "GOMP_SPINCOUNT = '0'";
+  const Outcome usual = gaussdrift_in(folder, "--version", "OMP_DISPLAY_ENV=verbose");
+  if (usual.err.find("GOMP_SPINCOUNT") == std::string::npos) GTEST_SKIP() << "threads of another run-time library";
+  EXPECT_NE(usual.err.find(sleep), std::string::npos) << usual.err;
+  const Outcome told = gaussdrift_in(folder, "--version", "OMP_WAIT_POLICY=active OMP_DISPLAY_ENV=verbose");
+  EXPECT_EQ(told.err.find(sleep), std::string::npos) << told.err;
 }
 
 TEST(Run, TakesACaseWhoseNameIsNotUtf8) {
