@@ -464,7 +464,7 @@ ExitCode reproduce_claims(const ReproduceOptions& options) {
     ProgressLine line;
     result = study::reproduce_claims(claims, [&](const std::string& what) { line.show(what); });
   }
-  fmt::print("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? study::to_json(result) : study::to_text(result));
   return ExitCode::ok;
 }
 

@@ -1,0 +1,23 @@
+# Is everything that the program says said through src/cli/terminal.hpp? What is printed past it throws where a terminal
+# takes no text, and ends a run.
+# Usage: cmake -D ROOT=<source folder> -P one_voice_test.cmake
+cmake_policy(VERSION 3.25)
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/src/*.cpp ${ROOT}/src/*.hpp)
+list(LENGTH files count)
+if(count LESS 100)
+  message(FATAL_ERROR "only ${count} sources were found below ${ROOT}/src")
+endif()
+set(failures "")
+foreach(file ${files})
+  if(file MATCHES "^src/cli/terminal\\.")
+    continue()
+  endif()
+  file(STRINGS ${ROOT}/${file} lines REGEX "fmt::print\\(|std::cout|std::cerr|std::clog|[^n]printf\\(|std::puts|std::fputs\\(|std::putchar")
+  foreach(line ${lines})
+    list(APPEND failures "${file}: ${line}")
+  endforeach()
+endforeach()
+if(failures)
+  list(JOIN failures "\n  " text)
+  message(FATAL_ERROR "printed past cli/terminal.hpp (say, note, put):\n  ${text}")
+endif()
