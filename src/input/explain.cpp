@@ -120,7 +120,7 @@ Explanation about(const Quantity& quantity) {
 }
 
 Explanation about_effects() {
-  Explanation result{"tables", "[effects.*]", "what happens beside transport; which of them go together:", {}};
+  Explanation result{"tables", "[effects.*]", "what happens beside transport. Which effects go together:", {}};
   for (const std::string& effect : effect_names()) add(result.facts, effect, goes_with(effect));
   return result;
 }
@@ -179,22 +179,23 @@ std::vector<Explanation> explain(std::string_view word) {
 std::optional<std::string> suggest_word(std::string_view word) { return base::suggest(word, known_words()); }
 
 std::string overview_text() {
-  std::string text = "The case file, table by table; gaussdrift explain KEY tells more about one.\n";
+  std::string text = "The keys of a case file, table by table. gaussdrift explain KEY tells more about one of them.\n";
   const auto line = [&](const Key& key) {
-    text += fmt::format("  {:<12}{:<6} {}\n", key.name, key.symbol, key.meaning);
+    text += fmt::format("  {:<14} {:<6} {}\n", key.name, key.symbol, first_sentence(key.meaning));
   };
   text += "\n";
   for (const Key& key : keys())
     if (key.table.empty()) line(key);
   for (const Table& table : tables()) {
-    text += fmt::format("\n[{}]  {}\n", table.name, table.meaning);
+    text += fmt::format("\n[{}]  {}\n", table.name, first_sentence(table.meaning));
     for (const Key& key : keys())
       if (key.table == table.name && key.value.empty()) line(key);
   }
   std::vector<std::string_view> symbols;
   for (const Quantity& quantity : quantities()) symbols.push_back(quantity.symbol);
-  text += fmt::format("\nAlso: named fields and shapes, functions, and what follows from the keys: {}.\n",
-                      fmt::join(symbols, ", "));
+  text +=
+      fmt::format("\nIt also explains tables, effects, named fields and shapes, functions, and these symbols: {}.\n",
+                  fmt::join(symbols, ", "));
   return text;
 }
 

@@ -53,7 +53,9 @@ std::string one_line(std::string text) {
   return base::printable(text);
 }
 
-std::string meaning_note(const Key& key) { return fmt::format("{}: {}", key.name, without_backticks(key.meaning)); }
+std::string meaning_note(const Key& key) {
+  return fmt::format("{}: {}", key.name, without_backticks(first_sentence(key.meaning)));
+}
 
 std::string quoted_list(const std::vector<std::string_view>& words) {
   std::vector<std::string> shown;
@@ -533,7 +535,7 @@ class Reader {
   /// As many entries as the domain has dimensions?
   bool has_entries(const Value& value, const Key& key, std::string_view what) {
     if (value.items.size() == static_cast<std::size_t>(dimension_)) return true;
-    diagnostics_.error(value.place, fmt::format("{} needs {} {}s, one a dimension of the domain, found {}",
+    diagnostics_.error(value.place, fmt::format("{} needs {} {}s, one for each axis of the domain, found {}",
                                                 label_of(key), dimension_, what, value.items.size()));
     return false;
   }

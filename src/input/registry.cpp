@@ -32,55 +32,62 @@ std::string joined(const std::vector<std::string_view>& words) {
 
 const std::vector<Table>& tables() {
   static const std::vector<Table> list = {
-      {.name = "case", .required = false, .meaning = "what the case is called and where it comes from"},
+      {.name = "case", .required = false, .meaning = "the title of the case and where it comes from"},
       {.name = "params",
        .required = false,
-       .meaning = "names for numbers: `R = 0.25`; later ones may use earlier ones"},
-      {.name = "domain", .required = true, .meaning = "the box on which density is evaluated and particles start"},
+       .meaning = "names for numbers, such as `R = 0.25`. A parameter may use those above it"},
+      {.name = "domain",
+       .required = true,
+       .meaning = "the box in which particles start and on which the density is evaluated"},
       {.name = "velocity",
        .required = true,
-       .meaning = "the prescribed velocity u; several `[[velocity]]` add up",
+       .meaning = "the prescribed velocity u. Several `[[velocity]]` add up",
        .kinds = {"u", "streamfunction", "field", "file", "gaussians"}},
       {.name = "density",
        .required = true,
-       .meaning = "the density rho_0 at t = 0; several `[[density]]` add up",
+       .meaning = "the density rho_0 at time 0. Several `[[density]]` add up",
        .kinds = {"expression", "shape", "file"}},
       {.name = "particles",
        .required = true,
-       .meaning = "the lattice on which particles start, and the blob each carries"},
-      {.name = "time", .required = true, .meaning = "how long, and in which steps"},
-      {.name = "evaluate", .required = false, .meaning = "the lattice on which density is summed for output"},
-      {.name = "output", .required = false, .meaning = "when to write, and what: either `times` or `frames`"},
+       .meaning = "the lattice on which particles start, and the blob that each of them carries. A blob is a smooth "
+                  "bump that spreads the weight of its particle"},
+      {.name = "time", .required = true, .meaning = "how long the run lasts, and in which steps"},
+      {.name = "evaluate", .required = false, .meaning = "the lattice on which the density is summed for output"},
+      {.name = "output",
+       .required = false,
+       .meaning = "what is written, and when. The times are given by `times` or by `frames`"},
       {.name = "reference",
        .required = false,
-       .meaning =
-           "the exact density that every output is compared with: norms, and the arrays `rho_exact` and `error`"},
+       .meaning = "the exact density with which every output is compared. It gives the norms of the error, and the "
+                  "arrays `rho_exact` and `error` in the files"},
       {.name = "accuracy",
        .required = false,
-       .meaning = "how accurate a run has to be, and whether its errors are told apart by cause"},
+       .meaning = "how accurate the run has to be, and whether its error is split by cause"},
       {.name = "check",
        .required = false,
-       .meaning =
-           "a bound that the results have to keep, or the run ends with exit code 5; several `[[check]]` are possible",
+       .meaning = "a bound that the results have to keep. If they break it, the run ends with exit code 5. Several "
+                  "`[[check]]` are possible",
        .kinds = {"what"}},
       {.name = "effects.reaction",
        .required = false,
-       .meaning = "weights change along the paths: alpha' = -rate alpha, so d_t rho + div(rho u) + rate rho = 0"},
+       .meaning = "the weights of the particles decay or grow along their paths: alpha' = -rate alpha. The density "
+                  "then obeys d_t rho + div(rho u) + rate rho = 0"},
       {.name = "effects.diffusion",
        .required = false,
-       .meaning = "the density diffuses, d_t rho + div(rho u) = D Laplacian rho; `reference.kind` is then `none` "
+       .meaning = "the density diffuses: d_t rho + div(rho u) = D Laplacian rho. `reference.kind` is then `none`, "
                   "unless it is `exact`"},
       {.name = "effects.charge",
        .required = false,
-       .meaning = "particles are charged and repel each other: X' = u + mobility E(X), E = sum_k q_k (X - X_k) / r^d; "
-                  "`reference.kind` is then `none` unless it is `exact`"},
+       .meaning = "the particles are charged and repel each other: X' = u + mobility E(X) with E = sum_k q_k (X - X_k) "
+                  "/ r^d. `reference.kind` is then `none`, unless it is `exact`"},
       {.name = "effects.vortex",
        .required = false,
-       .meaning = "the density is a vorticity, and its blobs move each other by the velocity that belongs to it; 2D, "
-                  "`cutoff = \"gauss2\"`; `reference.kind` is then `none` unless it is `exact`"},
+       .meaning = "the density is a vorticity, and its blobs move each other as vortices do. It needs two dimensions "
+                  "and `cutoff = \"gauss2\"`. `reference.kind` is then `none`, unless it is `exact`"},
       {.name = "effects.remesh",
        .required = false,
-       .meaning = "weights go back to a fresh lattice where particles have moved apart, or every so many steps"},
+       .meaning = "the weights move to particles on a fresh lattice: whenever old neighbours have drifted apart, or "
+                  "every so many steps"},
   };
   return list;
 }
@@ -120,100 +127,101 @@ std::vector<Key> written_keys() {
        .type = Type::whole,
        .required = true,
        .range = {1, 1},
-       .meaning = "version of the case format; this program reads version 1"},
+       .meaning = "version of the case format. This program reads version 1"},
 
-      {.table = "case", .name = "title", .meaning = "one line for pictures and reports"},
-      {.table = "case", .name = "cite", .meaning = "the source of the case"},
+      {.table = "case", .name = "title", .meaning = "one line of text for pictures and reports"},
+      {.table = "case", .name = "cite", .meaning = "where the case comes from, for example a paper"},
 
       {.table = "domain",
        .name = "min",
        .type = Type::numbers,
        .required = true,
        .unit = "length",
-       .meaning = "lower corner: 2 numbers in 2D, 3 in 3D"},
+       .meaning = "lower corner: 2 numbers in 2D, 3 numbers in 3D"},
       {.table = "domain",
        .name = "max",
        .type = Type::numbers,
        .required = true,
        .unit = "length",
-       .meaning = "upper corner, above `min` on every axis"},
+       .meaning = "upper corner. It lies above `min` on every axis"},
 
       {.table = "velocity",
        .name = "u",
        .type = Type::expressions,
        .unit = "length / time",
        .symbol = "u",
-       .meaning = "velocity, one expression a dimension"},
+       .meaning = "the velocity: one expression for each axis"},
       {.table = "velocity",
        .name = "streamfunction",
        .type = Type::expression,
        .unit = "length^2 / time",
        .symbol = "psi",
-       .meaning = "2D: u = (d psi/dy, -d psi/dx), by exact derivatives; the divergence is 0"},
+       .meaning =
+           "in 2D: the function psi with u = (d psi/dy, -d psi/dx). Its derivatives are exact, so the divergence is 0"},
       {.table = "velocity",
        .name = "field",
        .type = Type::choice,
        .choices = names_of(named_fields()),
-       .meaning = "a named field, with its parameters beside it"},
+       .meaning = "name of a velocity field. Its parameters stand beside it"},
 
       {.table = "velocity",
        .name = "file",
-       .meaning = "data on a grid for ParaView: .vti, .vtr, or .pvd for several times, between which it is linear; "
-                  "relative to the case file"},
+       .meaning = "a file of ParaView with the velocity on a grid: .vti, .vtr, or .pvd for several times. Between two "
+                  "times the velocity is linear. The path is relative to the case file"},
       {.table = "velocity",
        .name = "array",
-       .meaning = "name of the array in the file; may be left out if there is one",
+       .meaning = "name of the array in the file. It may be left out if the file has only one",
        .with = "file"},
       {.table = "velocity",
        .name = "arrays",
        .type = Type::texts,
-       .meaning = "names of arrays with one component each, `[\"u\", \"v\"]`, instead of `array`",
+       .meaning = "names of arrays with one component each, such as `[\"u\", \"v\"]`. They replace `array`",
        .with = "file"},
       {.table = "velocity",
        .name = "interpolation",
        .type = Type::choice,
        .fallback = "linear",
        .choices = {interpolation_names.begin(), interpolation_names.end()},
-       .meaning = "between grid points: linear, or cubic with continuous derivatives",
+       .meaning = "between grid points: `linear`, or `cubic` with continuous derivatives",
        .with = "file"},
       {.table = "velocity",
        .name = "outside",
        .type = Type::choice,
        .fallback = "error",
        .choices = {outside_names.begin(), outside_names.end()},
-       .meaning = "outside the grid: an error, the value of the nearest point of its surface, or zero",
+       .meaning = "what holds outside the grid: `error` stops the run there, `clamp` takes the value at the nearest "
+                  "point of the surface of the grid, `zero` takes 0",
        .with = "file"},
       {.table = "velocity",
        .name = "missing",
        .type = Type::choice,
        .fallback = "error",
        .choices = {read::missing_names.begin(), read::missing_names.end()},
-       .meaning = "where the file has no value: an error; `zero`, a coast; `nearest`, the mean of the nearest points "
-                  "that have one; `keep` takes all numbers as they are. Missing is what is not finite, what "
-                  "`vtkGhostType` or `vtkValidPointMask` hide, what an attribute `_FillValue` or `missing_value` says, "
-                  "and numbers that programs use for it, such as 1e20 or -9999, or that lie far outside the rest",
+       .meaning = "what to do where the file has no value. `error` refuses the file, `zero` makes a coast, `nearest` "
+                  "takes the mean of the nearest points that have a value, `keep` takes every number as it is. A value "
+                  "is missing if it is not finite, if `vtkGhostType` or `vtkValidPointMask` hides it, or if "
+                  "`_FillValue` or `missing_value` of its array names it. Numbers that programs use as a mark, such as "
+                  "1e20 or -9999, and numbers far outside the rest are missing too",
        .with = "file"},
       {.table = "velocity",
        .name = "missing_value",
        .type = Type::number,
-       .meaning = "a number that marks missing data, besides the marks that are recognised",
+       .meaning = "a number that marks missing data. The usual marks are recognised without it",
        .with = "file"},
 
       {.table = "velocity",
        .name = "gaussians",
-       .meaning =
-           "a table (CSV) of scattered points: the field is a sum of divergence-free Gaussians there; relative to "
-           "the case file"},
+       .meaning = "a table (CSV) of scattered points. The field is a sum of divergence-free Gaussians at these points. "
+                  "The path is relative to the case file"},
       {.table = "velocity",
        .name = "kind",
        .type = Type::choice,
        .fallback = "velocity",
        .choices = {gaussian_kind_names.begin(), gaussian_kind_names.end()},
-       .meaning =
-           "what the table has beside the coordinates `x,y[,z]`: samples of the velocity `u,v[,w]`, to which the "
-           "field is fitted; samples of the vorticity (`omega`; in 3D `omega_x,omega_y,omega_z`), to which its "
-           "curl is fitted; or coefficients of either (`gamma_x,gamma_y[,gamma_z]`; of the curl form in 2D "
-           "`gamma`)",
+       .meaning = "what the table has beside the coordinates `x,y[,z]`. `velocity`: samples `u,v[,w]`, to which the "
+                  "field is fitted. `vorticity`: samples `omega` (in 3D `omega_x,omega_y,omega_z`), to which the curl "
+                  "of the field is fitted. `coefficients`: the columns `gamma_x,gamma_y[,gamma_z]` of a field that is "
+                  "known already. `curl-coefficients`: those of a field that was fitted to a vorticity, in 2D `gamma`",
        .with = "gaussians"},
       {.table = "velocity",
        .name = "width",
@@ -222,75 +230,76 @@ std::vector<Key> written_keys() {
        .range = positive,
        .unit = "length",
        .symbol = "1/sqrt(sigma)",
-       .meaning = "of the Gaussians exp(-r^2/width^2); twice the average spacing of the points if it is left out",
+       .meaning = "width of the Gaussians exp(-r^2/width^2). Without it, twice the average spacing of the points",
        .with = "gaussians"},
       {.table = "velocity",
        .name = "residual",
        .type = Type::number,
        .fallback = "1e-6",
        .range = {1e-12, 1, false, true},
-       .meaning = "of a fit: what is left of the samples, in the Euclidean norm",
+       .meaning = "accuracy of the fit: the part of the samples that it may leave, in the Euclidean norm",
        .with = "gaussians"},
       {.table = "velocity",
        .name = "regularisation",
        .type = Type::number,
        .fallback = "",
        .range = {0, infinity},
-       .meaning = "of a fit: added to the diagonal of its matrix, relative to that; 0 interpolates the samples, more "
-                  "smooths them. If it is left out: 0 or, where the Gaussians can hardly be told apart, the least of "
-                  "1e-12, 1e-10, 1e-8 and 1e-6 that will do",
+       .meaning = "how much the fit smooths. The diagonal of its matrix is enlarged by this part. With 0 the field "
+                  "passes through all samples. Without this key it is 0. Where Gaussians can hardly be told apart, it "
+                  "is then the smallest of 1e-12, 1e-10, 1e-8 and 1e-6 with which the fit succeeds",
        .with = "gaussians"},
       {.table = "velocity",
        .name = "tolerance",
        .type = Type::number,
        .fallback = "1e-8",
        .range = {1e-14, 1, false, true},
-       .meaning = "of the sum of the Gaussians, relative to the largest velocity at the points",
+       .meaning = "error allowed in the sum of the Gaussians, relative to the largest velocity at the points",
        .with = "gaussians"},
 
       {.table = "density",
        .name = "expression",
        .type = Type::expression,
        .symbol = "rho_0",
-       .meaning = "density at t = 0"},
+       .meaning = "the density at time 0"},
       {.table = "density",
        .name = "shape",
        .type = Type::choice,
        .choices = names_of(named_shapes()),
-       .meaning = "a named shape, with its parameters beside it"},
+       .meaning = "name of a shape. Its parameters stand beside it"},
 
       {.table = "density",
        .name = "file",
-       .meaning = "data on a grid for ParaView: .vti or .vtr; relative to the case file"},
+       .meaning = "a file of ParaView with the density on a grid: .vti or .vtr. The path is relative to the case file"},
       {.table = "density",
        .name = "array",
-       .meaning = "name of the array in the file; may be left out if there is one",
+       .meaning = "name of the array in the file. It may be left out if the file has only one",
        .with = "file"},
       {.table = "density",
        .name = "interpolation",
        .type = Type::choice,
        .fallback = "linear",
        .choices = {interpolation_names.begin(), interpolation_names.end()},
-       .meaning = "between grid points: linear, or cubic with continuous derivatives",
+       .meaning = "between grid points: `linear`, or `cubic` with continuous derivatives",
        .with = "file"},
       {.table = "density",
        .name = "outside",
        .type = Type::choice,
        .fallback = "zero",
        .choices = {outside_names.begin(), outside_names.end()},
-       .meaning = "outside the grid: an error, the value of the nearest point of its surface, or zero",
+       .meaning = "what holds outside the grid: `error` stops the run there, `clamp` takes the value at the nearest "
+                  "point of the surface of the grid, `zero` takes 0",
        .with = "file"},
       {.table = "density",
        .name = "missing",
        .type = Type::choice,
        .fallback = "error",
        .choices = {read::missing_names.begin(), read::missing_names.end()},
-       .meaning = "where the file has no value: as for velocities",
+       .meaning = "what to do where the file has no value. The choices are those of `velocity.missing`",
        .with = "file"},
       {.table = "density",
        .name = "missing_value",
        .type = Type::number,
-       .meaning = "a number that marks missing data, besides the marks that are recognised",
+       .meaning = "a number that marks missing data. The usual marks are recognised without it",
        .with = "file"},
 
       {.table = "particles",
@@ -299,37 +308,40 @@ std::vector<Key> written_keys() {
        .required = true,
        .range = {2, infinity},
        .symbol = "n_g",
-       .meaning = "lattice points on the longest axis; the spacing h is the same on all axes"},
+       .meaning = "number of lattice points along the longest axis. The spacing h is the same on all axes"},
       {.table = "particles",
        .name = "overlap",
        .type = Type::number,
        .fallback = "2",
        .range = {0.01, 100},
        .symbol = "c",
-       .meaning = "core radius of a blob divided by h: eps = c h"},
+       .meaning =
+           "core radius of a blob in units of the spacing: eps = c h. It says how far neighbouring blobs overlap"},
       {.table = "particles",
        .name = "cutoff",
        .type = Type::choice,
        .fallback = "gauss2",
        .choices = {"gauss2", "gauss4", "gauss6", "gauss8", "two-gauss"},
        .symbol = "zeta",
-       .meaning = "the blob: a Gaussian of order 2, its combinations with derivatives of order 4, 6, 8, or a pair of "
-                  "Gaussians of order 4"},
+       .meaning = "shape of the blob. `gauss2` is a Gaussian, of order 2. `gauss4`, `gauss6` and `gauss8` combine it "
+                  "with its derivatives and have the orders 4, 6 and 8. `two-gauss` is a pair of Gaussians, of order "
+                  "4. A higher order blurs less"},
       {.table = "particles",
        .name = "width_ratio",
        .type = Type::number,
        .fallback = "2",
        .range = {0.01, 100},
        .symbol = "a",
-       .meaning = "widths of the pair two-gauss are eps and a eps; not 1"},
+       .meaning = "for `two-gauss`: its two Gaussians have the widths eps and a eps. It may not be 1"},
       {.table = "particles",
        .name = "threshold",
        .type = Type::number,
        .fallback = "1e-12",
        .range = {0, 0.01},
-       .meaning = "lattice points with less than this part of the largest weight, and of the largest charge, have no "
-                  "particle; the run tells how many, and how much they would carry. 0, the default with "
-                  "`[effects.reaction]`, which can raise small weights: every point that carries anything"},
+       .meaning =
+           "lattice points that carry less than this part of the largest weight, and of the largest charge, get no "
+           "particle. The run says how many they are and how much they would carry. With `[effects.reaction]`, which "
+           "can raise small weights, the default is 0: every point that carries anything gets a particle"},
 
       {.table = "time",
        .name = "end",
@@ -338,29 +350,30 @@ std::vector<Key> written_keys() {
        .range = {0, infinity},
        .unit = "time",
        .symbol = "T",
-       .meaning = "the run ends here; it begins at 0"},
+       .meaning = "time at which the run ends; it begins at 0"},
       {.table = "time",
        .name = "step",
        .type = Type::number,
        .range = {0, infinity, true},
        .unit = "time",
        .symbol = "tau",
-       .meaning = "time step; the last one before an output is shortened to land on it; needed unless `method` chooses "
-                  "its own, then the longest it may choose"},
+       .meaning = "time step; the last one before an output is shortened to end there. A `method` that chooses its "
+                  "own steps needs no `step`; if there is one, no step is longer"},
       {.table = "time",
        .name = "method",
        .type = Type::choice,
        .fallback = "rk4",
        .choices = {"rk4", "euler", "heun", "rk4-38", "dopri5"},
-       .meaning = "Runge-Kutta method: the classical one of order 4, Euler's (1), Heun's (2), Kutta's 3/8 rule (4), or "
-                  "that of Dormand and Prince (5), which chooses its steps"},
+       .meaning = "Runge-Kutta method. `rk4` is the classical one, of order 4. `euler` (Euler) has order 1, `heun` "
+                  "(Heun) order 2, and `rk4-38` (Kutta's 3/8 rule) order 4. `dopri5` (Dormand and Prince) has order 5 "
+                  "and chooses its own steps"},
       {.table = "time",
        .name = "tolerance",
        .type = Type::number,
        .fallback = "1e-08",
        .range = {1e-13, 1, false, true},
-       .meaning = "error of a position that one step may make, relative to the longest side of the domain; only with "
-                  "`method = \"dopri5\"`"},
+       .meaning = "for `method = \"dopri5\"`: the error of position that one step may make, relative to the longest "
+                  "side of the domain"},
 
       {.table = "evaluate",
        .name = "per_axis",
@@ -368,14 +381,15 @@ std::vector<Key> written_keys() {
        .fallback = "200",
        .range = {2, infinity},
        .symbol = "n_ge",
-       .meaning = "evaluation points on the longest axis; the spacing is the same on all axes"},
+       .meaning = "number of evaluation points along the longest axis. The spacing is the same on all axes"},
       {.table = "evaluate",
        .name = "spacing",
        .type = Type::number,
        .range = {0, infinity, true},
        .unit = "length",
        .symbol = "h_e",
-       .meaning = "of the evaluation points, on all axes, instead of `per_axis`: for domains that are long and narrow"},
+       .meaning =
+           "distance between evaluation points on all axes. It replaces `per_axis` and suits long, narrow domains"},
       {.table = "evaluate",
        .name = "tolerance",
        .type = Type::number,
@@ -387,97 +401,96 @@ std::vector<Key> written_keys() {
        .type = Type::choice,
        .fallback = "auto",
        .choices = {"auto", "direct", "hermite", "cells", "outer", "chebyshev", "spread"},
-       .meaning = "how the Gauss transform is summed; auto takes the cheapest"},
+       .meaning = "algorithm that sums the Gauss transform. `auto` takes the cheapest"},
 
       {.table = "output",
        .name = "times",
        .type = Type::numbers,
        .range = {0, infinity},
        .unit = "time",
-       .meaning = "ascending times between 0 and `time.end`"},
+       .meaning = "times at which output is written, in ascending order between 0 and `time.end`"},
       {.table = "output",
        .name = "frames",
        .type = Type::whole,
        .fallback = "5",
        .range = {1, 1e6},
-       .meaning = "so many times instead, evenly spaced from 0 to `time.end`; 1 means the end alone"},
+       .meaning = "number of outputs, evenly spaced from 0 to `time.end`; 1 means the end alone. It replaces `times`"},
       {.table = "output",
        .name = "vtk",
        .type = Type::choices,
        .fallback = "density, particles",
        .choices = {"density", "particles"},
-       .meaning = "files for ParaView"},
+       .meaning = "files that are written for ParaView"},
       {.table = "output",
        .name = "images",
        .type = Type::choices,
        .fallback = "surface, slices",
        .choices = {"surface", "contour", "heatmap", "slices", "projection", "isosurface", "error"},
        .meaning =
-           "pictures. In 2D `surface`, `contour`, `heatmap`; in 3D `slices`, `projection`, `isosurface`; in both "
-           "`error`, which needs a reference. Of the defaults the one for the dimension"},
+           "pictures that are drawn. In 2D `surface`, `contour` and `heatmap`; in 3D `slices`, `projection` and "
+           "`isosurface`; in both `error`, which needs a reference. The default is `surface` in 2D and `slices` in 3D"},
       {.table = "output",
        .name = "report",
        .type = Type::choice,
        .fallback = "html",
        .choices = {"html", "none"},
-       .meaning =
-           "`html`: a page about the run, report.html, with report.json, and summary.png where pictures and densities "
-           "are wanted"},
+       .meaning = "the page about the run. `html` writes report.html and its numbers, report.json. With pictures and "
+                  "density files it also writes summary.png"},
 
       {.table = "reference",
        .name = "kind",
        .type = Type::choice,
        .fallback = "characteristics",
        .choices = {"characteristics", "exact", "none"},
-       .meaning = "`characteristics` traces every grid point back to the start; `exact` is a formula; `none` compares "
-                  "with nothing and costs nothing"},
+       .meaning = "where the exact density comes from. `characteristics` traces every grid point back to the start. "
+                  "`exact` takes a formula. `none` compares with nothing and costs nothing"},
       {.table = "reference",
        .name = "rho",
        .type = Type::expression,
        .symbol = "rho",
-       .meaning = "the exact density in x, y, z, t and params; with `kind = \"exact\"`"},
+       .meaning = "for `kind = \"exact\"`: the exact density, an expression in x, y, z, t and params"},
       {.table = "reference",
        .name = "points",
        .type = Type::whole,
        .range = {16, 1e9},
-       .meaning =
-           "most grid points that are compared. Fewer than the grid has are a sample, half of it where there is "
-           "density, and the largest values; then files have no `rho_exact` and `error`. Without it the whole grid "
-           "if a picture shows the error or if, with density files, it takes at most 15 % of the work of the run; else "
-           "what that allows, 16 to 4096 points, and 256 at most where velocity or reaction are not smooth (data on a "
-           "grid, `abs`, ...). Where it does not allow 16 the error is not measured, unless a check or a target needs "
-           "it"},
+       .meaning = "largest number of grid points that are compared. If the grid has more points, a sample is compared: "
+                  "half of it lies where there is density, and the largest values belong to it. The files then have no "
+                  "`rho_exact` and `error`. Without this key the whole grid is compared if a picture shows the error, "
+                  "or if there are density files and the comparison takes at most 15 % of the work of the run. "
+                  "Otherwise a sample is compared that takes that much, 16 to 4096 points. It has at most 256 points "
+                  "where velocity or reaction are not smooth (data on a grid, `abs`, ...). If 16 points are too many, "
+                  "the error is not measured, unless a check or a target needs it"},
 
       {.table = "accuracy",
        .name = "target",
        .type = Type::number,
        .range = {1e-9, 0.5},
-       .meaning =
-           "largest error at the last output, relative to max |rho|: `run` and `check` then choose particles.per_axis, "
-           "overlap and cutoff, time.step and evaluate.tolerance of least predicted cost; `--accuracy` is the same"},
+       .meaning = "largest error allowed at the last output, relative to max |rho|. `run` and `check` then choose the "
+                  "cheapest settings that are predicted to reach it: particles.per_axis, overlap and cutoff, time.step "
+                  "and evaluate.tolerance. The option `--accuracy` does the same"},
       {.table = "accuracy",
        .name = "budget",
        .type = Type::choice,
        .fallback = "auto",
        .choices = {"auto", "measured", "none"},
        .meaning =
-           "whether a run with a reference measures what time stepping, smoothing, quadrature and Gauss transform each "
-           "add to its error; `auto`: where that costs about a tenth of the run at most"},
+           "whether the run measures how much of its error comes from time stepping, smoothing, quadrature and Gauss "
+           "transform. This needs a reference. `auto` measures where that costs at most about a tenth of the run"},
 
       {.table = "check",
        .name = "what",
        .type = Type::choice,
        .required = true,
        .choices = {"Linf", "L1", "L2", "mass"},
-       .meaning = "a norm of the error relative to that of the exact density, or the mass relative to that at "
-                  "the start"},
-      {.table = "check", .name = "max", .type = Type::number, .meaning = "it must not be larger"},
-      {.table = "check", .name = "min", .type = Type::number, .meaning = "it must not be smaller"},
+       .meaning = "the number to check: a norm of the error relative to that of the exact density, or the mass "
+                  "relative to that at the start"},
+      {.table = "check", .name = "max", .type = Type::number, .meaning = "the number must not be larger"},
+      {.table = "check", .name = "min", .type = Type::number, .meaning = "the number must not be smaller"},
       {.table = "check",
        .name = "at",
        .type = Type::number,
        .unit = "time",
-       .meaning = "only at this output time; without it at all of them"},
+       .meaning = "the output time to check. Without it every output is checked"},
 
       {.table = "effects.reaction",
        .name = "rate",
@@ -485,7 +498,7 @@ std::vector<Key> written_keys() {
        .required = true,
        .unit = "1 / time",
        .symbol = "u_0",
-       .meaning = "rate of decay, an expression in x, y, z, t and params; negative where weights grow"},
+       .meaning = "rate of decay, an expression in x, y, z, t and params; weights grow where it is negative"},
       {.table = "effects.diffusion",
        .name = "D",
        .type = Type::number,
@@ -500,17 +513,16 @@ std::vector<Key> written_keys() {
        .fallback = "core-spreading",
        .choices = {"core-spreading", "particle-exchange"},
        .meaning =
-           "`core-spreading` widens the blobs, eps(t)^2 = eps^2 + 4 D t: exact where the flow does not strain, and "
-           "a warning tells how far it does; `particle-exchange` moves weight between neighbours: of order "
-           "eps^2 in any flow, with steps of at most about eps^2 / (2 D)"},
+           "how the density diffuses. `core-spreading` widens the blobs: eps(t)^2 = eps^2 + 4 D t. It is exact where "
+           "the flow does not strain, and a warning says how much it does. `particle-exchange` moves weight between "
+           "neighbours. Its error is of order eps^2 in any flow, and its steps are at most about eps^2 / (2 D)"},
       {.table = "effects.diffusion",
        .name = "tolerance",
        .type = Type::number,
        .fallback = "1e-06",
        .range = {1e-10, 0.1},
-       .meaning =
-           "particles with more than this part of the largest density are surrounded by others, which receive what "
-           "diffuses; only with `method = \"particle-exchange\"`"},
+       .meaning = "for `method = \"particle-exchange\"`: a particle with more than this part of the largest density is "
+                  "surrounded with others, which receive what diffuses"},
       {.table = "effects.charge",
        .name = "mobility",
        .type = Type::number,
@@ -518,56 +530,55 @@ std::vector<Key> written_keys() {
        .range = {-infinity, infinity},
        .unit = "length^d / (charge time)",
        .symbol = "mu",
-       .meaning = "velocity in a field of size 1; negative where equal charges attract each other"},
+       .meaning = "velocity of a particle in a field of size 1. Equal charges attract each other where it is negative"},
       {.table = "effects.charge",
        .name = "density",
        .type = Type::expression,
        .unit = "charge / length^d",
        .symbol = "rho_q",
-       .meaning =
-           "density of charge at the start, an expression in x, y, z and params; every particle keeps its charge. "
-           "Without it the charge is the weight"},
+       .meaning = "density of charge at the start, an expression in x, y, z and params. Every particle keeps its "
+                  "charge. Without this key the charge of a particle is its weight"},
       {.table = "effects.charge",
        .name = "tolerance",
        .type = Type::number,
        .fallback = "1e-06",
        .range = {1e-14, 0.1},
-       .meaning = "error of E, relative to the sum of the sizes of all fields, as farfield promises it"},
+       .meaning = "error allowed in E, relative to the sum of the sizes of all single fields at that place. The "
+                  "library farfield promises it"},
       {.table = "effects.vortex",
        .name = "tolerance",
        .type = Type::number,
        .fallback = "1e-06",
        .range = {1e-14, 0.1},
-       .meaning = "error of the velocity, relative to the sum of the sizes of all velocities, as farfield promises it"},
+       .meaning = "error allowed in the velocity, relative to the sum of the sizes of all single velocities at that "
+                  "place. The library farfield promises it"},
       {.table = "effects.remesh",
        .name = "every",
        .type = Type::whole,
        .range = {1, 1e9},
-       .meaning = "steps between two remeshings; without it as `stretch` says"},
+       .meaning = "number of steps from one remeshing to the next. Without it, `stretch` decides"},
       {.table = "effects.remesh",
        .name = "stretch",
        .type = Type::number,
        .fallback = "1.5",
        .range = {1, infinity, true},
        .meaning =
-           "remesh whenever particles that were neighbours are farther apart than so many spacings h; the overlap has "
-           "then fallen to `particles.overlap` divided by this. Instead of `every`"},
+           "remesh as soon as particles that were neighbours are farther apart than this many spacings h. The overlap "
+           "has then fallen to `particles.overlap` divided by this number. A case gives either this or `every`"},
       {.table = "effects.remesh",
        .name = "kernel",
        .type = Type::choice,
        .fallback = "gauss8",
        .choices = {"gauss8", "lambda44", "lambda66", "m4prime"},
-       .meaning =
-           "how weights are shared among nodes: `gauss8` keeps moments up to order 7 and forgives a stretch of 1.5; "
-           "the "
-           "piecewise polynomials keep them up to order 4, 6 and 2, are cheaper, and want a stretch of at most 1.1"},
+       .meaning = "how weights are shared among the new nodes. `gauss8` keeps moments up to order 7 and tolerates a "
+                  "stretch of 1.5. The piecewise polynomials `lambda44`, `lambda66` and `m4prime` keep moments up to "
+                  "the orders 4, 6 and 2. They are cheaper but want a stretch of at most 1.1"},
       {.table = "effects.remesh",
        .name = "tolerance",
        .type = Type::number,
        .fallback = "1e-09",
        .range = {0, 0.01},
-       .meaning =
-           "nodes with less than this part of the largest weight are left out, and their weight goes to the others"},
+       .meaning = "nodes with less than this part of the largest weight are left out. Their weight goes to the others"},
   };
 }
 
@@ -594,15 +605,15 @@ const std::vector<Quantity>& quantities() {
       {"h", "spacing of the lattice on which particles start, the same on all axes",
        "h = L / (n_g - 1), L the longest side of the domain", "length", "particles.per_axis, domain"},
       {"eps", "core radius: the width of a blob", "eps = c h", "length", "particles.overlap, particles.per_axis"},
-      {"sigma", "sharpness of the Gaussians that are summed, exp(-sigma r^2)", "sigma = 1 / eps^2", "1 / length^2",
+      {"sigma", "sharpness of the Gaussians that are summed: exp(-sigma r^2)", "sigma = 1 / eps^2", "1 / length^2",
        "particles.overlap, particles.per_axis"},
       {"zeta_eps", "the blob of core radius eps", "zeta_eps(x) = eps^-d zeta(x / eps)", "1 / length^d",
        "particles.cutoff, particles.overlap"},
-      {"x_j", "where particle j starts: a point of the lattice", "", "length", "particles.per_axis, domain"},
+      {"x_j", "the lattice point where particle j starts", "", "length", "particles.per_axis, domain"},
       {"X_j", "where particle j is at time t", "X_j' = u(X_j, t), X_j(0) = x_j", "length", "velocity"},
-      {"alpha_j", "weight of particle j, the mass that it carries; particles.threshold leaves out the smallest",
-       "alpha_j = h^d rho_0(x_j)", "density length^d", "density, particles.per_axis"},
-      {"rho_eps^h", "the density of all blobs, which is what a run computes",
+      {"alpha_j", "weight of particle j: the mass that it carries", "alpha_j = h^d rho_0(x_j)", "density length^d",
+       "density, particles.per_axis"},
+      {"rho_eps^h", "sum of all blobs: the density that a run computes",
        "rho_eps^h(x, t) = sum_j alpha_j zeta_eps(x - X_j(t))", "density", ""},
   };
   return list;
@@ -668,11 +679,11 @@ std::string type_text(const Key& key) {
     case Type::numbers:
       return "a list of numbers";
     case Type::point:
-      return "a list of numbers, one a dimension";
+      return "a list of numbers, one for each axis";
     case Type::expression:
       return "an expression in a string";
     case Type::expressions:
-      return "a list of expressions in strings, one a dimension";
+      return "a list of strings, one expression for each axis";
     case Type::choice:
       return key.choices.size() == 1 ? quoted(key.choices[0]) : "one of " + joined(key.choices);
     case Type::choices:
@@ -680,6 +691,8 @@ std::string type_text(const Key& key) {
   }
   return "";
 }
+
+std::string_view first_sentence(std::string_view meaning) { return meaning.substr(0, meaning.find(". ")); }
 
 namespace {
 
@@ -698,7 +711,8 @@ std::string keys_markdown(std::string_view table, std::string_view with, std::st
     std::string fallback = key.required ? "required" : std::string(key.fallback);
     if (key.type == Type::choice && !key.fallback.empty()) fallback = quoted(fallback);
     if (key.type == Type::choices && !key.fallback.empty()) fallback = fmt::format("[{}]", fallback);
-    const std::string with_text = value.empty() && !key.with.empty() ? fmt::format("; goes with `{}`", key.with) : "";
+    const std::string with_text =
+        value.empty() && !key.with.empty() ? fmt::format(". It goes with `{}`", key.with) : "";
     text += fmt::format("| `{}` | {}{} | {}{}{} | {} | {} | {} |\n", key.name, key.meaning, with_text, type_text(key),
                         range.empty() ? "" : ", ", range, fallback, key.unit, key.symbol);
   }
@@ -718,7 +732,7 @@ std::string registry_markdown() {
   std::string text = fmt::format("`{}` at the top of the file, required: {}.\n", version.name, version.meaning);
   for (const Table& table : tables()) {
     text += fmt::format("\n### `[{}]`\n\n{}.\n", table.name, capital(table.meaning));
-    if (!table.kinds.empty()) {
+    if (table.kinds.size() > 1) {
       std::vector<std::string> kinds;
       for (const auto kind : table.kinds) kinds.push_back(fmt::format("`{}`", kind));
       text += fmt::format("\nEach has exactly one of {}.\n", fmt::join(kinds, ", "));
@@ -734,7 +748,7 @@ std::string registry_markdown() {
         text += formula_markdown("shape", shape.about) + keys_markdown("density", "shape", shape.about.name);
   }
   text +=
-      "\n### What follows from the keys\n\nSymbols of the thesis that are no keys.\n\n"
+      "\n### What follows from the keys\n\nThese symbols of the thesis are no keys. The keys set them.\n\n"
       "| symbol | what | formula | unit | set by |\n| --- | --- | --- | --- | --- |\n";
   for (const Quantity& quantity : quantities())
     text += fmt::format("| `{}` | {} | {} | {} | {} |\n", quantity.symbol, quantity.meaning,

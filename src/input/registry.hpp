@@ -80,6 +80,9 @@ std::string type_text(const Key& key);
 /// "at least 2", "greater than 0", "at least 1e-14 and less than 1"; empty without ends.
 std::string range_text(const Range& range);
 
+/// Of a meaning, where its first sentence is enough: in lists of keys and under errors.
+std::string_view first_sentence(std::string_view meaning);
+
 /// The tables of keys and of functions, as docs/cases.md shows them.
 std::string registry_markdown();
 std::string functions_markdown();

@@ -34,13 +34,14 @@ TEST(Explain, KnowsTheSymbolsOfTheThesis) {
 }
 
 TEST(Explain, TellsTablesFieldsShapesFunctionsAndValues) {
-  const std::vector<std::pair<const char*, const char*>> words = {{"time", "Runge-Kutta method: the classical one"},
-                                                                  {"[time]", "Runge-Kutta method: the classical one"},
-                                                                  {"rotation", "exact flow"},
-                                                                  {"slotted_disk", "width of the slot"},
-                                                                  {"hypot", "without overflow"},
-                                                                  {"gauss4", "particles.cutoff"},
-                                                                  {"slot_width", "shape = \"slotted_disk\""}};
+  const std::vector<std::pair<const char*, const char*>> words = {
+      {"time", "Runge-Kutta method. `rk4` is the classical one"},
+      {"[time]", "Runge-Kutta method. `rk4` is the classical one"},
+      {"rotation", "exact flow"},
+      {"slotted_disk", "width of the slot"},
+      {"hypot", "without overflow"},
+      {"gauss4", "particles.cutoff"},
+      {"slot_width", "shape = \"slotted_disk\""}};
   for (const auto& [word, part] : words) {
     const std::string told = to_text(explain(word));
     EXPECT_NE(told.find(part), std::string::npos) << word << ":\n" << told;

@@ -47,7 +47,7 @@ TEST(CaseFile, NamesTheOverrideAsThePlace) {
   EXPECT_EQ(errors(cone, {"time.step=0"}), R"text(error: time.step must be greater than 0, found 0
   --> --set time.step=0
                       ^
-   = step: time step; the last one before an output is shortened to land on it; needed unless method chooses its own, then the longest it may choose
+   = step: time step; the last one before an output is shortened to end there
 
 1 error in cone.toml and --set)text");
   EXPECT_EQ(errors(cone, {"velocity.u=[\"y\",\"z\"]"}), R"text(error: z exists only in 3D; the domain has 2 dimensions
@@ -79,7 +79,7 @@ error: time.step must be greater than 0, found -1
    |
 32 | step = -1
    |        ^^
-   = step: time step; the last one before an output is shortened to land on it; needed unless method chooses its own, then the longest it may choose
+   = step: time step; the last one before an output is shortened to end there
 
 error: unknown value "fast" for evaluate.method
   --> --set evaluate.method=fast
@@ -131,9 +131,7 @@ std::string expected(const std::string& text, const Wrong& wrong) {
   return result + "\n1 error in cone.toml";
 }
 
-const char* const step_note =
-    "step: time step; the last one before an output is shortened to land on it; needed "
-    "unless method chooses its own, then the longest it may choose";
+const char* const step_note = "step: time step; the last one before an output is shortened to end there";
 const char* const names_note = "reserved names: x, y, z, t, pi, e and the functions";
 const char* const tables_note =
     "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, accuracy, "
@@ -187,7 +185,7 @@ const std::vector<Wrong> wrongs = {
     {"[time]\nend", "[effects.reaction]\nrat = 1\n[time]\nend", 30, "rat",
      "unknown key \"rat\" in [effects.reaction]; did you mean \"rate\"?", "known keys: rate"},
     {"[time]\nend", "[effects.reaction]\n[time]\nend", 29, "[effects.reaction]", "effects.reaction.rate is missing",
-     "rate: rate of decay, an expression in x, y, z, t and params; negative where weights grow"},
+     "rate: rate of decay, an expression in x, y, z, t and params; weights grow where it is negative"},
     {"[time]\nend", "[effects.reaction]\nrate = \"q*x\"\n[time]\nend", 30, "q",
      "unknown name \"q\"; known here: x, y, t, R, turn, pi, e"},
     {"[time]\nend", "[effects.diffusion]\n[time]\nend", 29, "[effects.diffusion]", "effects.diffusion.D is missing",
@@ -250,9 +248,9 @@ const std::vector<Wrong> wrongs = {
      "entry 2 of domain.max must be a number or an expression, found a list"},
     // velocity
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\", \"0\"]", 16, "[\"-y\", \"x\", \"0\"]",
-     "velocity.u needs 2 expressions, one a dimension of the domain, found 3"},
+     "velocity.u needs 2 expressions, one for each axis of the domain, found 3"},
     {"u = [\"-y\", \"x\"]", "u = \"-y\"", 16, "\"-y\"",
-     "velocity.u must be a list of expressions in strings, one a dimension, found the string \"-y\""},
+     "velocity.u must be a list of strings, one expression for each axis, found the string \"-y\""},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", true]", 16, "true",
      "entry 2 of velocity.u must be an expression in a string, found true"},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x*z\"]", 16, "z", "z exists only in 3D; the domain has 2 dimensions"},
@@ -271,13 +269,13 @@ const std::vector<Wrong> wrongs = {
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nrate = 2", 17, "rate",
      "\"rate\" goes with field = \"rotation\" or \"shear\", not with \"u\"", "known keys with \"u\": u"},
     {"u = [\"-y\", \"x\"]", "field = \"rotation\"\ncenter = [0, 0, 0]", 17, "[0, 0, 0]",
-     "velocity.center needs 2 numbers, one a dimension of the domain, found 3"},
+     "velocity.center needs 2 numbers, one for each axis of the domain, found 3"},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\npotential = \"x\"", 17, "potential",
      "unknown key \"potential\" in [velocity]", "known keys: u"},
     {"u = [\"-y\", \"x\"]", "field = \"strain\"", 15, "[velocity]", "velocity.rates is missing",
      "rates: rate of stretching along each axis"},
     {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nperiod = 0", 17, "0", "velocity.period must be greater than 0, found 0",
-     "period: the flow reverses at T/2 and is undone at T; without it the flow is steady"},
+     "period: the flow reverses at T/2 and has undone itself at T; without it the flow is steady"},
     {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nrate = 1", 17, "rate",
      "\"rate\" goes with field = \"rotation\" or \"shear\", not with field = \"swirl\"",
      "known keys with field = \"swirl\": field, min, max, period"},
@@ -302,7 +300,7 @@ const std::vector<Wrong> wrongs = {
     {"radius = \"R\"", "radius = \"R-R\"", 21, "\"R-R\"",
      "density.radius must be greater than 0, found 0 (from \"R-R\")", "radius: radius of the shape"},
     {"center = [0.5, 0]", "center = [0.5]", 20, "[0.5]",
-     "density.center needs 2 numbers, one a dimension of the domain, found 1"},
+     "density.center needs 2 numbers, one for each axis of the domain, found 1"},
     {"shape = \"wendland\"\ncenter = [0.5, 0]\nradius = \"R\"", "expression = \"R*x\"", 20, "height",
      "\"height\" goes with shape = \"wendland\" or \"wendland4\" or \"wendland6\" or \"cone\" or \"gaussian\" or "
      "\"cosine_bell\" or "
@@ -312,11 +310,9 @@ const std::vector<Wrong> wrongs = {
      "the density at the start cannot depend on t"},
     // particles
     {"per_axis = 300", "per_axis = 1", 25, "1", "particles.per_axis must be at least 2, found 1",
-     "per_axis: lattice points on the longest axis; the spacing h is the same on all axes; one particle an axis has no "
-     "spacing"},
+     "per_axis: number of lattice points along the longest axis; one particle an axis has no spacing"},
     {"per_axis = 300", "per_axis = 30.5", 25, "30.5", "particles.per_axis must be a whole number, found 30.5",
-     "per_axis: lattice points on the longest axis; the spacing h is the same on all axes; one particle an axis has no "
-     "spacing"},
+     "per_axis: number of lattice points along the longest axis; one particle an axis has no spacing"},
     {"per_axis = 300", "per_axis = 1_000_000", 25, "1_000_000",
      "the particle lattice would have 1e+12 points (1000000 x 1000000); at most 2147483648 are possible",
      "lower per_axis"},
@@ -325,17 +321,16 @@ const std::vector<Wrong> wrongs = {
      "lower per_axis"},
     {"overlap = 2", "overlap = 2\nthreshold = 1", 27, "1",
      "particles.threshold must be at least 0 and at most 0.01, found 1",
-     "threshold: lattice points with less than this part of the largest weight, and of the largest charge, have no "
-     "particle; the run tells how many, and how much they would carry. 0, the default with [effects.reaction], which "
-     "can raise small weights: every point that carries anything"},
+     "threshold: lattice points that carry less than this part of the largest weight, and of the largest charge, get "
+     "no particle"},
     {"overlap = 2", "overlap = 0", 26, "0", "particles.overlap must be at least 0.01 and at most 100, found 0",
-     "overlap: core radius of a blob divided by h: eps = c h"},
+     "overlap: core radius of a blob in units of the spacing: eps = c h"},
     {"overlap = 2", "overlap = 1e-300", 26, "1e-300",
      "particles.overlap must be at least 0.01 and at most 100, found 1e-300",
-     "overlap: core radius of a blob divided by h: eps = c h"},
+     "overlap: core radius of a blob in units of the spacing: eps = c h"},
     {"overlap = 2", "overlap = 1_000", 26, "1_000",
      "particles.overlap must be at least 0.01 and at most 100, found 1000",
-     "overlap: core radius of a blob divided by h: eps = c h"},
+     "overlap: core radius of a blob in units of the spacing: eps = c h"},
     {"cutoff = \"gauss2\"", "cutoff = \"gaus4\"", 27, "\"gaus4\"",
      "unknown value \"gaus4\" for particles.cutoff; did you mean \"gauss4\"?",
      "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
@@ -343,7 +338,7 @@ const std::vector<Wrong> wrongs = {
      "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
     // time
     {"end = \"turn\"", "end = -1", 30, "-1", "time.end must be at least 0, found -1",
-     "end: the run ends here; it begins at 0"},
+     "end: time at which the run ends; it begins at 0"},
     {"end = \"turn\"", "end = inf", 30, "inf", "time.end must be finite, found inf"},
     {"step = 0.001", "step = 0", 31, "0", "time.step must be greater than 0, found 0", step_note},
     {"step = 0.001", "step = -0.001", 31, "-0.001", "time.step must be greater than 0, found -0.001", step_note},
@@ -378,7 +373,7 @@ const std::vector<Wrong> wrongs = {
      "[output] has both \"times\" and \"frames\"", "give exactly one of \"times\", \"frames\""},
     {"times = [0, \"turn/4\", \"turn\"]", "frames = 0", 40, "0",
      "output.frames must be at least 1 and at most 1000000, found 0",
-     "frames: so many times instead, evenly spaced from 0 to time.end; 1 means the end alone"},
+     "frames: number of outputs, evenly spaced from 0 to time.end; 1 means the end alone"},
     {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"denstiy\"]", 41, "\"denstiy\"",
      "unknown value \"denstiy\" for entry 2 of output.vtk; did you mean \"density\"?",
      "known values: \"density\", \"particles\""},

@@ -23,7 +23,7 @@ TEST(Explain, TellsAKeyByItsNameAndByItsSymbol) {
   const ScratchFolder folder;
   const Outcome by_name = gaussdrift_in(folder, "explain particles.per_axis");
   ASSERT_EQ(by_name.exit_code, 0) << by_name.err;
-  for (const char* part : {"particles.per_axis", "the spacing h is the same on all axes", "a whole number",
+  for (const char* part : {"particles.per_axis", "The spacing h is the same on all axes", "a whole number",
                            "at least 2", "required", "n_g"})
     EXPECT_NE(by_name.out.find(part), std::string::npos) << part << " in:\n" << by_name.out;
   for (const char* symbol : {"n_g", "'$n_{g}$'"})

@@ -45,7 +45,7 @@ NamedField abc() {
                                     .fallback = "6.283185307179586",
                                     .range = positive,
                                     .unit = "length",
-                                    .meaning = "the flow repeats after it on every axis"}}},
+                                    .meaning = "distance after which the flow repeats, on every axis"}}},
           .divergence = "0",
           .exact_flow = "not known: paths are chaotic",
           .make = [](int, const Arguments& arguments) { return std::make_unique<Abc>(arguments); }};

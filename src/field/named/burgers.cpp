@@ -49,7 +49,7 @@ class Burgers : public SolenoidalField {
 
 NamedField burgers() {
   return {.about = {.name = "burgers",
-                    .meaning = "vortex along z that is drawn in from the sides and stretched [Bur48]",
+                    .meaning = "a vortex along z. The flow draws it in from the sides and stretches it [Bur48]",
                     .formula = "with r the distance from the axis through center: u_r = -strain r / 2, u_z = strain (z "
                                "- center_z), u_theta = circulation / (2 pi r) (1 - exp(-strain r^2 / (4 viscosity)))",
                     .least_dimension = 3,
@@ -64,7 +64,7 @@ NamedField burgers() {
                                     .fallback = "1",
                                     .unit = "length^2 / time",
                                     .symbol = "Gamma",
-                                    .meaning = "counter-clockwise"},
+                                    .meaning = "circulation of the vortex, counter-clockwise"},
                                    {.name = "viscosity",
                                     .fallback = "1",
                                     .range = positive,

@@ -38,7 +38,8 @@ class Deformation : public SolenoidalField {
 NamedField deformation() {
   return {
       .about = {.name = "deformation",
-                .meaning = "deformation of a ball in a box [LeV96], [EFFM02]; T = 3 is usual for the unit cube",
+                .meaning = "a flow in a box that deforms a ball and restores it [LeV96], [EFFM02]. T = 3 is usual for "
+                           "the unit cube",
                 .formula = "with xi, eta, zeta = 0 ... 1 across the box: u = (2 L_x sin^2(pi xi) sin(2 pi eta) "
                            "sin(2 pi zeta), -L_y sin(2 pi xi) sin^2(pi eta) sin(2 pi zeta), -L_z sin(2 pi xi) "
                            "sin(2 pi eta) sin^2(pi zeta)) cos(pi t / T)",

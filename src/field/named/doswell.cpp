@@ -19,25 +19,26 @@ struct Omega {
 }  // namespace
 
 NamedField doswell() {
-  return {
-      .about = {.name = "doswell",
-                .meaning = "vortex that rolls a front up [Dos84], in 3D about an axis along z",
-                .formula = "with s = |x - center| / radius: circles at the speed (3 sqrt(3) / 2) speed sech^2(s) "
-                           "tanh(s), counter-clockwise",
-                .parameters =
-                    {center_parameter("centre of the vortex"),
-                     {.name = "radius",
-                      .fallback = "1",
-                      .range = positive,
-                      .unit = "length",
-                      .meaning = "scale of the vortex; the wind is strongest at 0.66 of it"},
-                     {.name = "speed", .fallback = "1", .unit = "length / time", .meaning = "of the strongest wind"}}},
-      .divergence = "0",
-      .exact_flow = "rotation about center by the angle omega(r) (t - s)",
-      .make = [](int, const Arguments& a) {
-        return std::make_unique<CircularField<Omega>>(point(a, "center"),
-                                                      Omega{number(a, "radius"), number(a, "speed")});
-      }};
+  return {.about = {.name = "doswell",
+                    .meaning = "a vortex that rolls up a front [Dos84]. In 3D its axis is along z",
+                    .formula = "with s = |x - center| / radius: circles at the speed (3 sqrt(3) / 2) speed sech^2(s) "
+                               "tanh(s), counter-clockwise",
+                    .parameters = {center_parameter("centre of the vortex"),
+                                   {.name = "radius",
+                                    .fallback = "1",
+                                    .range = positive,
+                                    .unit = "length",
+                                    .meaning = "size of the vortex. The wind is strongest at 0.66 times this distance"},
+                                   {.name = "speed",
+                                    .fallback = "1",
+                                    .unit = "length / time",
+                                    .meaning = "speed of the strongest wind"}}},
+          .divergence = "0",
+          .exact_flow = "rotation about center by the angle omega(r) (t - s)",
+          .make = [](int, const Arguments& a) {
+            return std::make_unique<CircularField<Omega>>(point(a, "center"),
+                                                          Omega{number(a, "radius"), number(a, "speed")});
+          }};
 }
 
 }  // namespace gaussdrift::named

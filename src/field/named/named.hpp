@@ -74,7 +74,7 @@ inline NamedParameter period_parameter() {
           .range = positive,
           .unit = "time",
           .symbol = "T",
-          .meaning = "the flow reverses at T/2 and is undone at T; without it the flow is steady"};
+          .meaning = "the flow reverses at T/2 and has undone itself at T; without it the flow is steady"};
 }
 
 inline std::string empty_box(int dimension, const Arguments& arguments) {

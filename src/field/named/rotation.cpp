@@ -37,7 +37,7 @@ class Rotation : public SolenoidalField {
 
 NamedField rotation() {
   return {.about = {.name = "rotation",
-                    .meaning = "rigid rotation, in 3D about an axis along z; one turn takes 2 pi / rate",
+                    .meaning = "rigid rotation. One turn takes 2 pi / rate. In 3D its axis is along z",
                     .formula = "u = rate (-(y - center_y), x - center_x)",
                     .parameters = {center_parameter("centre of the rotation"),
                                    {.name = "rate",

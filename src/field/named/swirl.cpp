@@ -33,7 +33,7 @@ class Swirl : public SolenoidalField {
 NamedField swirl() {
   return {
       .about = {.name = "swirl",
-                .meaning = "single vortex in a box [LeV96], [RK98]; T = 8 is usual for the unit square",
+                .meaning = "a single vortex in a box [LeV96], [RK98]. T = 8 is usual for the unit square",
                 .formula = "with xi, eta = 0 ... 1 across the box L_x x L_y: u = (L_x sin^2(pi xi) sin(2 pi eta), "
                            "-L_y sin^2(pi eta) sin(2 pi xi)) cos(pi t / T)",
                 .parameters = {min_parameter(), max_parameter(), period_parameter()},

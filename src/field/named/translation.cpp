@@ -34,7 +34,7 @@ NamedField translation() {
                     .parameters = {{.name = "velocity",
                                     .kind = Kind::point,
                                     .unit = "length / time",
-                                    .meaning = "the same everywhere"}}},
+                                    .meaning = "the wind, the same everywhere"}}},
           .divergence = "0",
           .exact_flow = "x + velocity (t - s)",
           .make = [](int, const Arguments& arguments) { return std::make_unique<Translation>(arguments); }};
