@@ -112,7 +112,7 @@ struct Options {
   int derivative_order = 0;           // highest |alpha| that evaluate() can return; above 12 for tolerance <= 1e-4
   Method method = Method::automatic;  //
   int threads = 0;                    // 0: all
-  std::size_t memory_limit = std::size_t{8} << 30;  // bytes that plan and evaluation may hold together
+  std::size_t memory_limit = std::size_t{8} << 30;                // bytes that plan and evaluation may hold together
   double most_seconds = std::numeric_limits<double>::infinity();  // that may be predicted, for one thread
 
   // What will be evaluated, for the prediction of cost only; other targets stay possible.

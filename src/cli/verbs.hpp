@@ -47,8 +47,8 @@ struct SumOptions {
   std::string method = "auto";
   std::optional<double> seconds;  // most that may be predicted; by default 300 for a method that is named
   std::filesystem::path out;      // empty or "-": standard output
-  int threads = 0;            // 0: all
-  bool json = false;          // what was chosen as JSON on stdout
+  int threads = 0;                // 0: all
+  bool json = false;              // what was chosen as JSON on stdout
 };
 
 struct NewOptions {

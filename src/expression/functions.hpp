@@ -9,8 +9,8 @@
 
 namespace gaussdrift::expression {
 
-constexpr std::size_t row_length =
-    256;  // numbers computed at a time: 2 KiB a row, so that a stack of rows stays in the first cache
+/// Numbers computed at a time: 2 KiB a row, so that a stack of rows stays in the first cache.
+constexpr std::size_t row_length = 256;
 
 /// first[i] = f(first[i], first[row_length + i], ...) for i < count, with `arguments` rows one after the other.
 using RowFunction = void (*)(double* first, int arguments, std::size_t count);

@@ -22,8 +22,8 @@ struct Cluster {
   std::uint8_t children = 0;  // they follow each other; 0: a leaf
   std::uint8_t level = 0;
   std::uint8_t octant = 0;  // within the parent: bit l is set in the upper half of axis l
-  bool one_point =
-      false;  // all sources and targets of this leaf are equal; only told of leaves that could not be divided
+  /// All sources and targets of this leaf are equal; only told of leaves that could not be divided.
+  bool one_point = false;
   std::array<std::int64_t, 3> cell{};  // number on the lattice of its level
   Range sources{}, targets{};          // in the order of the tree
 

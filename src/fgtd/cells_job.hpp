@@ -57,8 +57,7 @@ constexpr std::size_t outer_depth = 32;
 constexpr std::size_t outer_nodes = 256;
 
 /// One group of sources on one block of grid nodes:
-///   out[q c + k][nodes] += sum_p weights[k][p] sum_{parts of q} factor prod_l h~_{alpha_l}(sqrt(sigma) (node_l -
-///   x_p)_l)
+///   out[q c + k][nodes] += sum_p weights[k][p] sum_{parts of q} factor prod_l h~_{alpha_l}(sqrt(sigma) (node_l - x_p)_l)
 /// Parts of a combination that share alpha_0 are a bundle: a bundle is one product of matrices.
 struct OuterJob {
   int dimension;

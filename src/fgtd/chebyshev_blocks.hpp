@@ -1,6 +1,5 @@
 // Points and few boxes: where all boxes of a part of the lattice stay in the cache, points are sorted a block at a
-// time, in the cache too, instead of all at once through main memory. Boxes carry coefficients of Chebyshev polynomials
-// then,
+// time, in the cache too, instead of all at once through main memory. Boxes then carry coefficients of Chebyshev polynomials,
 //   c_n = sum_j lambda_j prod_l T_{n_l}(z_jl)   and   s(y) = sum_n c_n prod_l T_{n_l}(z_l),
 // which are cheaper at a point than Lagrange's, and are turned into numbers at the nodes once a box:
 //   l_m(z) = sum_k t_mk T_k(z),   t_mk = (2 - delta_k0) / P  T_k(z_m),   z_m = cos(pi (m + 1/2) / P).
@@ -29,9 +28,7 @@ struct BoxRange {
 };
 
 /// Points sorted at a time: some for every box, so that boxes have runs of them, and few enough for the cache.
-constexpr std::size_t block_points(double boxes) {
-  return boxes <= 16 ? 1 << 10 : boxes <= 64 ? 1 << 12 : 1 << 13;
-}
+constexpr std::size_t block_points(double boxes) { return boxes <= 16 ? 1 << 10 : boxes <= 64 ? 1 << 12 : 1 << 13; }
 
 /// How many boxes of P^d numbers are few enough for so many points, and whether these are.
 double most_few_boxes(double box_numbers, double points);

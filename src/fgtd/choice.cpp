@@ -6,7 +6,8 @@
 namespace fgtd {
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all{Method::automatic, Method::direct, Method::hermite, Method::cells, Method::outer, Method::chebyshev, Method::spread};
+  static const std::vector<Method> all{Method::automatic, Method::direct,    Method::hermite, Method::cells,
+                                       Method::outer,     Method::chebyshev, Method::spread};
   return all;
 }
 

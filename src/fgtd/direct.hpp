@@ -17,8 +17,8 @@ template <int d>
 struct Sources {
   std::size_t count = 0;
   std::size_t columns = 0;
-  Buffer<double> position;  // [d][count]
-  std::vector<double> weights;   // [columns][count]
+  Buffer<double> position;      // [d][count]
+  std::vector<double> weights;  // [columns][count]
 };
 
 /// values[(q columns + k) targets + i]; targets [targets][d].

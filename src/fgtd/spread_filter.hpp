@@ -1,12 +1,10 @@
-// The one-dimensional parts of `spread`. In units in which the Gaussian is exp(-t^2), with a lattice of nodes x_k = k
-// H,
+// The one-dimensional parts of `spread`. In units in which the Gaussian is exp(-t^2), with a lattice of nodes x_k = k H,
 //   h~_a(y - x) = sum_k phi((x - x_k)/H) f_a(y - x_k)                                    targets anywhere: grids
 //   h~_a(y - x) = sum_k sum_m phi((x - x_k)/H) F_a(x_m - x_k) phi((y - x_m)/H)            scattered targets
 // up to the error measured here. phi is the Kaiser-Bessel window of w nodes, I_0(b sqrt(1 - (2s/w)^2)) / I_0(b),
 // whose transform is known, phi^(q) = w sinh(r)/(r I_0(b)), r^2 = b^2 - (q w/2)^2; f and F are those of the orthogonal
 // projection onto the lattice's functions,
-//   f^(q) = g^(q) phi^(qH) / P(qH),   F^ = f^ phi^ / P,   P(q) = sum_m phi^(q + 2 pi m)^2,   g^(q) = sqrt(pi)
-//   e^{-q^2/4},
+//   f^(q) = g^(q) phi^(qH) / P(qH),   F^ = f^ phi^ / P,   P(q) = sum_m phi^(q + 2 pi m)^2,   g^(q) = sqrt(pi) e^{-q^2/4},
 // which, unlike a plain quotient g^/phi^ cut off somewhere, leaves no slowly fading tail.
 #pragma once
 

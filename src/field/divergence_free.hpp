@@ -26,12 +26,12 @@ std::vector<MatrixEntry<d>> matrix_entries(GaussianMatrix matrix);
 
 struct GaussianSumOptions {
   double tolerance = 1e-8;  // of each Gaussian term, as fgtd::Options::tolerance
-  int derivative_order =
-      2;  // of phi: 1 for `curl`, 2 for `field` and `vorticity`, and as many more as are asked of these
-  fgtd::Method method = fgtd::Method::automatic;  // automatic: pairs or fgtd, whichever is predicted to be faster;
-                                                  // direct: pairs
-  int threads = 0;                                // 0: all
-  std::size_t expected_targets = 0;               // for the choice only; 0: as many as sources
+  /// Of phi: 1 for `curl`, 2 for `field` and `vorticity`, and as many more as are asked of these.
+  int derivative_order = 2;
+  /// automatic: pairs or fgtd, whichever is predicted to be faster; direct: pairs.
+  fgtd::Method method = fgtd::Method::automatic;
+  int threads = 0;                                      // 0: all
+  std::size_t expected_targets = 0;                     // for the choice only; 0: as many as sources
   std::optional<fgtd::HermiteParameters> hermite = {};  // as fgtd::Options::hermite
 };
 

@@ -19,8 +19,8 @@ class GaussiansTooWide : public InputError {
 };
 
 struct GaussianFitOptions {
-  double residual =
-      1e-6;  // wanted: |samples - (A + lambda a I) Gamma| / |samples| in the Euclidean norm; within (0, 1)
+  /// Wanted: |samples - (A + lambda a I) Gamma| / |samples| in the Euclidean norm; within (0, 1).
+  double residual = 1e-6;
   double regularisation = 0;  // lambda >= 0: 0 interpolates the samples, more smooths them
   int most_iterations = 2000;
   int threads = 0;  // 0: all

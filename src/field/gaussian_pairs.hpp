@@ -8,9 +8,9 @@ namespace gaussdrift {
 
 /// What the coefficients Gamma_k at x_k are multiplied with; phi = exp(-sigma r^2), r = y - x_k.
 enum class GaussianMatrix {
-  field,  // Phi = grad grad^T - Laplacian:  Phi Gamma = phi [(2 sigma (d - 1) - 4 sigma^2 r^2) Gamma + 4 sigma^2 r (r .
-          // Gamma)]
-  curl,   // grad phi x Gamma = -2 sigma phi r x Gamma; d = 2: Gamma is a number, along z
+  field,      // Phi = grad grad^T - Laplacian:
+              //   Phi Gamma = phi [(2 sigma (d - 1) - 4 sigma^2 r^2) Gamma + 4 sigma^2 r (r . Gamma)]
+  curl,       // grad phi x Gamma = -2 sigma phi r x Gamma; d = 2: Gamma is a number, along z
   vorticity,  // of `curl`: d = 3: Phi; d = 2: -Laplacian phi = (4 sigma - 4 sigma^2 r^2) phi
 };
 

@@ -9,8 +9,8 @@ namespace gaussdrift {
 
 namespace {
 
-constexpr std::size_t block_length =
-    512;  // points an expression sees at once: its arrays stay in the first-level cache
+// Points an expression sees at once: its arrays stay in the first-level cache.
+constexpr std::size_t block_length = 512;
 
 /// Calls visit(first, arguments, length) for blocks of points; the arguments are x, y, (z,) t.
 template <class Visit>

@@ -35,8 +35,8 @@ namespace {
 constexpr std::size_t largest_case_file = 4'000'000;
 constexpr double largest_lattice = 2147483648.0;  // 2^31 points: 16 GiB a column
 constexpr double most_steps = 2147483648.0;
-constexpr double same_time =
-    1e-12;  // an output this close to the end, relative to it, is the end: "2*pi" in two spellings
+// An output this close to the end, relative to it, is the end: "2*pi" in two spellings.
+constexpr double same_time = 1e-12;
 
 using Kind = Value::Kind;
 

@@ -35,11 +35,9 @@ struct PictureOptions {
 std::string unavailable_reason();
 
 /// Draws a density into a PNG (written beside its name and renamed). In 2D:
-///   surface  height field with contour lines in perspective, seen from above at an angle; at most 300 x 300 points of
-///   it contour  contour lines: from above, and from the side (x against height), as Figures 5.3 and 5.5 of [Sch06].
-///   Where
-///            the lines fill a small part of the domain, half, a quarter or an eighth of it around them is shown, and
-///            said
+///   surface  height field with contour lines in perspective, seen from above at an angle; at most 300 x 300 points of it
+///   contour  contour lines: from above, and from the side (x against height), as Figures 5.3 and 5.5 of [Sch06]. Where
+///            the lines fill a small part of the domain, half, a quarter or an eighth of it around them is shown, and said
 ///   heatmap  colours from above
 /// In 3D:
 ///   slices      colours on three planes through the value largest in size

@@ -19,9 +19,9 @@ namespace gaussdrift {
 class AdaptiveStepper {
  public:
   struct Options {
-    double tolerance =
-        1e-8;           // of a position in one step, relative to `length`; of a path integral in one step, absolute
-    double length = 1;  // the longest side of the domain
+    /// Of a position in one step, relative to `length`; of a path integral in one step, absolute.
+    double tolerance = 1e-8;
+    double length = 1;        // the longest side of the domain
     double largest_step = 0;  // 0: none
     int threads = 0;          // 0: all
   };

@@ -20,8 +20,8 @@ struct DensityOptions {
 /// What one evaluation did.
 struct DensityReport {
   double requested_tolerance = 0;  // per term, asked of fgtd
-  double achievable =
-      0;  // bound on the error relative to max |rho|: above the tolerance only if that cannot be promised
+  /// Bound on the error relative to max |rho|: above the tolerance only if that cannot be promised.
+  double achievable = 0;
   double measured_error = 0;  // on the sample, relative to max |rho| on the grid
   std::size_t sample = 0;     // grid points compared
   double evaluate_seconds = 0;

@@ -29,12 +29,12 @@ struct FrameNumbers {
   double minimum = 0;  // of rho on the grid
   double maximum = 0;
   Vector centroid{};  // sum_j alpha_j X_j / mass
-  double transform_error =
-      0;  // of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|
+  /// Of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|.
+  double transform_error = 0;
   double transform_tolerance = 0;  // per-term tolerance that was asked of fgtd
   double evaluate_seconds = 0;     // preparing and evaluating the transform
-  double stretch =
-      0;  // largest distance of particles that start as lattice neighbours, in spacings; 0: they are replaced
+  /// Largest distance of particles that start as lattice neighbours, in spacings; 0: they are replaced.
+  double stretch = 0;
   double weight = 0;                // sum_j |alpha_j|
   double outside = 0;               // part of sum |alpha_j| whose particles are outside the domain
   std::optional<ErrorNorms> error;  // only with a reference
@@ -47,11 +47,11 @@ struct Frame {
   int index = 0;
   double time = 0;
   const Particles* particles = nullptr;
-  const std::vector<double>* velocity =
-      nullptr;  // u(X_j, t) [j][dimension]; only if particle files are written, else null
+  /// u(X_j, t) [j][dimension]; only if particle files are written, else null
+  const std::vector<double>* velocity = nullptr;
   const DensityGrid* density = nullptr;
-  const std::vector<double>* exact = nullptr;  // rho at the points of the density, NaN where not known; null without
-                                               // a reference and where a sample is compared
+  /// rho at the points of the density, NaN where not known; null without a reference and where a sample is compared
+  const std::vector<double>* exact = nullptr;
   FrameNumbers numbers;
 };
 

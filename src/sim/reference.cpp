@@ -18,8 +18,8 @@ namespace gaussdrift {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t most_together =
-    256;  // points that take the same steps; 13 rates of them fit the second-level cache
+// Points that take the same steps; 13 rates of them fit the second-level cache.
+constexpr std::size_t most_together = 256;
 
 // Where a derivative of u jumps each point needs some twenty short steps, and all that go with it take them too.
 constexpr std::size_t together_over_kinks = 1;

@@ -249,7 +249,7 @@ TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.particles, 4384u);  // two of 4386 lattice points have 3e-18 of the largest weight
   const study::PublishedTable heights("schroeder-table-5.1");
-  ASSERT_EQ(heights.row_name(1), "2");  // c
+  ASSERT_EQ(heights.row_name(1), "2");                                                    // c
   EXPECT_NEAR(summary.frames.front().second.maximum, *heights.number(1, "ng300"), 6e-7);  // rounded to 1e-6
   EXPECT_NEAR(summary.frames.back().second.maximum, summary.frames.front().second.maximum,
               1e-11);  // evaluate.tolerance

@@ -442,8 +442,8 @@ TEST(Sum, TellsWhatFarfieldRefusesInTheUsersWords) {
 TEST(Sum, RefusesAMethodThatWouldTakeTooLong) {
   const ScratchFolder folder;
   write_file(folder / "S.csv", csv(headers[4], points(20000, 5)));
-  const Outcome slow =
-      gaussdrift_in(folder, "sum --sources S.csv --sigma 100 --tolerance 1e-12 --method hermite --threads 1 --out V.csv");
+  const Outcome slow = gaussdrift_in(
+      folder, "sum --sources S.csv --sigma 100 --tolerance 1e-12 --method hermite --threads 1 --out V.csv");
   EXPECT_EQ(slow.exit_code, 3) << slow.err;
   EXPECT_NE(slow.err.find("hermite would take about "), std::string::npos) << slow.err;
   EXPECT_NE(slow.err.find("more than the 5 minutes that are begun; --method auto takes about "), std::string::npos)

@@ -59,8 +59,8 @@ TEST_P(EveryVerb, SaysNothingWhereTheReaderOfAPipeIsGone) {
 
 INSTANTIATE_TEST_SUITE_P(Terminal, EveryVerb,
                          testing::Values("new", "new rotating_cone --force", "explain", "--help", "check small.toml",
-                                         "run small.toml --out a --force", "report done",
-                                         "render done --times 0", "compare done done", "doctor",
+                                         "run small.toml --out a --force", "report done", "render done --times 0",
+                                         "compare done done", "doctor",
                                          "study small.toml --vary time.step=0.2 --repeats 1 --out s --force",
                                          "sum --sources s.csv --sigma 1", "reproduce"),
                          [](const auto& verb) { return "Verb" + std::to_string(verb.index); });

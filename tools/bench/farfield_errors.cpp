@@ -34,7 +34,7 @@ void print() {
 }  // namespace
 
 int main() {
-  std::puts("// Written by tools/bench/farfield_errors.cpp; included by operators.cpp.");
+  std::puts("// Written by tools/bench/farfield_errors.cpp; included by operators.cpp.\n// clang-format off");
   print<2>();
   print<3>();
 }

@@ -1,0 +1,27 @@
+# tools/check_format finds a source that is laid out otherwise, names it and the remedy, and mends it. In a tree of its own.
+# Usage: cmake -D ROOT=<source folder> -D SCRATCH=<folder> -P check_format_test.cmake
+file(REMOVE_RECURSE ${SCRATCH})
+file(COPY ${ROOT}/tools/check_format DESTINATION ${SCRATCH}/tools)
+file(COPY ${ROOT}/.clang-format DESTINATION ${SCRATCH})
+file(WRITE ${SCRATCH}/src/a/good.cpp "int f(int x) { return x; }\n")
+
+function(expect what code said)
+  execute_process(COMMAND ${SCRATCH}/tools/check_format ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  string(FIND "${out}${err}" "${said}" at)
+  if(NOT result EQUAL code OR at EQUAL -1)
+    message(FATAL_ERROR "${what}: exit code ${result}, must be ${code}; said \"${out}${err}\", must have \"${said}\"")
+  endif()
+endfunction()
+
+expect("a good source" 0 "1 sources have the layout")
+file(WRITE ${SCRATCH}/include/a/bad.hpp "int  f ( int x ){return x;}\n")
+expect("a bad header" 1 "include/a/bad.hpp\n1 of 2 sources have another layout than .clang-format says. Remedy: tools/check_format --mend")
+expect("mending" 0 "2 sources are laid out" --mend)
+expect("a mended header" 0 "2 sources have the layout")
+file(READ ${SCRATCH}/include/a/bad.hpp text)
+if(NOT text STREQUAL "int f(int x) { return x; }\n")
+  message(FATAL_ERROR "the mended header has: ${text}")
+endif()
+expect("an unknown option" 2 "tools/check_format --mend" --repair)
+file(REMOVE_RECURSE ${SCRATCH}/src ${SCRATCH}/include)
+expect("no sources" 2 "no sources were found")
