@@ -40,8 +40,7 @@ int cutoff_order(std::string_view name);
 double peak(const Cutoff& cutoff);
 
 /// The cutoff convolved with the Gaussian of variance spread/2 an axis: the square of every width grows by `spread`,
-/// its integral stays, and the coefficients of the derivatives stay those of the widths before (method.md, equation
-/// 13).
+/// its integral stays, and the coefficients of the derivatives stay those of the widths before (method.md, equation 11).
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread);
 
 }  // namespace gaussdrift

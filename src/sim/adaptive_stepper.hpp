@@ -1,4 +1,4 @@
-// Carries particles with steps chosen by their error, for methods with an embedded one of lower order. method.md, 4.
+// Carries particles with steps chosen by their error, for methods with an embedded one of lower order. method.md, section 4.
 #pragma once
 
 #include <cstddef>
