@@ -71,7 +71,7 @@ class Reading {
       }
       if (taken < 0) fail(reason);
       if (taken == 0 && pipe && text.empty())
-        throw FileError(file_.string() + " is a pipe through which nothing came; " + std::string(kind_) +
+        throw FileError(file_.string() + " is a pipe, and nothing came through it; " + std::string(kind_) +
                         " is expected: write to the pipe before, or name a file");
       if (taken == 0) return text;
       if (text.size() > most_) refuse_size(text.size());

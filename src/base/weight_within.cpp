@@ -19,7 +19,7 @@ double largest_weight_within(const PointsView& points, const double* weight, dou
     const auto [a, b] = std::minmax_element(points.axis[k], points.axis[k] + count);
     low[k] = *a, high[k] = *b;
     if (!std::isfinite(high[k] - low[k]))
-      throw NumericalError("points lie so far apart that their distance is no number; shorten time.end");
+      throw NumericalError("some points lie so far apart that no number can hold their distance. Shorten time.end.");
   }
   // The box array may have a few entries a point; a very short reach gets longer boxes, which only raises the bound.
   const double allowed = 4.0 * static_cast<double>(count) + 1e6;

@@ -296,19 +296,18 @@ std::vector<std::string> warnings_of(const Case& scene, const RunSummary& summar
   std::vector<std::string> warnings;
   if (summary.transform_achievable > scene.evaluate.tolerance)
     warnings.push_back(
-        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights; the bound that holds is "
-                    "{:.1e} of max rho",
+        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights. The error of the sum is at most "
+                    "{:.1e} of max rho.",
                     scene.evaluate.tolerance, summary.transform_achievable));
   Case remeshed = scene;
   remeshed.effects.remesh = RemeshSpec{};
   for (const auto& [time, numbers] : summary.frames)
     if (numbers.stretch > scene.particles.overlap) {
-      warnings.push_back(
-          fmt::format("at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart, and blobs "
-                      "{:g} spacings wide no longer overlap there: the density has gaps and peaks that are not there; "
-                      "{}more overlap on a finer lattice",
-                      time, numbers.stretch, scene.particles.overlap,
-                      study::why_not_read(remeshed).empty() ? "[effects.remesh], or " : ""));
+      warnings.push_back(fmt::format(
+          "at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart. Blobs {:g} spacings wide "
+          "no longer overlap there, so the density has false gaps and peaks. Use {}more overlap on a finer lattice.",
+          time, numbers.stretch, scene.particles.overlap,
+          study::why_not_read(remeshed).empty() ? "[effects.remesh], or " : ""));
       break;
     }
   warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());

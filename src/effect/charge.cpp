@@ -33,9 +33,8 @@ double Charge::stable_step() const {
 std::string Charge::warning() const {
   if (options_.mobility >= 0 || largest_rate_ == 0) return "";
   return fmt::format(
-      "equal charges attract each other where effects.charge.mobility is negative: their density grows like 1/(1 - "
-      "t/tau), "
-      "and from t = tau = {:.3g} on there is no solution",
+      "equal charges attract each other, because effects.charge.mobility is negative. Their density grows like 1/(1 - "
+      "t/tau), and from t = tau = {:.3g} on there is no solution.",
       1 / largest_rate_);
 }
 

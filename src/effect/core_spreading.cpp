@@ -14,8 +14,10 @@ namespace gaussdrift {
 CoreSpreading::CoreSpreading(double coefficient, const VelocityField& velocity, double end, double distance)
     : coefficient_(coefficient), end_(end), distance_(distance), velocity_(velocity) {
   if (!std::isfinite(4 * coefficient * end))
-    throw InputError(fmt::format("effects.diffusion.D = {:g} spreads blobs beyond all numbers until time.end = {:g}",
-                                 coefficient, end));
+    throw InputError(
+        fmt::format("with effects.diffusion.D = {:g} the blobs become too wide for a number until time.end = {:g}. "
+                    "Lower one of the two.",
+                    coefficient, end));
 }
 
 std::string CoreSpreading::describe() const {
@@ -45,10 +47,9 @@ std::string CoreSpreading::warning() const {
   constexpr double noticed = 0.1;
   if (strain_ * end_ <= noticed) return "";
   return fmt::format(
-      "core spreading keeps blobs round, but this flow strains at the rate {:.3g} and stretches lengths by up to "
-      "exp({:.3g}) over the run: the spread by diffusion is not deformed with the flow, unless [effects.remesh] puts "
-      "it "
-      "into the weights often (docs/method.md, section 8.2)",
+      "this flow strains at the rate {:.3g} and stretches lengths by up to exp({:.3g}) over the run. Core spreading "
+      "keeps blobs round, so the flow does not stretch what has diffused. [effects.remesh] with small intervals cures "
+      "that, or method = \"particle-exchange\" (docs/method.md, section 8.2).",
       strain_, strain_ * end_);
 }
 

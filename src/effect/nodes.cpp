@@ -21,10 +21,10 @@ std::int64_t Nodes::id(const NodeIndex& index) const {
       continue;
     }
     if (index[k] < -reach() || index[k] >= reach())
-      throw NumericalError(fmt::format(
-          "particles are {} lattice spacings away from the domain; effects that put particles on a lattice reach {}: "
-          "shorten time.end or enlarge the domain",
-          std::abs(index[k]), reach()));
+      throw NumericalError(
+          fmt::format("particles are {} lattice spacings away from the domain, and effects that put particles on a "
+                      "lattice reach only {}. Shorten time.end, or enlarge the domain.",
+                      std::abs(index[k]), reach()));
     number = (number << bits_) + (index[k] + reach());
   }
   return inside ? number : -1 - number;

@@ -24,8 +24,8 @@ farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const
         .field;
   } catch (const farfield::MemoryLimitError& error) {
     throw InputError(
-        fmt::format("the particles' effect on each other would take {:.3g} GB, at most {:.3g} GB are used; "
-                    "lower particles.per_axis",
+        fmt::format("the velocities that particles give each other would take {:.3g} GB of memory, and at most {:.3g} "
+                    "GB are used. Lower particles.per_axis.",
                     error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
   } catch (const farfield::RangeError& error) {
     throw NumericalError(
@@ -34,7 +34,7 @@ farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const
                     error.quantity, error.target + 1));
   } catch (const farfield::Error& error) {  // positions or weights that are not finite, points too close
     throw NumericalError(
-        fmt::format("the particles' effect on each other cannot be summed: {}",
+        fmt::format("the velocities that particles give each other cannot be summed: {}",
                     base::in_users_words(error.what(), {{"Options::tolerance = ", "a tolerance of "}})));
   }
 }

@@ -54,17 +54,16 @@ ParticleExchange::ParticleExchange(const Lattice& lattice, double core_radius, c
   // Already that of one particle.
   const double around = std::pow(2 * static_cast<double>(halo_) + 1, nodes_.dimension());
   if (around > static_cast<double>(options_.most_particles))
-    throw InputError(
-        fmt::format("diffusion by particle exchange would surround each particle by {:.2g} others, {} lattice steps "
-                    "deep; at most {:.2g} particles are possible: lower particles.overlap, or raise "
-                    "[effects.diffusion] tolerance",
-                    around, halo_, static_cast<double>(options_.most_particles)));
+    throw InputError(fmt::format(
+        "diffusion by particle exchange would surround each particle by {:.2g} others, {} lattice steps deep, and at "
+        "most {:.2g} particles are possible. Lower particles.overlap, or raise [effects.diffusion] tolerance.",
+        around, halo_, static_cast<double>(options_.most_particles)));
 }
 
 void ParticleExchange::refuse_so_many() const {
   throw NumericalError(
-      fmt::format("diffusion by particle exchange needs more than {} particles; lower particles.per_axis, raise "
-                  "[effects.diffusion] tolerance or shorten time.end",
+      fmt::format("diffusion by particle exchange needs more than {} particles. Lower particles.per_axis, raise "
+                  "[effects.diffusion] tolerance, or shorten time.end.",
                   options_.most_particles));
 }
 
@@ -89,9 +88,8 @@ void ParticleExchange::settle(Particles& particles, const double* integral, doub
     particles.volume[j] *= std::exp(integral[j]);
     if (!std::isfinite(particles.volume[j]))
       throw NumericalError(
-          fmt::format("the volume of particle {} has grown beyond all numbers by t = {:.6g}: the velocity diverges too "
-                      "long; shorten "
-                      "time.end or add [effects.remesh]",
+          fmt::format("the volume of particle {} is too large for a number at t = {:.6g}, because the velocity has "
+                      "diverged for so long. Shorten time.end, or add [effects.remesh].",
                       particles.id[j], time));
   }
 }
@@ -198,10 +196,10 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   const Eigen::ArrayXd kv = sums.col(0).array();
   const double rate = factor * kv.maxCoeff();
   if (length * rate > 2 * (1 + 1e-6))  // 1e-6: the tolerance of largest_rate()
-    throw NumericalError(fmt::format(
-        "diffusion by particle exchange has become unstable by t = {:.6g}: particles have come so close together that "
-        "time.step may not exceed {:.3g}; lower it, or add [effects.remesh]",
-        time, 2 / rate));
+    throw NumericalError(
+        fmt::format("diffusion by particle exchange is unstable at t = {:.6g}, because particles have come close "
+                    "together. Use time.step <= {:.3g}, or add [effects.remesh].",
+                    time, 2 / rate));
   // L applied to weights w whose sum K w is known. What one particle gives another receives; the tolerance of the sums
   // breaks that, and what is too much or too little is spread over all exchanges, so that the mass stays.
   const auto exchanged = [&](const Eigen::VectorXd& w, const Eigen::ArrayXd& kw) {

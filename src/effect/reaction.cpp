@@ -18,9 +18,9 @@ void Reaction::settle(Particles& particles, const double* integral, double time)
       for (int k = 0; k < particles.dimension; ++k)
         place += fmt::format("{}{:.6g}", k ? ", " : "", particles.position[k][j]);
       throw NumericalError(
-          fmt::format("reaction has made the weight of particle {} too large for a number by t = {:.6g}, at ({}): it "
-                      "grew by exp({:.4g}); a negative rate of [effects.reaction] lets weights grow, lower it or "
-                      "shorten time.end",
+          fmt::format("reaction has made the weight of particle {} too large for a number by t = {:.6g}, at ({}). The "
+                      "weight grew by exp({:.4g}), because the rate of [effects.reaction] is negative there. Bring the "
+                      "rate nearer to 0, or shorten time.end.",
                       particles.id[j], time, place, -integral[j]));
     }
     particles.alpha[j] = after;

@@ -97,8 +97,8 @@ class TiledSum {
       if (tiles_[index].place == place) return index;
     if ((tiles_.size() + 1) * (tile_size_ * sizeof(double) + 128) > memory_limit_)
       throw NumericalError(fmt::format(
-          "remesh would need more than {} GiB for the nodes around the particles, which lie too scattered; remesh more "
-          "often ([effects.remesh] every), lower particles.per_axis or shorten time.end",
+          "remesh would need more than {} GiB for the nodes around the particles, because the particles lie too "
+          "scattered. Remesh more often ([effects.remesh] every), lower particles.per_axis, or shorten time.end.",
           memory_limit_ >> 30));
     same_key.push_back(tiles_.size());
     tiles_.push_back({place, std::vector<double>(tile_size_, 0.0)});
@@ -181,10 +181,10 @@ void Remesh::remesh(Particles& particles) {
     for (int k = 0; k < dimension; ++k) {
       const double place = (particles.position[k][j] - nodes_.lattice().origin[k]) / h;
       if (!(std::abs(place) < static_cast<double>(nodes_.reach() / 2)))
-        throw NumericalError(fmt::format(
-            "particle {} is {:.3g} lattice spacings from the corner of the domain, too far for remesh; shorten "
-            "time.end or enlarge the domain",
-            particles.id[j], std::abs(place)));
+        throw NumericalError(
+            fmt::format("particle {} is {:.3g} lattice spacings away from the corner of the domain, which is too far "
+                        "for remesh. Shorten time.end, or enlarge the domain.",
+                        particles.id[j], std::abs(place)));
       kernel_.share(place, into_weights ? spread : 0, axes[k].first, axes[k].weights);
     }
     sum.add(axes, particles.alpha[j]);

@@ -146,8 +146,8 @@ template <int d>
 [[noreturn]] void refuse(const fgtd::Points<d>& points, double sigma, const GaussianFitOptions& options,
                          const std::string& what) {
   throw GaussiansTooWide(fmt::format(
-      "{}: Gaussians of width {:.4g} can hardly be told apart at samples that lie {:.2g} apart on the average{}; lower "
-      "width, remove samples that lie very close together, or {} regularisation (1e-8 is a beginning)",
+      "{}: Gaussians of width {:.4g} can hardly be told apart at samples that lie {:.2g} apart on average{}. Lower "
+      "width, remove samples that lie very close together, or {} regularisation (begin with 1e-8).",
       what, 1 / std::sqrt(sigma), spacing_of<d>(points),
       options.regularisation > 0 ? fmt::format(", with regularisation = {}", options.regularisation) : "",
       options.regularisation > 0 ? "raise" : "set"));
@@ -228,12 +228,11 @@ GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, 
   fit.left_out = blocks.left_out_error(right);
   constexpr double knowing_nothing = 0.9;  // 1 is the error of a field that is 0 everywhere
   if (!(fit.left_out < knowing_nothing))
-    throw InputError(fmt::format(
-        "the samples do not follow from each other: left out one by one, they are predicted with an error of {:.2g} of "
-        "their size; Gaussians of width {:.4g} do not bridge samples that lie {:.2g} apart on the average: raise "
-        "width, or "
-        "add samples",
-        fit.left_out, 1 / std::sqrt(sigma), spacing_of<d>(points)));
+    throw InputError(
+        fmt::format("the samples do not follow from each other. When each is predicted from the others, the error is "
+                    "{:.2g} of their size. Gaussians of width {:.4g} do not bridge samples that lie {:.2g} apart on "
+                    "average. Raise width, or add samples.",
+                    fit.left_out, 1 / std::sqrt(sigma), spacing_of<d>(points)));
   return fit;
 }
 

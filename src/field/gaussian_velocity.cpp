@@ -97,8 +97,8 @@ double term_tolerance(GaussianMatrix matrix, const fgtd::Points<d>& points, cons
   const double wanted = tolerance * largest / unit_error;
   if (!(wanted >= fgtd::smallest_tolerance))
     throw GaussiansTooWide(fmt::format(
-        "the Gaussians cancel: together they are {:.1e} times smaller than one by one, so a tolerance of {:.0e} of the "
-        "velocity cannot be kept, {:g} can; lower width, set regularisation, or raise tolerance",
+        "the Gaussians cancel: their sum is {:.1e} times smaller than its terms. A tolerance of {:.0e} of the velocity "
+        "cannot be kept, {:g} can. Lower width, set regularisation, or raise tolerance.",
         unit_error / largest, tolerance, base::rounded_up(fgtd::smallest_tolerance * unit_error / largest, 2)));
   return std::min(wanted, coarsest);
 }
@@ -131,10 +131,10 @@ GaussianFit fit_as_needed(const GaussianModelOptions& options, const fgtd::Point
     }
   }
   // What was tried in vain is not recommended.
-  why.resize(std::min(why.size(), why.find("; lower width")));
+  why.resize(std::min(why.size(), why.find(". Lower width")));
   throw InputError(why +
-                   "; regularisation up to 1e-6 does not help: lower width, or remove samples that lie very close "
-                   "together");
+                   ". A regularisation up to 1e-6 does not help. Lower width, or remove samples that lie very close "
+                   "together.");
 }
 
 template <int d>

@@ -40,11 +40,11 @@ const std::vector<EffectRule>& effect_rules() {
        "give the charge a density of its own: effects.charge.density",
        [](const EffectsSpec& effects, int) { return is_weight(effects); }},
       {"charge", "diffusion", "`method = \"core-spreading\"`",
-       "particle-exchange adds particles later, which cannot be carried from the start", "method = \"core-spreading\"",
-       [](const EffectsSpec& effects, int) { return exchanges(effects); }},
+       "particle-exchange adds particles during the run, and they cannot be carried from the start",
+       "method = \"core-spreading\"", [](const EffectsSpec& effects, int) { return exchanges(effects); }},
       {"charge", "diffusion", "the scene has two dimensions",
-       "charges are points in three, and their field would not see what has diffused", "leave out one of them",
-       [](const EffectsSpec&, int dimension) { return dimension == 3; }},
+       "charges are points in three dimensions, so their field would not spread with the density",
+       "leave out one of them", [](const EffectsSpec&, int dimension) { return dimension == 3; }},
       {"charge", "remesh", "the charge is the weight",
        "remeshing makes new particles, which have weights but no charge of their own",
        "leave out one of them, or effects.charge.density",
@@ -53,8 +53,8 @@ const std::vector<EffectRule>& effect_rules() {
        "the reaction changes the weights, and these are the circulations that move the particles",
        "leave out one of them", [](const EffectsSpec&, int) { return true; }},
       {"vortex", "diffusion", "`method = \"core-spreading\"`",
-       "particle-exchange adds particles later, which cannot be carried from the start", "method = \"core-spreading\"",
-       [](const EffectsSpec& effects, int) { return exchanges(effects); }},
+       "particle-exchange adds particles during the run, and they cannot be carried from the start",
+       "method = \"core-spreading\"", [](const EffectsSpec& effects, int) { return exchanges(effects); }},
   };
   return rules;
 }

@@ -1140,7 +1140,7 @@ class Reader {
       if (present && without.empty()) without = name;
     if (!without.empty() && kind && chosen == "characteristics")
       diagnostics_.error(kind->value.place,
-                         fmt::format("the density does not follow known characteristics with [effects.{}]", without),
+                         fmt::format("with [effects.{}] the exact density cannot be traced along paths", without),
                          "kind = \"exact\" and a formula as rho, or kind = \"none\"");
     if (!without.empty() && !kind && !rho) {
       chosen = "none";

@@ -113,8 +113,7 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
       if (const std::string reason = why_path_ends(velocity_, time, particles.dimension, x, 1e-6 * options_.length);
           !reason.empty())
         throw NumericalError(
-            fmt::format("in step {} at t = {:.10g} particle {} at ({}) comes to where there is no "
-                        "velocity: {}",
+            fmt::format("in step {} at t = {:.10g} particle {} at ({}) comes to a place without a velocity: {}",
                         steps_before + 1, time, particles.id[worst.particle], place, reason));
       throw NumericalError(fmt::format(
           "no step is short enough for time.tolerance = {:g} in step {} at t = {:.10g}: particle {} at ({}) moves too "

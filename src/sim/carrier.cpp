@@ -127,7 +127,7 @@ void Carrier::warn_of_jumps(const Particles& particles) {
                   "to {:.2g}, the jump times time.step{}",
                   largest->height, place, largest->time, misplaced,
                   case_.reference.kind == ReferenceSpec::Kind::characteristics
-                      ? "; where fluid gathers or thins out at the jump the exact density does not know of it"
+                      ? ". The exact density does not contain what gathers or thins out at the jump"
                       : ""));
 }
 

@@ -47,8 +47,8 @@ void check_block(const VelocityField& field, const PointsView& x, const VectorsV
     const std::string when = fmt::format("in step {} at t = {:.10g}", step, time);
     if (!placed)
       throw NumericalError(fmt::format(
-          "particle {} left for infinity {}; time.step is too long for this field, or the flow itself blows up", id[j],
-          when));
+          "particle {} left for infinity {}. Either time.step is too long for this field, or the flow itself blows up.",
+          id[j], when));
     Vector place{};
     for (int k = 0; k < x.dimension; ++k) place[k] = x.axis[k][j];
     const std::string reason = field.why_not_finite(time, place);

@@ -299,7 +299,8 @@ void give_advice(const Case& description, const Scene& scene, const std::vector<
     const double sharper =
         number_of(fmt::format("{:.0e}", std::max(1e-13, 1e-3 * std::max(budget.smoothing, budget.quadrature))));
     if (sharper < description.evaluate.tolerance && runs([&](Case& changed) { changed.evaluate.tolerance = sharper; }))
-      budget.advice.push_back(fmt::format("evaluate.tolerance = {:.0e} is cheap and removes what dominates", sharper));
+      budget.advice.push_back(
+          fmt::format("evaluate.tolerance = {:.0e} removes the largest error at little cost", sharper));
   }
   if (budget.dominates == "particles left out" && runs([](Case& changed) { changed.particles.threshold = 0; }))
     budget.advice.push_back("particles.threshold = 0 leaves nothing out");

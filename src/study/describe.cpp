@@ -535,7 +535,7 @@ std::string to_text(const Case& scene, const Description& r) {
       r.reference_seconds, r.file_seconds, r.picture_seconds, r.report_seconds, bytes_text(r.memory_bytes),
       bytes_text(r.disk_bytes));
   if (r.memory_bytes >= r.memory_there)
-    text += fmt::format("           there are {} of memory here, so `run` refuses this case: lower {}\n",
+    text += fmt::format("           this machine has {} of memory, so `run` refuses this case: lower {}\n",
                         bytes_text(r.memory_there),
                         r.particles > r.grid_points ? "particles.per_axis" : "evaluate.per_axis");
   for (const std::string& sentence : r.left_out) text += fmt::format("sampled    {}\n", sentence);

@@ -41,9 +41,8 @@ auto cheapest_below(SomeExperiment& experiment, double error) {
 
 /// The conclusion where no run has an error.
 std::string no_error(const Experiment& experiment) {
-  return experiment.samples.empty()
-             ? "Nothing was run."
-             : fmt::format("No run has an error to tell: {}.", experiment.samples.front().failure);
+  return experiment.samples.empty() ? "Nothing was run."
+                                    : fmt::format("No run has a known error: {}.", experiment.samples.front().failure);
 }
 
 }  // namespace
@@ -330,7 +329,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
     experiment.notes.push_back(
         fmt::format("{}: observed order {:.2f}, expected {}", name, order, time::find_tableau(name).time_order));
   if (!paths.note.empty()) experiment.notes.push_back(paths.note);
-  if (left_out) experiment.notes.push_back("shorter steps were left out to keep to the time");
+  if (left_out) experiment.notes.push_back("shorter steps were left out to stay within --seconds");
 
   // Weights that go from particle to particle may ask for shorter steps later on, so such a run is tried to its end.
   const bool tried = scene.effects.remesh || (scene.effects.diffusion && !moving.effects.diffusion);
@@ -403,7 +402,7 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   });
   finish(experiment, scene);
   if (left_out > 0)
-    experiment.notes.push_back(fmt::format("{} combinations were left out to keep to the time", left_out));
+    experiment.notes.push_back(fmt::format("{} combinations were left out to stay within --seconds", left_out));
   const Sample *best = nullptr, *now = nullptr;
   for (const Sample& sample : experiment.samples) {
     if (!sample.failure.empty()) continue;
@@ -449,7 +448,7 @@ Experiment study_whole(const Case& scene, const StudyOptions& options, double se
     for (const double target : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
       Sample sample{.values = {fmt::format("{:g}", target)}};
       if (watch.seconds() > seconds) {
-        experiment.notes.push_back(fmt::format("targets from {:g} on were left out to keep to the time", target));
+        experiment.notes.push_back(fmt::format("targets from {:g} on were left out to stay within --seconds", target));
         break;
       }
       try {

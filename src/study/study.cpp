@@ -72,9 +72,8 @@ std::string conclusion_of(const Experiment& experiment) {
   if (cheap->seconds < 0.8 * best->seconds)
     return fmt::format("{} is as accurate as {} and {:.2g} times as fast: an error of {:.2g} in {:.2g} s.",
                        named(*cheap), named(*best), best->seconds / cheap->seconds, cheap->error, cheap->seconds);
-  return fmt::format(
-      "The smallest error, {:.2g}, is that of {}, in {:.2g} s; every cheaper one is paid for in accuracy.", best->error,
-      named(*best), best->seconds);
+  return fmt::format("The smallest error, {:.2g}, is that of {}, in {:.2g} s; every cheaper one is less accurate.",
+                     best->error, named(*best), best->seconds);
 }
 
 }  // namespace

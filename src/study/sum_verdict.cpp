@@ -12,10 +12,10 @@ std::vector<std::string> broken_promises(const std::vector<MeasuredError>& error
   std::vector<std::string> sentences;
   for (const MeasuredError& measured : errors)
     if (!(measured.error <= measured.allowed))
-      sentences.push_back(fmt::format(
-          "{} is wrong by {:.2g} where {:.2g} is promised, found at {} targets by summing all pairs: do not "
-          "use these values; --method direct sums all pairs everywhere",
-          measured.of, measured.error, measured.allowed, targets));
+      sentences.push_back(
+          fmt::format("{} is wrong by {:.2g} where {:.2g} is promised. This was found at {} targets by summing all "
+                      "pairs. Do not use these values. Use --method direct, which sums all pairs everywhere.",
+                      measured.of, measured.error, measured.allowed, targets));
   return sentences;
 }
 
@@ -37,11 +37,11 @@ void tell_or_refuse(const PointsRequest& request, const PredictedWork& work,
   }
   const PredictedWork other = fastest();
   const bool faster = !other.method.empty() && other.seconds < work.seconds / 2;
-  throw InputError(
-      fmt::format("{} would take {}, more than the {} that are begun; {}, or raise --seconds", work.method, by,
-                  duration_text(request.most_seconds),
-                  faster ? fmt::format("--method auto takes about {} ({})", duration_text(other.seconds), other.method)
-                         : "ask for fewer targets or a larger tolerance"));
+  throw InputError(fmt::format(
+      "{} would take {}, and only sums of up to {} are begun. {}, or raise --seconds.", work.method, by,
+      duration_text(request.most_seconds),
+      faster ? fmt::format("Use --method auto, which takes about {} ({})", duration_text(other.seconds), other.method)
+             : "Ask for fewer targets or a larger tolerance"));
 }
 
 }  // namespace gaussdrift::study

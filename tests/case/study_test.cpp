@@ -109,7 +109,7 @@ TEST(Study, ConcludesNothingFromRunsWithNothingLeft) {
   options.repeats = 0;
   for (const Experiment& experiment : {study_lattice(blown, options, 0.1), study_whole(blown, options, 0.1)}) {
     EXPECT_EQ(experiment.conclusion,
-              "No run has an error to tell: nothing is left to compare (all of the mass has left the domain).");
+              "No run has a known error: nothing is left to compare (all of the mass has left the domain).");
     for (const std::string& note : experiment.notes) EXPECT_EQ(note.find("smooth"), std::string::npos) << note;
   }
 }

@@ -33,7 +33,7 @@ TEST(SumVerdict, NamesWhatIsBeyondThePromise) {
   EXPECT_TRUE(broken_promises({{"the field", 1e-6, 1e-6}, {"the potential", 0, 1e-6}}, 200).empty());
   const auto broken = broken_promises({{"the potential", 1e-7, 1e-6}, {"the field", 5e-2, 1e-2}}, 200);
   ASSERT_EQ(broken.size(), 1u);
-  EXPECT_EQ(broken[0].rfind("the field is wrong by 0.05 where 0.01 is promised, found at 200 targets", 0), 0u)
+  EXPECT_EQ(broken[0].rfind("the field is wrong by 0.05 where 0.01 is promised. This was found at 200 targets", 0), 0u)
       << broken[0];
   EXPECT_EQ(broken_promises({{"d_0", nan, 1e-2}}, 10).size(), 1u);
 }
@@ -121,11 +121,11 @@ TEST(SumVerdict, RefusesWhatIsPredictedToTakeTooLongAndTellsTheRest) {
   };
   EXPECT_EQ(
       refused({7500, "hermite"}, {0.25, "direct"}),
-      "hermite would take about 2.1 hours on 2 threads, more than the 5 minutes that are begun; --method auto takes "
-      "about 0.25 s (direct), or raise --seconds");
+      "hermite would take about 2.1 hours on 2 threads, and only sums of up to 5 minutes are begun. Use --method auto, "
+      "which takes about 0.25 s (direct), or raise --seconds.");
   EXPECT_EQ(refused({400, "direct"}, {400, "direct"}),
-            "direct would take about 7 minutes on 2 threads, more than the 5 minutes that are begun; ask for fewer "
-            "targets or a larger tolerance, or raise --seconds");
+            "direct would take about 7 minutes on 2 threads, and only sums of up to 5 minutes are begun. Ask for fewer "
+            "targets or a larger tolerance, or raise --seconds.");
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ TEST(GaussianFit, RefusesWhatHasNoStableSolution) {
   for (const auto& points : {few, many}) {
     const std::string wide = refusal(points, velocity<2>(points), 3.0);
     EXPECT_NE(wide.find("Gaussians of width 3 can hardly be told apart"), std::string::npos) << wide;
-    EXPECT_NE(wide.find("lower width"), std::string::npos);
+    EXPECT_NE(wide.find("Lower width"), std::string::npos);
   }
   // With regularisation the same has a solution that is near the samples.
   const GaussianFit smooth = fit_gaussians<2>(GaussianMatrix::field, few, velocity<2>(few), sigma_of(3.0),
@@ -152,7 +152,7 @@ TEST(GaussianFit, RefusesGaussiansThatDoNotBridgeTheSamples) {
   const fgtd::Points<2> points = scattered<2>(200);
   const std::string narrow = refusal(points, velocity<2>(points), 0.7 * spacing_of<2>(200));
   EXPECT_NE(narrow.find("do not follow from each other"), std::string::npos) << narrow;
-  EXPECT_NE(narrow.find("raise width"), std::string::npos);
+  EXPECT_NE(narrow.find("Raise width"), std::string::npos);
 }
 
 TEST(GaussianFit, TellsHowWellSamplesFollowFromTheOthers) {

@@ -372,7 +372,8 @@ TEST(Drift, RefusesWhatItDoesNotGoWith) {
   EXPECT_TRUE(has(said({"effects.charge.mobility=1", "effects.charge.density=1", "effects.remesh.every=1"}),
                   "does not go with [effects.remesh]"));
   EXPECT_TRUE(has(said({"effects.charge.tolerance=1e-6"}), "mobility"));
-  EXPECT_TRUE(has(said({"effects.vortex.tolerance=1e-6", "reference.kind=characteristics"}), "known characteristics"));
+  EXPECT_TRUE(
+      has(said({"effects.vortex.tolerance=1e-6", "reference.kind=characteristics"}), "cannot be traced along paths"));
 }
 
 }  // namespace

@@ -193,7 +193,7 @@ const std::vector<Wrong> wrongs = {
     {"[time]\nend", "[effects.diffusion]\nD = -1\n[time]\nend", 30, "-1",
      "effects.diffusion.D must be greater than 0, found -1", "D: coefficient of diffusion, constant in space and time"},
     {"[time]\nend", "[effects.diffusion]\nD = 1\n[reference]\nkind = \"characteristics\"\n[time]\nend", 32,
-     "\"characteristics\"", "the density does not follow known characteristics with [effects.diffusion]",
+     "\"characteristics\"", "with [effects.diffusion] the exact density cannot be traced along paths",
      "kind = \"exact\" and a formula as rho, or kind = \"none\""},
     {"[time]\nend", "[effects.diffusion]\nD = 1\ntolerance = 0.01\n[time]\nend", 31, "0.01",
      "\"tolerance\" goes with method = \"particle-exchange\""},

@@ -68,8 +68,9 @@ TEST_F(TextFile, WhatIsNoFileOfTextSaysWhatItIs) {
 TEST_F(TextFile, APipeIsReadAndOneToWhichNobodyWritesIsNotWaitedFor) {
   const fs::path pipe = folder_ / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_EQ(refusal(pipe),
-            "pipe is a pipe through which nothing came; a table is expected: write to the pipe before, or name a file");
+  EXPECT_EQ(
+      refusal(pipe),
+      "pipe is a pipe, and nothing came through it; a table is expected: write to the pipe before, or name a file");
   const int both = ::open(pipe.c_str(), O_RDWR);  // does not wait for the other end
   ASSERT_GE(both, 0);
   ASSERT_EQ(::write(both, "x,y\n1,2\n", 8), 8);
