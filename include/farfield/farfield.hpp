@@ -1,12 +1,5 @@
-// farfield: sums over all pairs of points for kernels that do not decay: Coulomb in 2D and 3D, the logarithm in 1D and
-// 2D, and vortex blobs in 2D, directly or to a promised accuracy in linear time. docs/farfield.md explains methods,
-// promise and costs.
-//
-//   const farfield::Plan<3> plan(farfield::Kernel::coulomb, points, {.tolerance = 1e-6});
-//   const farfield::Values<3> values = plan.evaluate(charges);   // values.potential, values.field
-//
-// Everything throws farfield::Error (below) on bad input, prints nothing and keeps no global state. Evaluation is const
-// and safe to call from several threads. Results do not depend on the number of threads.
+/// @file
+/// Sums for kernels that do not decay: the library farfield, whole.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +11,15 @@
 #include <string>
 #include <vector>
 
+/// Sums over all pairs of points for kernels that do not decay: Coulomb in 2D and 3D, the logarithm in 1D and 2D, and
+/// vortex blobs in 2D, directly or to a promised accuracy in linear time. docs/farfield.md explains the methods, the
+/// promise and the costs. In short:
+///
+///     const farfield::Plan<3> plan(farfield::Kernel::coulomb, points, {.tolerance = 1e-6});
+///     const farfield::Values<3> values = plan.evaluate(charges);   // values.potential, values.field
+///
+/// Bad input throws an Error. Nothing is printed, and there is no global state. Evaluation is const, and several threads
+/// may call it at a time. Results do not depend on the number of threads.
 namespace farfield {
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -38,27 +40,30 @@ class ToleranceError : public Error {
 /// The work would need more memory than Options::memory_limit; thrown before it is allocated.
 class MemoryLimitError : public Error {
  public:
+  /// Keeps the numbers beside the message.
   MemoryLimitError(const std::string& message, double needed_bytes, std::size_t limit_bytes)
       : Error(message), needed(needed_bytes), limit(limit_bytes) {}
-  double needed;
-  std::size_t limit;
+  double needed;      ///< bytes that the work would take
+  std::size_t limit;  ///< Options::memory_limit, bytes
 };
 enum class Method;
 /// The work is predicted to take longer than Options::most_seconds; thrown before it is begun.
 class TimeLimitError : public Error {
  public:
+  /// Keeps the numbers beside the message.
   TimeLimitError(const std::string& message, double predicted, Method chosen)
       : Error(message), seconds(predicted), method(chosen) {}
-  double seconds;  // on one thread
-  Method method;
+  double seconds;  ///< predicted, on one thread
+  Method method;   ///< that the prediction is for
 };
 /// A sum exceeds the range of double: charges too large, or points too close to each other.
 class RangeError : public Error {
  public:
+  /// Keeps what and where beside the message.
   RangeError(const std::string& message, const std::string& sum, std::size_t index)
       : Error(message), quantity(sum), target(index) {}
-  std::string quantity;  // "potential" or "field"
-  std::size_t target;    // from 0
+  std::string quantity;  ///< "potential" or "field"
+  std::size_t target;    ///< its number, from 0
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -68,21 +73,29 @@ class RangeError : public Error {
 template <int d>
 using Points = Eigen::Matrix<double, d, Eigen::Dynamic>;
 
-/// With r = |x_i - y_j|; pairs at distance 0 are left out.
+/// What a source at y_j with charge q_j does at a target x_i, r = |x_i - y_j|. Pairs at distance 0 are left out.
 enum class Kernel {
-  coulomb,     // 3D: potential sum_j q_j / r,     field  sum_j q_j (x_i - y_j) / r^3
-               // 2D: potential -sum_j q_j ln r,   field  sum_j q_j (x_i - y_j) / r^2
-  log,         // 1D, 2D: potential sum_j q_j ln r, field (its gradient)  sum_j q_j (x_i - y_j) / r^2
-  vortex_blob  // 2D: field (velocity) sum_j q_j (1 - exp(-r^2/eps^2)) / (2 pi r^2) (-dy, dx), (dx, dy) = x_i - y_j,
-               // with circulations q_j and eps = Options::core_radius; no potential
+  /// Charges that repel each other, without a factor 4 pi:
+  ///
+  ///     3D   potential   sum_j q_j / r       field  sum_j q_j (x_i - y_j) / r^3
+  ///     2D   potential  -sum_j q_j ln r      field  sum_j q_j (x_i - y_j) / r^2
+  coulomb,
+  /// The logarithm and its gradient, in 1D and 2D:
+  ///
+  ///     potential  sum_j q_j ln r            field  sum_j q_j (x_i - y_j) / r^2
+  log,
+  /// The velocity of vortex blobs in 2D, with circulations q_j and eps = Options::core_radius. There is no potential.
+  ///
+  ///     field  sum_j q_j (1 - exp(-r^2/eps^2)) / (2 pi r^2) (-dy, dx),      (dx, dy) = x_i - y_j
+  vortex_blob
 };
 
-/// `automatic` takes the smallest predicted time.
+/// How the sums are computed; docs/farfield.md, "Methods".
 enum class Method {
-  automatic,
-  direct,    // every pair
-  tree,      // groups of sources are replaced by substitute charges, which act on every target
-  symmetric  // groups of targets are replaced as well: linear time
+  automatic,  ///< the method with the smallest predicted time
+  direct,     ///< every pair
+  tree,       ///< groups of sources are replaced by substitute charges, which act on every target
+  symmetric   ///< groups of targets are replaced as well: linear time
 };
 
 /// Every kernel.
@@ -90,19 +103,21 @@ const std::vector<Kernel>& kernels();
 /// Every method, `automatic` first.
 const std::vector<Method>& methods();
 
-/// The names as they are written in files: "coulomb", "log", "vortex-blob"; "auto", "direct", "tree", "symmetric".
+/// The name as it is written in files: "coulomb", "log", "vortex-blob".
 std::string to_string(Kernel kernel);
+/// The name as it is written in files: "auto", "direct", "tree", "symmetric".
 std::string to_string(Method method);
 
+/// What a Plan is asked for. The defaults are valid.
 struct Options {
-  double tolerance = 1e-6;  // see Plan; smallest_tolerance <= tolerance < 1
-  Method method = Method::automatic;
-  int threads = 0;                                  // 0: all
-  double core_radius = 0;                           // eps of vortex_blob; > 0 there
-  bool potential = true;                            // false: the field alone; spares the logarithms in 1D and 2D
-  std::size_t memory_limit = std::size_t{8} << 30;  // bytes that plan and evaluation may hold together
-  double most_seconds = std::numeric_limits<double>::infinity();  // that may be predicted, for one thread
-  std::size_t leaf_size = 0;  // clusters of more points are divided; 0: chosen by the predicted time
+  double tolerance = 1e-6;                          ///< see Plan; smallest_tolerance <= tolerance < 1
+  Method method = Method::automatic;                ///< how
+  int threads = 0;                                  ///< 0: all
+  double core_radius = 0;                           ///< eps of vortex_blob; > 0 there
+  bool potential = true;                            ///< false: the field alone; spares the logarithms in 1D and 2D
+  std::size_t memory_limit = std::size_t{8} << 30;  ///< bytes that plan and evaluation may hold together
+  double most_seconds = std::numeric_limits<double>::infinity();  ///< that may be predicted, for one thread
+  std::size_t leaf_size = 0;  ///< clusters of more points are divided; 0: chosen by the predicted time
 };
 
 /// Tolerances below are not promised by `tree` and `symmetric`; `direct` is then taken by `automatic`.
@@ -111,43 +126,45 @@ constexpr double smallest_tolerance = 1e-11;
 // ---------------------------------------------------------------------------------------------------------------
 // Results
 
+/// What an evaluation returns.
 template <int d>
 struct Values {
-  Eigen::VectorXd potential;  // of every target; empty for vortex_blob and without Options::potential
-  Points<d> field;            // d x targets
+  Eigen::VectorXd potential;  ///< of every target; empty for vortex_blob and without Options::potential
+  Points<d> field;            ///< d x targets
 };
 
 /// What one evaluation does, counted.
 struct Work {
-  double pairs = 0;             // of a source and a target
-  double substitute_pairs = 0;  // of a substitute charge and a target, or of a source and a substitute target
-  double couplings = 0;         // of two clusters
+  double pairs = 0;             ///< of a source and a target
+  double substitute_pairs = 0;  ///< of a substitute charge and a target, or of a source and a substitute target
+  double couplings = 0;         ///< of two clusters
 };
 
 /// Where the seconds of one evaluation went.
 struct Seconds {
-  double forward = 0;   // from charges to clusters
-  double coupling = 0;  // between clusters
-  double backward = 0;  // from clusters to targets
-  double leaves = 0;    // pair by pair; in `tree` also the substitute charges, in `direct` everything
+  double forward = 0;   ///< from charges to clusters
+  double coupling = 0;  ///< between clusters
+  double backward = 0;  ///< from clusters to targets
+  double leaves = 0;    ///< pair by pair; in `tree` also the substitute charges, in `direct` everything
 };
 
+/// The method that a Plan has chosen, its parameters, and what it promises and predicts.
 struct Choice {
-  Kernel kernel = Kernel::coulomb;
-  Method method = Method::direct;
-  double tolerance = 0;  // what was asked for
-  double bound = 0;      // what the promise holds with in place of tolerance (see Plan); <= tolerance unless `direct`
-  double seconds = 0;    // predicted for one evaluation and its share of the plan, one thread
-  std::size_t sources = 0;
-  std::size_t targets = 0;
-  Work work;
-  // tree and symmetric only
-  int degree = 0;  // highest degree of the interpolating polynomials
-  std::size_t leaf_size = 0;
-  std::size_t clusters = 0;
-  int levels = 0;
+  Kernel kernel = Kernel::coulomb;  ///< that was asked for
+  Method method = Method::direct;   ///< never `automatic`
+  double tolerance = 0;             ///< what was asked for
+  double bound = 0;    ///< what the promise holds with in place of tolerance (see Plan); <= tolerance unless `direct`
+  double seconds = 0;  ///< predicted for one evaluation and its share of the plan, one thread
+  std::size_t sources = 0;    ///< N
+  std::size_t targets = 0;    ///< M
+  Work work;                  ///< of one evaluation
+  int degree = 0;             ///< tree, symmetric: highest degree of the interpolating polynomials
+  std::size_t leaf_size = 0;  ///< tree, symmetric: clusters of more points are divided
+  std::size_t clusters = 0;   ///< tree, symmetric: of all levels
+  int levels = 0;             ///< tree, symmetric: of the tree
 };
 
+/// One line: method, parameters, bound and predicted seconds.
 std::ostream& operator<<(std::ostream& out, const Choice& choice);
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -160,9 +177,11 @@ class Engine;
 
 /// Sums for fixed points and any charges. What is promised, for all points, all charges and every target i, with f~ the
 /// computed and f the exact field, phi the potential, and sums over all sources j at r_ij > 0:
-///   |f_i - f~_i|      <= tolerance sum_j |q_j| / r_ij^(d-1)        (vortex_blob: 1 / (2 pi) of that)
-///   |phi_i - phi~_i|  <= tolerance sum_j |q_j| / r_ij              in 3D
-///   |phi_i - phi~_i|  <= tolerance sum_j |q_j| (1 + |ln r_ij|)     in 1D and 2D
+///
+///     |f_i - f~_i|      <= tolerance sum_j |q_j| / r_ij^(d-1)        (vortex_blob: 1 / (2 pi) of that)
+///     |phi_i - phi~_i|  <= tolerance sum_j |q_j| / r_ij              in 3D
+///     |phi_i - phi~_i|  <= tolerance sum_j |q_j| (1 + |ln r_ij|)     in 1D and 2D
+///
 /// where d - 1 is 1 in 1D too. It holds target by target and charge by charge, so neither cancellation nor a crowd of
 /// targets at the worst place weakens it, and so it holds in every norm over the targets. Rounding adds about 1e-15
 /// times the same sums. The error of a charge at a target is a measured one: docs/farfield.md, "The promise".
@@ -171,21 +190,34 @@ class Plan {
   static_assert(1 <= d && d <= 3, "farfield: dimensions 1 to 3");
 
  public:
-  /// sources  d x N, targets d x M   any N, M >= 0, finite. Coulomb: d = 2, 3; log: d = 1, 2; vortex_blob: d = 2
-  /// Throws InvalidArgument, ToleranceError, MemoryLimitError.
+  /// Chooses a method and prepares it.
+  /// @param kernel   coulomb: d = 2, 3; log: d = 1, 2; vortex_blob: d = 2
+  /// @param sources  d x N, any N >= 0, finite
+  /// @param targets  d x M, any M >= 0, finite, in the units of the sources
+  /// @param options  what is asked for
+  /// @throws InvalidArgument   an argument breaks one of these rules
+  /// @throws ToleranceError    the tolerance cannot be promised
+  /// @throws MemoryLimitError  plan and evaluation would need more than Options::memory_limit
+  /// @throws TimeLimitError    they are predicted to take longer than Options::most_seconds
   Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Points<d>>& targets,
        const Options& options = {});
   /// The sources are the targets.
   Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& points, const Options& options = {});
   ~Plan();
+  /// A plan can be moved; what is left can be assigned to or destroyed, nothing else.
   Plan(Plan&&) noexcept;
+  /// The same.
   Plan& operator=(Plan&&) noexcept;
 
-  /// charges  N, finite
-  /// seconds  told where the time went, if it is not null
-  /// Throws InvalidArgument, RangeError.
+  /// Potential and field of the charges at every target.
+  /// @param charges  N, finite
+  /// @param seconds  told where the time went, if it is not null
+  /// @throws InvalidArgument   there is not one finite charge a source
+  /// @throws MemoryLimitError  the evaluation would need more than Options::memory_limit
+  /// @throws RangeError        a sum exceeds the range of double
   Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds* seconds = nullptr) const;
 
+  /// What was chosen, and what it promises and predicts.
   const Choice& choice() const;
 
  private:

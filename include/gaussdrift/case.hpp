@@ -1,5 +1,5 @@
-// A case: everything that one run needs, as plain validated data. `input` reads it from a file, `sim` runs it.
-// Numbers are in the units of the case; expressions keep their text because fields compile them again for each thread.
+/// @file
+/// A case: everything that one run needs, as plain validated data.
 #pragma once
 
 #include <array>
@@ -12,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+/// The simulator: smoothed particles in a velocity field. Numbers are in the units of the case. Expressions keep their
+/// text, because every thread compiles its own. docs/cases.md explains every key.
 namespace gaussdrift {
 
 struct GridData;       // field/grid_data.hpp
@@ -23,42 +25,48 @@ using Params = std::vector<std::pair<std::string, double>>;
 /// Parameters of a named formula: one number, or a point as one number a dimension.
 using Arguments = std::vector<std::pair<std::string, std::vector<double>>>;
 
+/// `[domain]`: the box on which the density is evaluated and particles start.
 struct Domain {
-  int dimension = 2;            // 2 or 3
-  std::array<double, 3> min{};  // entries beyond the dimension are 0
-  std::array<double, 3> max{};
+  int dimension = 2;            ///< 2 or 3
+  std::array<double, 3> min{};  ///< lower corner; entries beyond the dimension are 0
+  std::array<double, 3> max{};  ///< upper corner, above `min` on every axis
 };
 
 // --- velocity ---------------------------------------------------------------------------------------------------
 
 /// u = [...]: one expression a component in x, y, z, t and the params.
 struct ExpressionVelocity {
-  std::vector<std::string> components;
+  std::vector<std::string> components;  ///< one expression a dimension
 };
 /// streamfunction = "...": psi in x, y, t and the params; u = (d psi/dy, -d psi/dx), in 2D.
 struct StreamfunctionVelocity {
-  std::string psi;
+  std::string psi;  ///< the expression
 };
 /// field = "...": a named field (docs/cases.md gives the formulas) with all of its parameters.
 struct NamedVelocity {
-  std::string field;
-  Arguments arguments;
+  std::string field;    ///< its name
+  Arguments arguments;  ///< all of its parameters
 };
 /// file = "...": data on a grid (docs/cases.md), already read.
 struct FileVelocity {
-  std::filesystem::path file;       // absolute
-  std::vector<std::string> arrays;  // as written: one, or one a component; empty: the only one
-  std::string interpolation, outside, missing;
-  std::optional<double> missing_value;
-  std::shared_ptr<const GridData> data;
+  std::filesystem::path file;            ///< absolute
+  std::vector<std::string> arrays;       ///< as written: one, or one a component; empty: the only one
+  std::string interpolation;             ///< linear | cubic
+  std::string outside;                   ///< what holds outside of the grid: error | clamp | zero
+  std::string missing;                   ///< what holds where the file has no value
+  std::optional<double> missing_value;   ///< a number that marks missing data, besides those that are recognised
+  std::shared_ptr<const GridData> data;  ///< the numbers
 };
 /// gaussians = "...": divergence-free Gaussians at the points of a table, already read and fitted.
 struct GaussianVelocitySpec {
-  std::filesystem::path file;  // absolute
-  std::string kind;            // of the numbers in it: "velocity", "vorticity", ...
-  double residual = 0, regularisation = 0, tolerance = 0;
-  std::shared_ptr<const GaussianModel> model;
+  std::filesystem::path file;  ///< absolute
+  std::string kind;            ///< of the numbers in it: "velocity", "vorticity", ...
+  double residual = 0;         ///< of a fit: what is left of the samples, in the Euclidean norm
+  double regularisation = 0;   ///< of a fit: added to the diagonal of its matrix, relative to that
+  double tolerance = 0;        ///< of the sum of the Gaussians, relative to the largest velocity at the points
+  std::shared_ptr<const GaussianModel> model;  ///< the Gaussians
 };
+/// One `[[velocity]]`.
 using VelocitySpec =
     std::variant<ExpressionVelocity, StreamfunctionVelocity, NamedVelocity, FileVelocity, GaussianVelocitySpec>;
 
@@ -66,147 +74,190 @@ using VelocitySpec =
 
 /// expression = "...": rho_0 in x, y, z and the params.
 struct ExpressionDensity {
-  std::string text;
+  std::string text;  ///< the expression
 };
 /// shape = "...": a named shape (docs/cases.md gives the formulas) with all of its parameters.
 struct ShapeDensity {
-  std::string shape;
-  Arguments arguments;
+  std::string shape;    ///< its name
+  Arguments arguments;  ///< all of its parameters
 };
 /// file = "...": data on a grid, already read.
 struct FileDensity {
-  std::filesystem::path file;       // absolute
-  std::vector<std::string> arrays;  // as written: one; empty: the only one
-  std::string interpolation, outside, missing;
-  std::optional<double> missing_value;
-  std::shared_ptr<const GridData> data;
+  std::filesystem::path file;            ///< absolute
+  std::vector<std::string> arrays;       ///< as written: one; empty: the only one
+  std::string interpolation;             ///< linear | cubic
+  std::string outside;                   ///< what holds outside of the grid: error | clamp | zero
+  std::string missing;                   ///< what holds where the file has no value
+  std::optional<double> missing_value;   ///< a number that marks missing data, besides those that are recognised
+  std::shared_ptr<const GridData> data;  ///< the numbers
 };
+/// One `[[density]]`.
 using DensitySpec = std::variant<ExpressionDensity, ShapeDensity, FileDensity>;
 
 // --- discretisation ---------------------------------------------------------------------------------------------
 
+/// `[particles]`: the lattice on which particles start, and the blob that each carries.
 struct ParticleSpec {
-  int per_axis = 0;               // n_g on the longest axis
-  double overlap = 2;             // c: eps = c h
-  std::string cutoff = "gauss2";  // gauss2 | gauss4 | gauss6 | gauss8 | two-gauss
-  double width_ratio = 2;         // a of two-gauss: the second width is a eps
-  double threshold = 1e-12;       // part of the largest weight below which a lattice point has no particle
+  int per_axis = 0;               ///< n_g on the longest axis
+  double overlap = 2;             ///< c: eps = c h
+  std::string cutoff = "gauss2";  ///< gauss2 | gauss4 | gauss6 | gauss8 | two-gauss
+  double width_ratio = 2;         ///< a of two-gauss: the second width is a eps
+  double threshold = 1e-12;       ///< part of the largest weight below which a lattice point has no particle
 };
 
+/// `[time]`: how long, and in which steps.
 struct TimeSpec {
-  double end = 0;
-  double step = 0;             // tau; the largest step where the method chooses its own, 0: none is
-  double tolerance = 1e-8;     // of one step, where the method chooses it; relative to the longest side of the domain
-  std::string method = "rk4";  // name of a tableau
+  double end = 0;              ///< T; the run begins at 0
+  double step = 0;             ///< tau; the largest step where the method chooses its own, 0: none is
+  double tolerance = 1e-8;     ///< of one step, where the method chooses it; relative to the longest side of the domain
+  std::string method = "rk4";  ///< name of a tableau
 };
 
+/// `[evaluate]`: the grid on which the density is summed for output.
 struct EvaluateSpec {
-  int per_axis = 200;           // n_ge on the longest axis
-  double spacing = 0;           // of the points on all axes; 0: per_axis says it
-  double tolerance = 1e-8;      // of the Gauss transform, relative to max |rho| at that output
-  std::string method = "auto";  // auto, or a method of fgtd by name
+  int per_axis = 200;           ///< n_ge on the longest axis
+  double spacing = 0;           ///< of the points on all axes; 0: per_axis says it
+  double tolerance = 1e-8;      ///< of the Gauss transform, relative to max |rho| at that output
+  std::string method = "auto";  ///< auto, or a method of fgtd by name
 };
 
+/// `[output]`: when to write, and what.
 struct OutputSpec {
-  enum class Vtk { density, particles };
-  enum class Image { surface, contour, heatmap, slices, projection, isosurface, error };
-  std::vector<double> times;  // ascending, 0 <= t <= end
-  std::vector<Vtk> vtk{Vtk::density, Vtk::particles};
-  std::vector<Image> images{Image::surface};
-  bool report = true;  // report.html, report.json, summary.png
+  /// Files for ParaView.
+  enum class Vtk {
+    density,   ///< rho on the grid
+    particles  ///< positions, weights and velocities
+  };
+  /// Styles of pictures.
+  enum class Image {
+    surface,     ///< 2D: a height field in perspective
+    contour,     ///< 2D: contour lines
+    heatmap,     ///< 2D: colours
+    slices,      ///< 3D: colours on three planes
+    projection,  ///< 3D: the largest value on every line of sight
+    isosurface,  ///< 3D: surfaces of equal density
+    error        ///< the difference from the reference
+  };
+  std::vector<double> times;                           ///< ascending, 0 <= t <= end
+  std::vector<Vtk> vtk{Vtk::density, Vtk::particles};  ///< files that are written
+  std::vector<Image> images{Image::surface};           ///< pictures of every output
+  bool report = true;                                  ///< report.html, report.json, summary.png
 };
 
 // --- what the results are compared with -------------------------------------------------------------------------
 
+/// `[reference]`: the exact density that every output is compared with.
 struct ReferenceSpec {
-  enum class Kind { characteristics, exact, none };
-  Kind kind = Kind::none;
-  std::string rho;              // exact: an expression in x, y, z, t and the params
-  std::optional<int> points{};  // most points of the grid that are compared; empty: chosen (sim/simulation.hpp)
+  /// How it is known.
+  enum class Kind {
+    characteristics,  ///< traced back along the flow; docs/method.md, section 7
+    exact,            ///< a formula
+    none              ///< not at all
+  };
+  Kind kind = Kind::none;       ///< how it is known
+  std::string rho;              ///< exact: an expression in x, y, z, t and the params
+  std::optional<int> points{};  ///< most points of the grid that are compared; empty: chosen
 };
 
 /// A bound on a number of the outputs. The norms of the error are relative to those of the exact density at the same
 /// time, the mass to that at the start.
 struct CheckSpec {
-  enum class Quantity { linf, l1, l2, mass };
-  Quantity what = Quantity::linf;
-  std::optional<double> max{}, min{};  // at least one of them
-  std::optional<double> at{};          // one of the output times; none: all of them
+  /// What is bounded.
+  enum class Quantity {
+    linf,  ///< largest difference from the reference
+    l1,    ///< its integral
+    l2,    ///< its root mean square
+    mass   ///< the sum of all weights
+  };
+  Quantity what = Quantity::linf;  ///< what is bounded
+  std::optional<double> max{};     ///< upper bound; there is this one, the lower one, or both
+  std::optional<double> min{};     ///< lower bound
+  std::optional<double> at{};      ///< one of the output times; none: all of them
 };
 
 // --- effects ----------------------------------------------------------------------------------------------------
 
 /// alpha' = -rate alpha along the path.
 struct ReactionSpec {
-  std::string rate;  // expression in x, y, z, t and the params
+  std::string rate;  ///< expression in x, y, z, t and the params
 };
 
 /// d_t rho + div(rho u) = coefficient Laplacian rho.
 struct DiffusionSpec {
-  enum class Method { core_spreading, particle_exchange };
-  double coefficient = 0;  // D
-  Method method = Method::core_spreading;
-  double tolerance = 1e-6;  // of particle_exchange: part of the largest density above which a particle has a halo
+  /// How; docs/method.md, section 8.2.
+  enum class Method {
+    core_spreading,    ///< blobs grow wider
+    particle_exchange  ///< particles exchange weight
+  };
+  double coefficient = 0;                  ///< D
+  Method method = Method::core_spreading;  ///< how
+  double tolerance = 1e-6;  ///< of particle_exchange: part of the largest density above which a particle has a halo
 };
 
 /// Weights go back to a fresh lattice.
 struct RemeshSpec {
-  int every = 0;         // steps between two; 0: as `stretch` says
-  double stretch = 1.5;  // whenever neighbours are farther apart than so many spacings
-  std::string kernel = "gauss8";
-  double tolerance = 1e-9;  // part of the largest weight below which a node is left out
+  int every = 0;                  ///< steps between two; 0: as `stretch` says
+  double stretch = 1.5;           ///< whenever neighbours are farther apart than so many spacings
+  std::string kernel = "gauss8";  ///< name of the kernel that shares out weights; docs/method.md, section 8.3
+  double tolerance = 1e-9;        ///< part of the largest weight below which a node is left out
 };
 
 /// X' += mobility E(X), E the field of all particles.
 struct ChargeSpec {
-  double mobility = 1;
-  std::string density{};    // of charge at the start, an expression in x, y, z and the params; empty: the weights
-  double tolerance = 1e-6;  // of E, relative to the sum of all fields' sizes
+  double mobility = 1;      ///< velocity for a field of 1
+  std::string density{};    ///< of charge at the start, an expression in x, y, z and the params; empty: the weights
+  double tolerance = 1e-6;  ///< of E, relative to the sum of all fields' sizes
 };
 
 /// X' += the velocity of all particles as vortex blobs.
 struct VortexSpec {
-  double tolerance = 1e-6;  // of the velocity, relative to the sum of all velocities' sizes
+  double tolerance = 1e-6;  ///< of the velocity, relative to the sum of all velocities' sizes
 };
 
 /// The effects that a case names; what is absent is not constructed.
 struct EffectsSpec {
-  std::optional<ReactionSpec> reaction;
-  std::optional<DiffusionSpec> diffusion;
-  std::optional<ChargeSpec> charge;
-  std::optional<VortexSpec> vortex;
-  std::optional<RemeshSpec> remesh;
+  std::optional<ReactionSpec> reaction;    ///< `[effects.reaction]`
+  std::optional<DiffusionSpec> diffusion;  ///< `[effects.diffusion]`
+  std::optional<ChargeSpec> charge;        ///< `[effects.charge]`
+  std::optional<VortexSpec> vortex;        ///< `[effects.vortex]`
+  std::optional<RemeshSpec> remesh;        ///< `[effects.remesh]`
 
   /// Particles move each other.
   bool drifts() const { return charge || vortex; }
 };
 
-/// How accurate it has to be, and whether a run tells its errors apart by cause.
+/// `[accuracy]`: how accurate it has to be, and whether a run tells its errors apart by cause.
 struct AccuracySpec {
-  enum class Budget { automatic, measured, none };  // automatic: measured where that costs a small part of the run
-  Budget budget = Budget::automatic;
-  std::optional<double>
-      target{};  // largest error at the last output, relative to max |rho|; settings are chosen for it
+  /// Whether a run measures its errors by cause; docs/method.md, section 10.
+  enum class Budget {
+    automatic,  ///< where that costs a small part of the run
+    measured,   ///< always
+    none        ///< never
+  };
+  Budget budget = Budget::automatic;  ///< whether errors are told apart
+  /// Largest error at the last output, relative to max |rho|; settings are chosen for it.
+  std::optional<double> target{};
 };
 
+/// A whole case, as a file describes it.
 struct Case {
-  std::string name;            // stem of the file: names the output folder
-  std::filesystem::path file;  // where it came from; empty for a case built in memory
-  std::string source;          // text of that file
-  std::string title;
-  std::string cite;
-  Params params;
-  Domain domain;
-  std::vector<VelocitySpec> velocity;  // the fields add up
-  std::vector<DensitySpec> density;    // the densities add up
-  ParticleSpec particles;
-  TimeSpec time;
-  EvaluateSpec evaluate;
-  OutputSpec output;
-  EffectsSpec effects;
-  ReferenceSpec reference;
-  AccuracySpec accuracy;
-  std::vector<CheckSpec> checks;
+  std::string name;                    ///< stem of the file: names the output folder
+  std::filesystem::path file;          ///< where it came from; empty for a case built in memory
+  std::string source;                  ///< text of that file
+  std::string title;                   ///< one line for pictures and reports
+  std::string cite;                    ///< where the case comes from
+  Params params;                       ///< `[params]`
+  Domain domain;                       ///< `[domain]`
+  std::vector<VelocitySpec> velocity;  ///< the fields add up
+  std::vector<DensitySpec> density;    ///< the densities add up
+  ParticleSpec particles;              ///< `[particles]`
+  TimeSpec time;                       ///< `[time]`
+  EvaluateSpec evaluate;               ///< `[evaluate]`
+  OutputSpec output;                   ///< `[output]`
+  EffectsSpec effects;                 ///< `[effects.*]`
+  ReferenceSpec reference;             ///< `[reference]`
+  AccuracySpec accuracy;               ///< `[accuracy]`
+  std::vector<CheckSpec> checks;       ///< `[[check]]`
 };
 
 }  // namespace gaussdrift

@@ -1,0 +1,10 @@
+# Runs Doxygen and shows what it has to say. Usage: cmake -D DOXYGEN=<program> -D FOLDER=<with a Doxyfile> -P RunDoxygen.cmake
+execute_process(COMMAND ${DOXYGEN} ${FOLDER}/Doxyfile WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
+set(warnings "")
+if(EXISTS ${FOLDER}/warnings.txt)
+  file(READ ${FOLDER}/warnings.txt warnings)
+endif()
+if(NOT result EQUAL 0 OR NOT warnings STREQUAL "")
+  message(NOTICE "${warnings}${said}")
+  message(FATAL_ERROR "Doxygen has something to say about include/ or a page: see above, and ${FOLDER}/warnings.txt")
+endif()
