@@ -13,9 +13,9 @@
 
 namespace gaussdrift {
 
-/// One step for all particles together: its length is chosen so that the largest error among them meets the tolerance.
-/// A largest error is the same for any blocks and threads, the field sees all points at one time, and frames and
-/// effects find all particles at the same time.
+/// All particles take the same step. Its length is chosen so that the largest error of any particle meets the
+/// tolerance. The largest error does not depend on blocks or threads, and the field, the frames and the effects find
+/// all particles at one time.
 class AdaptiveStepper {
  public:
   struct Options {

@@ -24,20 +24,20 @@ class Carrier {
   Carrier(const Carrier&) = delete;  // effects refer to it
   Carrier& operator=(const Carrier&) = delete;
 
-  /// Readies the particles for the effects. Throws InputError if time.step is not stable for the flow or for an effect,
-  /// naming a step that is stable for all of them.
+  /// Prepares the particles for the effects. Throws InputError if time.step is not stable for the flow or for an
+  /// effect. The message names a step that is stable for all of them.
   void begin(Particles& particles);
 
-  /// The longest step <= `step` that begin() accepts with a method of fixed steps, for the particles that it saw last,
-  /// whether or not it refused the step of the case. Not for a case whose method chooses its steps.
+  /// The longest step <= `step` that begin() accepts with a method of fixed steps, for the particles that it saw last.
+  /// begin() may have refused the step of the case before. Not for a case whose method chooses its steps.
   double longest_step(const time::Tableau& tableau, double step) const;
 
-  /// What is not exact about the steps of this case, sentences for people. Asked after begin().
+  /// Warnings about the steps of this case, as sentences for the user. Call it after begin().
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Carries the particles from an output time to the next and brings weights and widths up to it; `steps_before` were
-  /// taken before. `report(time, steps)` is called between batches of steps. Seconds are booked under "transport" and
-  /// "effect <name>". Returns the steps taken.
+  /// Carries the particles from one output time to the next and brings weights and widths up to it. `steps_before` is
+  /// the number of earlier steps. `report(time, steps)` is called between batches of steps. Seconds are booked under
+  /// "transport" and "effect <name>". Returns the steps taken.
   std::size_t carry(Particles& particles, double from, double to, std::size_t steps_before, base::StageTimes& stages,
                     const std::function<void(double time, std::size_t steps)>& report);
 

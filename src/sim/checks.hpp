@@ -1,4 +1,4 @@
-// What a case says its results have to be: every [[check]] against the numbers of the outputs.
+// Compares every [[check]] of a case with the numbers of the outputs.
 #pragma once
 
 #include <string>
@@ -20,12 +20,12 @@ struct CheckResult {
 /// "Linf", "L1", "L2", "mass".
 std::string to_string(CheckSpec::Quantity quantity);
 
-/// The output whose L1 is largest: a flow that turns back makes the last one look well. Null where no norm is a number.
+/// The output whose L1 is largest; the last one would mislead in a flow that turns back. Null if no norm is a number.
 const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames);
 
-/// One result a check, over all outputs or the one it names. A norm that is not known, or that leaves out points
-/// without a past, fails. `frames`: time and numbers of each output, the first one being the start that "mass" is
-/// relative to.
+/// One result for each check, over all outputs or the one that it names. A norm fails if it is not known, or if it
+/// leaves out points whose exact density is not known. `frames`: time and numbers of each output. "mass" is relative to
+/// the first.
 std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass_at_start,
                                const std::vector<std::pair<double, FrameNumbers>>& frames);
 

@@ -29,11 +29,11 @@ struct DensityReport {
   std::string choice;  // what fgtd chose, one line a Gaussian width
 };
 
-/// The density of the particles on the lattice. An absent particle set gives rho = 0.
+/// The density of the particles on the lattice. Without particles it is 0.
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report = nullptr);
 
-/// The density at some points, one array an axis: every blob summed, no approximation.
+/// The density at some points, given as one array for each axis: the sum of all blobs, without approximation.
 std::vector<double> sum_blobs(const Particles& particles, const Cutoff& cutoff, const PointsView& points, int threads);
 
 }  // namespace gaussdrift

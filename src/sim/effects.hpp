@@ -1,4 +1,4 @@
-// The effects of a scene: those that its case names are constructed here, nothing else.
+// Constructs the effects that a case names, and no others.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct Scene;
 
 using Effects = std::vector<std::unique_ptr<Effect>>;
 
-/// Carries particles that stand on their lattice nodes to where they would be now, had they been there all along.
+/// Carries particles from their lattice nodes to the places that they would have reached by now.
 using Follow = std::function<void(Particles& particles)>;
 
 /// In the order in which they act. The scene and what `follow` refers to must outlive them.

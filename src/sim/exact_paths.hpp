@@ -1,4 +1,4 @@
-// Particles carried along paths to nearly full precision, to tell what the steps of a run are worth.
+// Carries particles along their paths with nearly full precision. The error of a run's steps is measured against them.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ struct ExactPaths {
   std::size_t rates = 0;  // evaluations of the velocity for one particle, summed over all
 };
 
-/// Carries positions from time `from` to `to` by the method of order 8 with steps that follow their error, and
-/// multiplies weights with exp(-int u0 ds) where there is a rate u0.
+/// Carries positions from time `from` to `to` by the method of order 8, which chooses its steps by their error.
+/// Multiplies weights by exp(-int u0 ds) if there is a rate u0.
 ExactPaths carry_exactly(const VelocityField& velocity, const ScalarField* rate, Particles& particles, double from,
                          double to, const ExactPathsOptions& options);
 

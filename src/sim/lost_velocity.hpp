@@ -7,9 +7,9 @@
 
 namespace gaussdrift {
 
-/// What the field says of x, or of the place at the distance `ahead` (behind x if it is negative) along the velocity:
-/// steps that follow their error become ever shorter before a border and never cross it. Empty where the field knows
-/// of no reason.
+/// The field's reason for having no velocity at x or at the distance `ahead` along the velocity (behind x if negative).
+/// Steps that are chosen by their error become ever shorter before a border and never cross it, so x alone may be fine.
+/// Empty if the field knows no reason.
 std::string why_path_ends(const VelocityField& velocity, double t, int dimension, Vector x, double ahead);
 
 }  // namespace gaussdrift

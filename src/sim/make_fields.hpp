@@ -9,8 +9,8 @@
 
 namespace gaussdrift {
 
-/// The sum of all [[velocity]]. The case must be valid, as `input` leaves it.
-/// threads: of fields that are evaluated best for all points at once; 0 for all.
+/// The sum of all [[velocity]]. The case must be valid, as `input` leaves it. threads: for fields that are evaluated
+/// for all points at once; 0 for all.
 std::unique_ptr<VelocityField> make_velocity(const Case& description, int threads = 0);
 
 /// The sum of all [[density]].

@@ -21,7 +21,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // Points that take the same steps; 13 rates of them fit the second-level cache.
 constexpr std::size_t most_together = 256;
 
-// Where a derivative of u jumps each point needs some twenty short steps, and all that go with it take them too.
+// At a jump of a derivative of u a point needs some twenty short steps. Points that share steps would all take them.
 constexpr std::size_t together_over_kinks = 1;
 
 /// Coordinates of the lattice points first .. first + count - 1, axis[k * count + i].
@@ -68,8 +68,8 @@ class Characteristics : public Reference {
         components_(static_cast<std::size_t>(lattice.dimension) + (growth_ ? 1 : 0)),
         block_length_(options.smooth || options.steps_by ? most_together : together_over_kinks) {
     const double longest = longest_side(lattice);
-    // Coordinates far from the origin are rounded by more than the tolerance. A quarter of the domain at a time, so
-    // that no step can fly over what is there; far outside, half of the way back.
+    // Far from the origin coordinates are rounded by more than the tolerance. A step crosses at most a quarter of the
+    // domain, so that nothing is stepped over; far outside it goes at most half of the way back.
     for (int k = 0; k < lattice.dimension; ++k) {
       const double first = lattice.coordinate(k, 0), last = lattice.coordinate(k, lattice.points[k] - 1);
       bounds_.components.push_back({options.tolerance * longest, 4 * std::numeric_limits<double>::epsilon(),
@@ -170,7 +170,7 @@ class Characteristics : public Reference {
     constexpr std::size_t stages = 12;
     report.rates += stages * count * (result.steps + result.rejected);
     if (result.reached) return;
-    // One point can keep the others from arriving; many steps are a property of all of them.
+    // One bad point may have stopped the block, so its halves are tried. Too many steps concern all points.
     if (count > 1 && !result.exhausted) return trace_halves(state, begun, count, from, report);
     if (report.untraced == 0) report.trouble = why_lost(state, count, result);
     if (result.exhausted) report.exhausted += count;

@@ -73,9 +73,9 @@ struct GridSample {
   std::vector<double> weight;  // how many points of the lattice each stands for; 0: for the largest error alone
 };
 
-/// About `count` points: half of them among those where |rho| is at least a millionth of its largest value, half among
-/// the others, each half evenly spread over its points in their order; and the neighbourhood of the largest value,
-/// which counts for the largest error alone. All points if there are no more.
+/// About `count` points. Half of them are points where |rho| is at least a millionth of its largest value, half are
+/// others. Each half is spread evenly over its points. The neighbourhood of the largest value is added; it counts for
+/// the largest error alone. All points if there are not more than `count`.
 GridSample sample_of_grid(const Lattice& lattice, const std::vector<double>& rho, std::size_t count);
 
 /// Norms of rho - exact over a sample; exact[i] at sample.points[i]. See compare() below.

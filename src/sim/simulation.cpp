@@ -143,8 +143,8 @@ bool has_smooth_paths(const Scene& scene) {
 
 namespace {
 
-/// Of one particle in the sum over all others: every pair, or what farfield takes with its tables. Blobs within 18
-/// widths are summed pair by pair.
+/// The work of one particle's sum over all others: all pairs, or farfield with its tables if that is less. Blobs within
+/// 18 widths are summed pair by pair.
 double work_of_drift(const Case& description, const Scene& scene, double particles) {
   if (description.domain.dimension == 3) return std::min(0.04 * particles, 250.0);
   const auto& diffusion = description.effects.diffusion;
@@ -160,7 +160,7 @@ double work_of_drift(const Case& description, const Scene& scene, double particl
 
 Work work_of(const Case& description, const Scene& scene, std::size_t particles) {
   const time::Tableau& tableau = time::find_tableau(description.time.method);
-  // Steps that are chosen are not known here; some hundred are usual.
+  // The number of steps that a method chooses is not known here; some hundred are usual.
   const double steps = time::is_adaptive(tableau) ? 200 : static_cast<double>(total_steps(description));
   const auto n = static_cast<double>(particles), outputs = static_cast<double>(description.output.times.size());
   // Measured: 0.2 us and 1 us of one core a particle or grid point in the sum of an output; 0.1 s of two cores a
@@ -204,7 +204,8 @@ Affordable affordable_paths(const Case& description, const Scene& scene, double 
     if (most < usual && 2 * trial.exhausted > tried) continue;
     found.work = rate * static_cast<double>(trial.rates) / static_cast<double>(tried);
     found.points = points_for(found.work);
-    // No path may take far more than these did: a block of 256 takes the steps of its worst, one through kinks its own.
+    // No path may take many more steps than these did. A block of 256 takes the steps of its worst point; a path
+    // through kinks takes its own.
     const std::size_t steps = trial.rates / (tried * stages), times = has_smooth_paths(scene) ? 16 : 4;
     found.following.most_steps = most < usual ? std::min(usual, std::max<std::size_t>(200, times * steps)) : usual;
     break;
@@ -400,7 +401,7 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->frame(frame); });
 }
 
-// Norms relative to next to nothing say nothing.
+// Norms are relative to the exact density. They mean nothing where that is nearly 0.
 void Simulation::judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const {
   double largest = -1;
   for (const double value : exact) largest = std::max(largest, std::abs(value));  // not of NaN

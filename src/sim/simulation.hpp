@@ -54,18 +54,18 @@ struct Following {
 std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads,
                                           const Following& following = {});
 
-/// False where the velocity or a rate of reaction has kinks: integrators of high order step finely at each.
+/// False if the velocity or the rate of a reaction has kinks. Methods of high order take short steps at each.
 bool has_smooth_paths(const Scene& scene);
 
-/// What a run does, in evaluations of a velocity with a sine or two: some 40 ns of one core. Counted, not timed,
-/// so that what is decided by it does not depend on the machine.
+/// The work of a run. The unit is one evaluation of a velocity with a sine or two, some 40 ns of one core. It is
+/// counted, not timed, so that decisions do not depend on the machine.
 struct Work {
   double transport = 0, density = 0, pictures = 0;
   double total() const { return transport + density + pictures; }
 };
 Work work_of(const Case& description, const Scene& scene, std::size_t particles);
 
-/// The same for one evaluation on an exact path, with what its integrator adds to it.
+/// The work of one evaluation on an exact path, the integrator included.
 double work_of_exact_rate(const Scene& scene);
 
 /// Paths that can be followed within some work, and how.
@@ -76,9 +76,9 @@ struct Affordable {
   std::string word{};  // what is not exact about them; empty: nothing
 };
 
-/// Exact paths from points of the grid to the start, as many as `allowed` work allows for `outputs` outputs (in units
-/// of the last one), at least 16; where these have kinks and are too dear, by steps half as long as those of the case.
-/// Found by following some, which takes a quarter of that work at most. Counted, so the same on every machine.
+/// How many exact paths can be followed from grid points to the start with the work `allowed`, for `outputs` outputs
+/// (in units of the last one): at least 16, or none. Paths with kinks that are too expensive are followed by steps half
+/// as long as those of the case. The answer comes from following some paths, which takes at most a quarter of the work.
 Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads);
 
 /// What of an output is compared with the reference.
@@ -89,10 +89,10 @@ struct Comparison {
   std::string left_out{};
 };
 
-/// reference.points if the case has it; all if a picture shows the error or the reference is a formula; else all if
-/// density files are written and that takes 15 % of the work of the run at most (or a tenth of a second), and as many
-/// as that allows if not: at most 4096 where no file shows it, 256 where paths have kinks. None where it does not allow
-/// 16, unless a check or a target needs them.
+/// reference.points if the case has it. All if a picture shows the error, or if the reference is a formula. Otherwise
+/// as many as 15 % of the work of the run allow (or a tenth of a second): all if density files are written, else at
+/// most 4096, and at most 256 where paths have kinks. None if fewer than 16 are allowed, unless a check or a target
+/// needs them.
 Comparison plan_comparison(const Case& description, const Scene& scene, std::size_t particles, int threads);
 
 /// The same on any lattice, and none where there is nothing.

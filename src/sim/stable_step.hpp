@@ -34,8 +34,8 @@ struct StableStep {
   std::optional<FlowRate> limited_by;  // nothing if that is stable
 };
 
-/// A motion that only turns or decays may grow by this much over a run; more is called unstable. Methods that are
-/// stable beyond their limit of no motion at all (euler and heun on a rotation) are thus judged by what they do in this
+/// A motion that only turns or decays may grow by this part over a run. If it grows by more the step is unstable.
+/// euler and heun amplify a rotation with every step, however short, so they are judged by what they do in this
 /// run.
 constexpr double growth_allowed = 0.1;
 
@@ -46,7 +46,7 @@ FlowRates sample_flow_rates(const VelocityField& velocity, const Particles& part
 /// The longest step <= `step` with which nothing of that grows by more than growth_allowed over the time `length`.
 StableStep longest_stable_step(const FlowRates& flow, const time::Tableau& tableau, double length, double step);
 
-/// Both in one.
+/// Samples the rates, then finds the longest step.
 StableStep estimate_stable_step(const VelocityField& velocity, const Particles& particles, const time::Tableau& tableau,
                                 double length, double step, double distance);
 

@@ -25,7 +25,7 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-// NaN has a sign that means nothing to anybody.
+// The sign of a NaN is not shown.
 std::string number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value); }
 
 template <class T>
@@ -151,7 +151,8 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
     for (std::size_t i = first; i < first + count; ++i)
       time::step(tableau_, interval.start(i), interval.length(i), rate, block.state.data(), work);
 
-    // What is not finite stays so, hence one look after many steps; only a failure is traced step by step.
+    // A value that is not finite stays so. One look after many steps is enough, and only a failure is traced step by
+    // step.
     if (!all_finite(block.state)) {
       load();
       std::size_t i = first;

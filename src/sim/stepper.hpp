@@ -18,8 +18,8 @@ namespace gaussdrift {
 void check_velocity(const VelocityField& field, const Particles& particles, const VectorsView& u, double time,
                     std::size_t step);
 
-/// u of the flow and of all drifts, for all particles at once; the flow on several threads, in blocks if that is its
-/// way. Returns the seconds that the drifts took.
+/// The velocity of the flow and of all drifts, for all particles at once. The flow uses several threads, and blocks if
+/// the field allows them. Returns the seconds of the drifts.
 double add_flow_and_drifts(const VelocityField& velocity, const std::vector<const Drift*>& drifts, double t,
                            const Particles& particles, const PointsView& x, const VectorsView& u, int threads);
 
@@ -30,8 +30,8 @@ struct StepperSeconds {
 };
 
 /// Particles do not see each other, so each block of them takes many steps at a time while its arrays stay in the
-/// cache; a field that is evaluated best for all at once gets all of them in one block, and so do particles that move
-/// each other. The result of a particle does not depend on the blocks or the number of threads.
+/// cache. All are in one block if the field is evaluated for all at once, or if particles move each other. The result
+/// of a particle does not depend on the blocks or the number of threads.
 class Stepper {
  public:
   /// The field, the integrals and the drifts must outlive the stepper. threads: 0 for all.
