@@ -1,6 +1,6 @@
-// What a scene may ask for beside transport. An effect is constructed only if the case has its table [effects.x], and
-// costs nothing otherwise: the run asks the effects that exist, and those through hooks that are called once for many
-// particles, never for each. docs/method.md, section 8.
+// What happens to particles beside transport. An effect is constructed only if the case has its table [effects.x], and
+// costs nothing otherwise. Hooks are called once for many particles, never for each. docs/effects.md is the contract,
+// docs/method.md, section 8 has the equations.
 //
 // One run calls, in this order:
 //   begin            once the particles stand; again whenever another effect has replaced them

@@ -94,9 +94,9 @@ void ParticleExchange::settle(Particles& particles, const double* integral, doub
   }
 }
 
-// Every particle whose density exceeds the tolerance gets all nodes around it, up to the width of the halo. Only those
-// with a neighbour below the tolerance need to be looked at: on the way from any other one to a node around it lies one
-// of them that is nearer to that node.
+// Every particle above the tolerance gets particles on all nodes around it, up to the width of the halo. It is enough
+// to look at particles with a neighbour below the tolerance: on the way from any other particle to a node around it
+// lies one of these, and it is nearer to that node.
 void ParticleExchange::grow_halo(Particles& particles) {
   double largest = 0;
   for (std::size_t j = 0; j < particles.size(); ++j)

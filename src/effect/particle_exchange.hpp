@@ -22,8 +22,8 @@ class ParticleExchange : public Effect, private PathIntegral {
     int threads = 0;          // 0: all
     std::size_t most_particles = std::size_t{1} << 24;  // with the halo, some 250 bytes each; beyond, an error
   };
-  /// Carries particles that stand on their nodes, as they stood when begin() was called last, to the present, with
-  /// their path integrals.
+  /// Carries particles from their nodes, where they stood at the last begin(), to the present, with their path
+  /// integrals.
   using Follow = std::function<void(Particles& particles)>;
 
   /// The velocity must outlive the effect. Its divergence changes volumes: they are integrated along the paths unless
@@ -35,7 +35,7 @@ class ParticleExchange : public Effect, private PathIntegral {
   std::string describe() const override;
   Changes changes() const override { return {.weight = true, .particles = true}; }
   std::string conserves() const override { return "mass; the centroid to the tolerance of the sum"; }
-  /// The step up to which Heun's method, with which weights are exchanged, is stable: 2 / (D / eps^2 max_i (K V)_i).
+  /// Heun's method exchanges the weights. It is stable up to this step: 2 / (D / eps^2 max_i (K V)_i).
   double stable_step() const override { return stable_step_; }
 
   void begin(Particles& particles, double time) override;

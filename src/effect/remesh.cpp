@@ -153,7 +153,7 @@ double Remesh::largest_stretch(const Particles& particles) {
   if (known_ != particles.size()) find_neighbours(particles);
   double heaviest = 0;
   for (const double alpha : particles.alpha) heaviest = std::max(heaviest, std::abs(alpha));
-  // Particles next to nothing, of a halo say, may be far from each other without harm.
+  // Particles of nearly no weight, as in a halo, may be far from each other without harm.
   const double light = 1e-6 * heaviest;
   double longest = 0;
   for (const auto& [a, b] : neighbours_) {

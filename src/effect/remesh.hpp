@@ -1,5 +1,5 @@
-// Remeshing: weights go back to a fresh lattice when the particles have lost their overlap. Mass is kept to rounding,
-// the moments that the kernel keeps to rounding as well. docs/method.md, section 8.3.
+// Remeshing: weights go back to a fresh lattice when the particles have lost their overlap. Mass and the moments that
+// the kernel keeps stay the same to rounding. docs/method.md, section 8.3.
 #pragma once
 
 #include <cstdint>

@@ -10,11 +10,12 @@ namespace gaussdrift {
 
 /// Along one axis; in d dimensions the kernel is the product. Lengths are in lattice spacings. Moments up to moments()
 /// stay: sum_i i^k weight_i = x^k for a particle at x, but for what a spread adds (below).
-///   gauss8     the Gaussian of width 2 with derivatives up to order 6, of which moments 1 .. 7 vanish: smooth, so that it
-///              also sums up particles that no longer stand on a lattice, as long as they overlap
-///   lambda44   Lambda_{4,4}, piecewise of degree 9 and four times differentiable: a quarter of the nodes an axis, for
-///   lambda66   particles that have hardly moved against each other since they stood on a lattice; Lambda_{6,6};
-///   m4prime    Lambda_{2,1}, Monaghan's M4' [CEPP14]
+///   gauss8     the Gaussian of width 2 with derivatives up to order 6; moments 1 .. 7 vanish. It is smooth, so it also
+///              suits particles that no longer stand on a lattice, as long as they overlap.
+///   lambda44   Lambda_{4,4} [CEPP14], piecewise of degree 9 and four times differentiable. It needs a quarter of the
+///              nodes an axis, for particles that have hardly moved against each other since they stood on a lattice.
+///   lambda66   Lambda_{6,6}
+///   m4prime    Lambda_{2,1}, Monaghan's M4'
 class RemeshKernel {
  public:
   /// Throws std::out_of_range for an unknown name.
