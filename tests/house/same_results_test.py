@@ -68,3 +68,10 @@ said = same_results(listed, nothing, code=1)
 if not any(line.startswith("only old   case/charged_ball/out/density/") for line in said):
     sys.exit("a density that is not there is not missed:\n" + "\n".join(said))
 same_results(nothing, program, code=2)
+
+# Of two programs, what differs is shown.
+only = ["--only", "sum/log-1d-tree-1e-3|reproduce/claims"]
+said = "\n".join(same_results(program, turning(["values.csv"]), code=1))
+for wanted in ("claims[0].computed: 77.0\n", "claims[0].computed: 77.00000000000001\n", "different  sum/log-1d-tree-1e-3/values.csv\n             line 2: "):
+    if wanted not in said:
+        sys.exit(f"{wanted!r} is not shown:\n{said}")
