@@ -21,7 +21,8 @@ namespace gaussdrift::study {
 namespace {
 
 constexpr double most_particles = 4e6;  // on the lattice; each costs a path for every prediction
-// Of the target: what is predicted is right to a factor of two or so. Where that is out of reach, nearer.
+// Parts of the target, because a prediction is right to a factor of two or so. The second is used if the first cannot
+// be met.
 constexpr std::array aims{0.45, 0.8};
 constexpr int fewest_per_axis = 12;
 
@@ -55,8 +56,8 @@ struct Search {
   int threads = 0;
 };
 
-/// Nothing if the prediction would take too much work: a sixth of what the search may take altogether, for what is
-/// chosen is predicted some six times more, or what is left of that.
+/// Nothing if the prediction would take too much work: more than is left, or more than a sixth of the whole search,
+/// because chosen settings are predicted some six times more.
 std::optional<Settings> try_lattice(Case scene, int per_axis, double overlap, Search& search) {
   scene.particles.per_axis = per_axis;
   scene.particles.overlap = overlap;
@@ -97,7 +98,7 @@ std::optional<Settings> find_lattice(const Case& scene, double wanted, double ov
     }
     const Settings& trial = *tried;
     best = std::min(best, trial.error);
-    // Particles drawn apart: their sum has ripples, however fine the lattice.
+    // Particles are drawn apart, so their sum has ripples, however fine the lattice.
     gaps = trial.quadrature > 0.3 * trial.error;
     if (trial.error > wanted && (gaps || static_cast<double>(trial.particles) > most_carried)) return std::nullopt;
     if (trial.error <= wanted) {

@@ -15,12 +15,12 @@ struct AccuracyChoice {
   double target = 0;
   Budget predicted;
   std::vector<std::string> settings;  // "particles.per_axis = 215", ...
-  std::string left_out;      // what was not tried because the search may take so much work only; empty: nothing
-  std::size_t lattices = 0;  // tried
-  double work = 0;           // of their predictions (sim/simulation.hpp)
+  std::string left_out;               // what was not tried because the work of a search is limited; empty: nothing
+  std::size_t lattices = 0;           // tried
+  double work = 0;                    // of their predictions (sim/simulation.hpp)
 };
 
-/// Work of a search for settings: ten seconds of one core. Those that are chosen may take as much again.
+/// Work of a search for settings: ten seconds of one core. Judging the chosen settings may take as much again.
 constexpr double most_work_of_search = 2.5e8;
 
 /// Chooses particles.per_axis, overlap and cutoff, time.step and evaluate.tolerance so that the largest error at the

@@ -22,8 +22,8 @@ namespace gaussdrift::study {
 
 namespace {
 
-// Of a run's work this much may go into telling its errors apart afterwards, and this much into predicting them; and a
-// tenth of a second always.
+// The parts of a run's work that may go into telling its errors apart afterwards, and into predicting them. A tenth of
+// a second is always allowed.
 constexpr double share_measured = 0.09, share_predicted = 0.05, few = 2.5e6;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -149,7 +149,7 @@ Particles between(const Particles& start, const Scene& scene) {
   return moved;
 }
 
-/// Not a number if some difference is none.
+/// NaN if some difference is NaN.
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -160,10 +160,10 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-/// At least `rounding`; what is not a number stays so.
+/// At least `rounding`; NaN stays NaN.
 double told(double error) { return error < rounding ? rounding : error; }
 
-/// No number of a budget is one that could not be computed.
+/// A budget with a number that could not be computed says so instead.
 Budget checked(Budget budget) {
   for (const double error : {budget.time_stepping, budget.smoothing, budget.quadrature, budget.total})
     if (budget.known() && !std::isfinite(error))
@@ -188,7 +188,7 @@ std::vector<Probe> choose_probes(const Lattice& lattice, const std::vector<std::
     return std::abs(rho[a] - exact[a]) > std::abs(rho[b] - exact[b]);
   });
   if (order.empty()) return {};
-  // Second place for the largest density: where smoothing is worst is often there, and cancellation never is.
+  // The largest density comes second: smoothing is often worst there, and nothing cancels there.
   const auto top = std::max_element(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(exact[a]) < std::abs(exact[b]);
   });
@@ -243,8 +243,8 @@ std::optional<double> longer_step(const Case& description, const Scene& scene, d
   return std::nullopt;
 }
 
-/// What follows from the numbers; nothing that `run` would refuse. `better`: the smoothing of cutoffs of higher order
-/// at the same width.
+/// Advice that follows from the numbers, and that `run` does not refuse. `better`: the smoothing of cutoffs of higher
+/// order at the same width.
 void give_advice(const Case& description, const Scene& scene, const std::vector<std::pair<std::string, double>>& better,
                  int threads, Budget& budget) {
   const time::Tableau& tableau = time::find_tableau(description.time.method);
@@ -338,7 +338,7 @@ void carry_by_steps(const Case& description, const Scene& scene, Particles& part
   }
 }
 
-/// False if some path could not be followed.
+/// False if a path could not be followed.
 bool carry(const Case& description, const Scene& scene, const Carrying& how, Particles& particles) {
   if (particles.size() == 0) return true;
   if (how.exactly)
@@ -349,7 +349,7 @@ bool carry(const Case& description, const Scene& scene, const Carrying& how, Par
   return true;
 }
 
-/// What halving the steps changes, times this, is their error; past a kink a method is of order 2 at most.
+/// The error of the steps is what halving them changes, times this. Past a kink a method has order 2 at most.
 double of_halved_steps(const Case& description, const Scene& scene) {
   const int order = time::find_tableau(description.time.method).time_order;
   return 1 / (1 - std::pow(0.5, has_smooth_paths(scene) ? order : std::min(order, 2)));
@@ -372,7 +372,7 @@ double sum_of_weights(const Particles& particles) {
   return sum;
 }
 
-/// Without mass on the grid there is no error to explain, and no setting that would change one.
+/// Without mass on the grid there is no error to explain, and no setting changes one.
 std::string nothing_to_explain(const Particles& last, double outside, double time) {
   const double weight = sum_of_weights(last);
   if (weight > 0 && !is_all(outside)) return "";
@@ -397,8 +397,8 @@ Better smoothing_of_others(const Case& description, const Scene& scene, const st
 }
 
 /// Smoothing and quadrature at the probes: sums over the lattice (`sums`, of particles that began at `start`) and over
-/// the same lattice half a spacing aside. What a lattice does wrong changes its sign there but for what both have in
-/// common, which is far smaller; so their mean is the integral, and half their difference the error.
+/// the same lattice half a spacing aside. Moving a lattice changes the sign of its error, but for a far smaller part.
+/// So the mean of the two sums is the integral, and half their difference is the error.
 void tell_smoothing_and_quadrature(const Case& description, const Scene& scene, const std::vector<Probe>& probes,
                                    const Particles& start, std::vector<double> sums, double norm, const Carrying& how,
                                    Budget& budget, Better& better) {
@@ -486,8 +486,8 @@ double work_allowed(const Case& description, const Scene& scene, std::size_t par
   return std::max(few, share * work_of(description, scene, particles).total());
 }
 
-/// Work of carrying one particle, exactly: from a few of them, for which an eighth of `allowed` may be spent. Infinite
-/// where that is not enough.
+/// The work of carrying one particle along its exact path, found with a few particles. An eighth of `allowed` may be
+/// spent on that; infinite if it is not enough.
 double work_of_a_path(const Case& description, const Scene& scene, const Particles& particles, const Carrying& how,
                       double allowed) {
   if (!how.exactly) return rates_of_steps(description, scene) * scene.velocity->cost() / how.factor;
@@ -516,8 +516,8 @@ struct Telling {
   std::vector<std::size_t> around{};
 };
 
-/// The sharpest whose work is allowed: many probes rather than one, all paths at 3e-14 rather than some at 1e-10 or by
-/// shorter steps. None if that of one probe is not.
+/// The sharpest way whose work is allowed. Many probes come before one, and all paths at 3e-14 before some at 1e-10 or
+/// by shorter steps. None if even one probe takes too much.
 std::optional<Telling> choose_telling(const Case& description, const Scene& scene, const Particles& particles,
                                       const std::vector<Probe>& places, Effort effort, const ExactPathsOptions& paths) {
   const auto overlaps = std::max<std::size_t>(1, static_cast<std::size_t>(description.particles.overlap / 1.5));
@@ -583,7 +583,7 @@ Affordable points_to_know(const Case& description, const Scene& scene, std::size
   return known;
 }
 
-/// What fails here has not failed in the run, whose results must not be lost for it.
+/// A failure here is not one of the run, and must not cost its results.
 template <class Tell>
 Budget covered_or_why(const Tell& tell) {
   try {

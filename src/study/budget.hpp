@@ -43,8 +43,8 @@ enum class Effort {
   share_of_run,  // measured: 9 % of the work of the run, predicted: 5 %, or a tenth of a second; else not covered
 };
 
-/// Work that predictions may take, all together, and what they have taken: estimated before it is done and counted as
-/// Work is (sim/simulation.hpp), so that what is left out does not depend on the machine.
+/// The work that all predictions together may take, and what they have taken. It is estimated beforehand in the units
+/// of Work (sim/simulation.hpp), so that decisions do not depend on the machine.
 struct Allowance {
   double work = std::numeric_limits<double>::infinity();
   double spent = 0;
@@ -55,8 +55,8 @@ struct Allowance {
 /// Which causes: those of the lattice and the blobs alone, or the steps as well.
 enum class Causes { lattice, all };
 
-/// Before the run. Paths are followed at 1e-8, exact densities at some thousand grid points, steps taken with a
-/// sample of the particles or longer and scaled with the method's order: a small part of the run, or seconds.
+/// Before the run. Paths are followed at 1e-8, exact densities are taken at some thousand grid points. Steps are tried
+/// with a sample of the particles, or with longer steps whose error is scaled back by the method's order.
 Budget predict_budget(const Case& description, const Scene& scene, Effort effort, int threads,
                       Causes causes = Causes::all);
 

@@ -51,7 +51,7 @@ class ProcessorClock {
   double start_ = now();
 };
 
-/// Of what one thread takes, for `threads` of them: `serial` is the share that is not divided.
+/// Seconds on `threads` threads of work that takes `seconds` on one. `serial` is the share that is not divided.
 double shared(double seconds, int threads, double serial) {
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
   return seconds * (serial + (1 - serial) / std::min(static_cast<double>(threads), static_cast<double>(cores)));
@@ -139,7 +139,8 @@ std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_
   return static_cast<std::size_t>(std::clamp(work_of_steps / each, least, 1e9));
 }
 
-/// Particles that move each other leave the lattice at once, and sums over a lattice are cheaper than others.
+/// Particles that move each other leave the lattice at once. Sums over particles on a lattice are cheaper, so they
+/// would mislead.
 void shake(Particles& particles, double spacing) {
   constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
   for (int k = 0; k < particles.dimension; ++k)
@@ -149,7 +150,7 @@ void shake(Particles& particles, double spacing) {
           (std::fmod(static_cast<double>((j + 1) * static_cast<std::size_t>(2 * k + 1)) * golden, 1.0) - 0.5);
 }
 
-/// Seconds a step on one thread, from a few steps of a copy that is thrown away.
+/// Seconds of one step on one thread, from a few steps of a copy that is thrown away.
 double time_steps(const Case& spec, const Scene& scene, const Particles& particles) {
   if (spec.time.end <= 0) return 0;
   const time::Interval interval(0, spec.time.end, spec.time.step);
@@ -273,8 +274,8 @@ bool wants(const Case& scene, OutputSpec::Vtk kind) {
   return std::find(scene.output.vtk.begin(), scene.output.vtk.end(), kind) != scene.output.vtk.end();
 }
 
-/// Seconds of the files of all outputs: a file is made in memory, as text, which is timed with a small one; and handed
-/// to the disk, for which a usual speed is taken.
+/// Seconds of the files of all outputs. Making a file as text in memory is timed with a small one. Writing it to the
+/// disk is taken at a usual speed.
 double time_files(const Case& spec, const Trial& trial, const Extent& extent) {
   constexpr double disk = 2.5e-9, small_file = 4e-3;  // seconds a byte, and to be sure that a file is there
   const auto frames = static_cast<double>(spec.output.times.size());
@@ -333,7 +334,7 @@ void try_density(const Case& spec, const Trial& trial, int threads, Description&
   const double both = result.density.evaluate_seconds + result.density.measure_seconds,
                of_sum = both > 0 ? result.density.evaluate_seconds / both : 1;
   const double took = watch.seconds();
-  // Of the first sum: those of a run find as little in the caches, for their memory is new each time.
+  // The first sum is timed: sums of a run find as little in the caches, because their memory is new each time.
   const double seconds = took * of_sum;
   result.density_maximum = *std::max_element(density.rho.begin(), density.rho.end());
   const auto all = static_cast<double>(result.particles), points = static_cast<double>(result.grid_points),

@@ -1,5 +1,5 @@
-// The tables of reproduce_fgtd(), one function for those that are measured together. They leave the published numbers
-// to it and tell it, with every row and column, where these are printed.
+// The tables of reproduce_fgtd(), one function for those that are measured together. Every row and column says where
+// the published numbers are printed; reproduce_fgtd() adds them.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace gaussdrift::study {
 
-/// 1.1e-8, 1e28: a power of ten without signs and zeros that say nothing.
+/// 1.1e-8, 1e28: a power of ten without needless signs and zeros.
 std::string short_power(double value, int digits);
 
 std::vector<Table> analytic_tables();                                // 3.2, 3.3

@@ -1,4 +1,4 @@
-// What a run holds in memory at most and leaves on the disk, from its numbers alone; and what this machine has.
+// The memory and disk space of a run, estimated from its numbers alone, and the memory of this machine.
 #pragma once
 
 #include <cstddef>

@@ -12,8 +12,8 @@
 
 namespace gaussdrift::study {
 
-/// Work is repeated until 0.02 s have passed, ten times at most, and the fastest run counts: what other programs take
-/// from the machine is left out. The thesis averages ten runs.
+/// Work is repeated until 0.02 s have passed, at most ten times. The fastest run counts, because other programs slow
+/// down the rest. The thesis averages ten runs.
 template <class Work>
 double fastest_seconds(const Work& work) {
   constexpr double repeated_seconds = 0.02;
@@ -40,7 +40,7 @@ fgtd::Points<d> sample(const fgtd::Points<d>& points, std::size_t wanted) {
   return some;
 }
 
-/// What `direct` and every promise add for rounding, relative to N_alpha times the weight (docs/fgtd.md).
+/// The rounding of `direct` that every promise allows for, relative to N_alpha times the weight (docs/fgtd.md).
 constexpr double rounding = 3e-14;
 
 /// r of boxes that fill the unit cube nu times on every axis; the side is rounded up, so that it fits into the cube.

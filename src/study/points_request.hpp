@@ -1,5 +1,5 @@
-// What every sum over a table of points is asked for: sources, and targets as a table, as a grid, or the sources
-// themselves (docs/usage.md, "Sums over a table of points"); and its values as a table.
+// The request of a sum over a table of points: sources, and targets, which are a table, a grid or the sources
+// themselves (docs/usage.md, "Sums over a table of points"). Also writes the values as a table.
 #pragma once
 
 #include <Eigen/Core>
@@ -54,7 +54,7 @@ struct SampleOfTargets {
   std::vector<Eigen::Index> rows;
   Eigen::MatrixXd points;  // [dimension x rows]
 };
-/// So many that a comparison with all pairs costs a fraction of a second: 10 to 200.
+/// How many targets are compared with all pairs in a fraction of a second: 10 to 200.
 SampleOfTargets sample_targets(const PointsRequest& request);
 
 /// A header line, then a line for every row of `values` with 17 significant digits. Throws std::system_error.

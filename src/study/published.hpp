@@ -1,5 +1,5 @@
-// The tables of tests/reference, numbers as they are printed in the sources, part of the program: what it shows as
-// published is read from there and nowhere else.
+// The tables of tests/reference, as printed in the literature. They are part of the program. All published numbers that
+// it shows come from them.
 #pragma once
 
 #include <cstddef>

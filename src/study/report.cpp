@@ -115,7 +115,7 @@ std::string verdict(const json& summary) {
   return text;
 }
 
-/// Of how the errors were measured: all that a reader would otherwise guess wrongly.
+/// How the errors were measured, as far as a reader would otherwise guess wrongly.
 std::string about_comparison(const json& summary, const json& last) {
   const json points = get(get(summary, "evaluate"), "grid_points"), compared = get(last, "compared"),
              untraced = get(last, "untraced"), kind = get(get(summary, "reference"), "kind");
@@ -394,7 +394,7 @@ std::string seconds(const json& summary) {
   return text + "</table></div>\n";
 }
 
-/// How many there are, and what the lattice points without one would have carried.
+/// How many particles there are, and what the lattice points without one would have carried.
 std::string particles(const json& summary) {
   const json count = get(summary, "particles"), left_out = get(count, "left_out");
   if (!get(count, "carried").is_number()) return "";

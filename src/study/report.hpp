@@ -15,7 +15,7 @@ struct ReportFiles {
 };
 
 /// From summary.json, provenance.json, run.toml, density/ and images/ of a run's folder. pictures: draw the panel of
-/// initial, final, exact and error densities. A file that cannot be written does not cost the others. Throws FileError
+/// initial, final, exact and error densities. If one file cannot be written, the others still are. Throws FileError
 /// where the folder holds no run.
 ReportFiles write_report(const std::filesystem::path& folder, bool pictures);
 

@@ -1,5 +1,5 @@
 // What the thesis claims in its text, outside its tables: the choice of parameters [Sch06, 3.7.6, 3.8.1, 3.8.2] and the
-// accuracy of the rotating cone [Sch06, 5.3.5], computed beside the print. Where a claim does not come out, why.
+// accuracy of the rotating cone [Sch06, 5.3.5], computed beside the print. Says why, where a claim does not hold.
 #pragma once
 
 #include <functional>

@@ -68,8 +68,8 @@ struct Table {
   std::vector<Row> rows;
 };
 
-/// A printed power of ten ends somewhere, and the thesis's weights are not known to the last digit: an error may be
-/// this factor beyond it.
+/// The thesis's weights are not known to the last digit. An error may be beyond the end of the printed power of ten by
+/// this factor.
 constexpr double error_slack = 1.25;
 
 Comparison comparison_of(const Column& column, const Entry& entry);

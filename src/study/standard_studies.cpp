@@ -236,7 +236,8 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
                         .conclusion = {},
                         .notes = {}};
   const base::Stopwatch watch;
-  // Positions are what is studied: effects that do not move particles are left out, but for what they allow.
+  // Only positions are studied. Effects that do not move particles are left out, but the steps that they forbid stay
+  // forbidden.
   Case moving = scene;
   moving.effects.reaction.reset();
   moving.effects.remesh.reset();
@@ -378,7 +379,7 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
     else
       experiment.notes.push_back(fmt::format("{} is not for this case: {}", cutoff, reason));
   }
-  // Coarse lattices of all cutoffs before finer ones of any: what is left out for time are the finest.
+  // Coarse lattices of all cutoffs come before finer ones of any, so that only the finest are left out for time.
   for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0})
     for (const double overlap : {c, 1.5 * c}) {
       for (const std::string& cutoff : cutoffs) {

@@ -175,7 +175,7 @@ void draw_charts(const Study& study, const std::filesystem::path& folder) {
         .x = {.name = "seconds", .logarithmic = true},
         .y = {.name = experiment.error_is.substr(0, experiment.error_is.find(',')), .logarithmic = true},
         .series = {}};
-    // A series a combination of all keys but the last; the front behind them.
+    // One series for each combination of all keys but the last. The front is drawn behind them.
     std::vector<render::ChartPoint> front;
     for (const Sample& sample : experiment.samples) {
       if (!sample.failure.empty()) continue;

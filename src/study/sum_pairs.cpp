@@ -48,7 +48,7 @@ Eigen::VectorXd charges_of(const PairSumRequest& request) {
 
 double relative(double error, double size) { return error == 0 ? 0 : error / size; }
 
-/// What farfield promises errors by, at one target: sums without signs.
+/// The sums without signs that farfield's promise is relative to, at one target.
 struct Unsigned {
   double potential = 0, field = 0;
 };
@@ -130,7 +130,7 @@ void sum(const PairSumRequest& request, farfield::Options options, PairSums& res
   result.evaluate_seconds = evaluating.seconds();
 }
 
-// The tables are finite and belong together, so what farfield refuses is a number of the command line.
+// The tables have been checked, so farfield can only refuse a number of the command line.
 template <class Work>
 void with_errors_of_farfield(const Work& work) {
   const base::Words words = {{"Options::tolerance = ", "--tolerance "}, {"leave the method to", "leave --method to"}};

@@ -134,7 +134,7 @@ void measure(const SumRequest& request, PointSums& result) {
   }
 }
 
-// The tables are finite and belong together, so what fgtd refuses is a number of the command line.
+// The tables have been checked, so fgtd can only refuse a number of the command line.
 template <class Work>
 void with_errors_of_fgtd(const Work& work) {
   const base::Words words = {{"Options::tolerance = ", "--tolerance "}, {"with sigma = ", "with --sigma "}};

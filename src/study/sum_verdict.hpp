@@ -1,4 +1,4 @@
-// What a sum is judged by: errors measured against all pairs at some targets, and the seconds that are predicted.
+// Judges a sum by its errors against all pairs at some targets, and by its predicted seconds.
 #pragma once
 
 #include <functional>
@@ -17,14 +17,14 @@ struct MeasuredError {
   double allowed = 0;  // tolerance and rounding
 };
 
-/// Sentences about errors beyond what is allowed; what is not a number is beyond.
+/// One sentence for each error beyond what is allowed; NaN is beyond.
 std::vector<std::string> broken_promises(const std::vector<MeasuredError>& errors, std::size_t targets);
 
 /// "45 s", "12 minutes", "3.5 hours", "12 days".
 std::string duration_text(double seconds);
 
-/// Work of so many predicted seconds, by what: told from some seconds on, and refused (InputError) beyond
-/// request.most_seconds. `fastest` says how long `auto` would take, and by what; empty if nothing is faster.
+/// Tells the user of predicted work that takes some seconds or more, and refuses it (InputError) beyond
+/// request.most_seconds. `fastest` gives the seconds and method of `auto`; empty if nothing is faster.
 struct PredictedWork {
   double seconds = 0;  // of the clock
   std::string method;
@@ -32,8 +32,8 @@ struct PredictedWork {
 void tell_or_refuse(const PointsRequest& request, const PredictedWork& work,
                     const std::function<PredictedWork()>& fastest);
 
-/// Calls work(most seconds on one thread), and again without a limit where the limit was no reason to refuse.
-/// Limit is the exception of the library; fastest(0) is work by `auto`, which the limit 0 stops.
+/// Calls work(most seconds on one thread). If this limit stops it without being refused, calls it again without one.
+/// Limit is the exception of the library; fastest(0) is work by `auto`, stopped by the limit 0.
 template <class Limit, class Work, class Fastest>
 void within_seconds(const PointsRequest& request, const Work& work, const Fastest& fastest) {
   constexpr double told_from = 5;

@@ -12,8 +12,8 @@ namespace gaussdrift::study {
 
 namespace {
 
-// Values of the density that a trial asks for, if one costs no more than a sine or two: in one look over a lattice, in
-// a closer one where the first met nothing, and where all particles are taken because they are few.
+// How many values of the density a trial asks for, if one costs no more than a sine or two: in one look over a lattice,
+// in a closer look if the first met nothing, and if all particles are taken because they are few.
 constexpr double first_look = 250'000, closest_look = 4'000'000, whole_look = 5'000'000;
 constexpr double largest_grid = 1'100'000;
 constexpr std::size_t smallest_grid = 32;  // points an axis of a grid that is thinned out with the particles
@@ -105,8 +105,8 @@ Trial make_trial(const Case& spec, std::size_t most_particles, int threads) {
   if (spec.effects.diffusion) trial.diffusion = spec.effects.diffusion->coefficient;
   const double dearness = std::max(1.0, trial.scene.density->cost());
   LatticePart part = all_of(trial.lattice);
-  // A coarse look over all, closer where there is density until it fills what is looked at; closer everywhere while
-  // none is met.
+  // First a coarse look over the whole lattice. Then a closer one where there is density, until it fills the part
+  // looked at; closer everywhere while none is met.
   double most = std::min(first_look, 4.0 * static_cast<double>(most_particles)) / dearness;
   Found found;
   while (true) {

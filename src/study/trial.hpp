@@ -1,5 +1,5 @@
-// A case made small enough to be tried out: all of its particles where they are few, else those of a coarser lattice in
-// the part of the domain that has density, with blobs and weights to match. What a trial costs is scaled up.
+// A case made small enough to be tried out. Few particles are all taken. Many are replaced by those of a coarser
+// lattice, in the part of the domain that has density, with wider blobs and larger weights. Costs are scaled up.
 #pragma once
 
 #include <array>

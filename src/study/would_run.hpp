@@ -1,4 +1,5 @@
-// Whether `run` would take a case that a study, a hint or --accuracy is about to recommend. The run itself is asked.
+// Whether `run` would accept a case that a study, a hint or --accuracy is about to recommend. The run's own code
+// decides.
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@ std::string why_not_read(const Case& scene);
 /// does. Empty: it would not.
 std::string why_refused(const Case& scene, int threads);
 
-/// Lattice points of particles beyond which nothing is recommended that would have to be seeded to be judged.
+/// Lattices with more points than this are not recommended, because judging them means seeding them.
 constexpr double most_judged = 4e6;
 
 }  // namespace gaussdrift::study
