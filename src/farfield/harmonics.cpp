@@ -92,8 +92,8 @@ void differentiate<2>(int degree, const double* coefficient, double* const* deri
   }
 }
 
-// d/dt_3 S_l^m = l S_{l-1}^m,  (d/dt_1 - i d/dt_2) S_l^m = l S_{l-1}^{m-1},  (d/dt_1 + i d/dt_2) S_l^m = -l
-// S_{l-1}^{m+1}
+//   d/dt_3 S_l^m = l S_{l-1}^m,   (d/dt_1 - i d/dt_2) S_l^m = l S_{l-1}^{m-1}
+//   (d/dt_1 + i d/dt_2) S_l^m = -l S_{l-1}^{m+1}
 template <>
 void differentiate<3>(int degree, const double* coefficient, double* const* derivative) {
   for (int axis = 0; axis < 3; ++axis) std::fill_n(derivative[axis], functions<3>(degree), 0.0);

@@ -1,5 +1,5 @@
-// The inner loops: plain loops over raw pointers, compiled once for every instruction set (*_kernels.cpp) and picked
-// at run time, so that one binary runs everywhere and is fast where it can be.
+// The inner loops. They are plain loops over raw pointers, compiled once for every instruction set (*_kernels.cpp) and
+// picked at run time. So one program runs on every processor and uses the fastest instructions that it has.
 #pragma once
 
 #include <cstddef>
@@ -73,8 +73,8 @@ struct MomentsJob {
 };
 constexpr std::size_t max_lanes = 8;
 
-/// potential_i += sum_k coefficient[0][k] h_k, field_i[l] += field_scale sum_k coefficient[1 + l][k] h_k, at scale (x_i
-/// - centre).
+/// At scale (x_i - centre):
+///   potential_i += sum_k coefficient[0][k] h_k,   field_i[l] += field_scale sum_k coefficient[1 + l][k] h_k
 struct ExpansionJob {
   int dimension;
   int degree;

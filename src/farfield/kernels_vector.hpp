@@ -114,8 +114,8 @@ FARFIELD_INLINE Vector exp_nonpositive(Vector x) {
 }
 
 /// ln(x) for normal x > 0 to about 2e-16 (1 + |ln x|).
-///   x = 2^k m, sqrt(1/2) <= m < sqrt(2),  ln m = 2 atanh(f) = 2 f (1 + f^2/3 + f^4/5 + ...),  f = (m-1)/(m+1), |f| <
-///   0.172
+///   x = 2^k m, sqrt(1/2) <= m < sqrt(2)
+///   ln m = 2 atanh(f) = 2 f (1 + f^2/3 + f^4/5 + ...),  f = (m-1)/(m+1), |f| < 0.172
 FARFIELD_INLINE Vector log_positive(Vector x) {
   constexpr unsigned long long root_half = 0x3fe6a09e667f3bcdULL, one = 0x3ff0000000000000ULL;
   const Bits bits = reinterpret_cast<Bits>(x);

@@ -1,7 +1,7 @@
-// Errors of a single Gaussian term under `hermite`, relative to |lambda| N_alpha, worst over all |alpha| <= K: the
-// sharpened form of the thesis's bounds by which parameters are chosen. The series of the proof of Satz 3.7.2 are
-// summed as they stand instead of being estimated by geometric series, and the kept part is compared with the exact
-// factor:
+// Errors of a single Gaussian term under `hermite`, relative to |lambda| N_alpha, worst over all |alpha| <=
+// K. Parameters are chosen by these bounds, which sharpen those of the thesis: the series in the proof of
+// Satz 3.7.2 are summed, not estimated by geometric series, and the kept part is compared with the exact
+// factor.
 //   e_k = sum_{m >= p} r^m sqrt(binomial(m+k, k) / m!)          tail of one axis, relative to sqrt(2^k k!)
 //   E   = max_alpha prod_l (1 + e_{alpha_l}) - 1                a box that is summed (docs/fgtd.md)
 // and a box that is left out costs max_alpha |h_alpha| / N_alpha beyond the reach. A term suffers one or the other.

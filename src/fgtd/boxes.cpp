@@ -117,7 +117,7 @@ template <int d>
 std::vector<std::size_t> sorted_places(const std::vector<BoxIndex<d>>& index) {
   if (index.empty()) return {};
 
-  // A single 64-bit key if the lattice between the outermost indices has that few boxes.
+  // One 64-bit key for each box, if the lattice between the outermost indices has few enough boxes.
   BoxIndex<d> low = index[0], high = index[0];
   for (const auto& i : index)
     for (std::size_t l = 0; l < d; ++l) {

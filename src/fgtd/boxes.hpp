@@ -1,6 +1,6 @@
-// The boxes of `hermite`: a lattice of cubes that starts at the lower corner of the sources, of which only the occupied
-// ones exist. Boxes are sorted with the last axis slowest and known as a tree: slabs of equal last index, in them
-// lines, in them boxes. Nothing has a size that depends on sigma.
+// The boxes of `hermite`: a lattice of cubes that starts at the lower corner of the sources. Only occupied boxes exist.
+// They are sorted with the last axis slowest and form a tree: slabs of equal last index, in them lines, in them boxes.
+// Nothing has a size that depends on sigma.
 #pragma once
 
 #include <array>

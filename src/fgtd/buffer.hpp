@@ -1,5 +1,5 @@
-// Memory for millions of numbers: not set to zero before it is written, and on huge pages where the system offers them.
-// Fresh memory is otherwise a large share of the fast methods' time.
+// Memory for millions of numbers. It is not set to zero before it is written, and lies on huge pages where the system
+// offers them. Otherwise fresh memory takes a large share of the fast methods' time.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace fgtd::detail {
 
-/// Tells the system, before a block is first touched, to back it with huge pages: one page fault in place of 512. Does
-/// nothing for blocks without a whole huge page, and on systems that take no such advice.
+/// Call it before a block is first touched. It asks the system for huge pages: one page fault instead of 512. It does
+/// nothing for blocks smaller than a huge page, and on systems that take no such advice.
 void prefer_huge_pages(void* begin, std::size_t bytes);
 
-/// Allocates with prefer_huge_pages() and leaves numbers uninitialised that are written before they are read.
+/// Allocates with prefer_huge_pages(). Numbers are not initialised: they are written before they are read.
 template <class T>
 struct Uninitialised : std::allocator<T> {
   template <class U>

@@ -95,9 +95,9 @@ void find_lines(const Cells<d>& cells, const BoxIndex<d>& at, std::vector<NearLi
   }
 }
 
-/// The number of targets from `begin` on that go together, their cells being given: those of one line while a vector of
-/// `lanes` is not full and the next widens what all of them see by less than it would see alone; further vectors full
-/// of those that hardly widen it.
+/// The number of targets from `begin` on that form a group; their cells are given. A group stays in one line. While its
+/// vector of `lanes` is not full it takes the next target, unless that widens the sources seen by all of them by more
+/// than it would see alone. Further full vectors are added if they hardly widen them.
 template <int d>
 std::size_t count_together(const std::vector<BoxIndex<d>>& index, std::size_t begin, std::size_t end, int span,
                            std::size_t lanes) {
@@ -124,8 +124,8 @@ std::vector<BoxIndex<d>> cell_indices(const Cells<d>& cells, const double* point
   return index;
 }
 
-/// Sorts the indices; `order[new place] = old place`. What is read out of order is read in a loop of its own, so that
-/// the reads overlap.
+/// Sorts the indices; `order[new place] = old place`. Reads out of order have a loop of their own, so that they
+/// overlap.
 template <int d>
 std::vector<std::size_t> sort_indices(std::vector<BoxIndex<d>>& index) {
   std::vector<std::size_t> order = sorted_places<d>(index);

@@ -1,7 +1,7 @@
-// Nothing is expanded: sources sorted into cells of about the reach, or a fraction of it, and every Gaussian summed
-// where it is within reach. Method `cells` does so for scattered targets, pair by pair with the sources of the cells
-// around; method `outer` on tensor grids, where the Gaussians of a cell are a product of matrices. The two share their
-// sources, so that each serves both kinds of targets; they differ in the side of the cells.
+// Sums every Gaussian where it is within reach, without an expansion. Sources are sorted into cells whose side is the
+// reach or a fraction of it. Method `cells` sums scattered targets, pair by pair with the sources of the cells around.
+// Method `outer` sums tensor grids, where the Gaussians of a cell are a product of matrices. Both keep their sources
+// alike, so each serves both kinds of targets. They differ in the side of the cells.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ template <int d>
 struct Cells {
   double side = 0;
   std::array<double, d> low{};  // lower corner of cell (0, ..., 0)
-  int span = 1;                 // what is within reach lies at most so many cells away along an axis
+  int span = 1;                 // sources within reach lie at most this many cells away along an axis
   BoxIndex<d> last{};           // largest index of each axis
   std::vector<BoxIndex<d>> index;
   std::vector<std::size_t> first;       // sources of cell c: first[c] .. first[c+1]

@@ -35,7 +35,8 @@ const Exponential& shortest_exponential(double tolerance, int factors) {
   return *chosen;
 }
 
-/// Reach and exponentials for the tolerance; a term is either summed, with their error, or dropped.
+/// The reach and the exponentials that keep the tolerance. A term is either summed, with the error of the exponential,
+/// or dropped.
 template <int d>
 double find_precision(const Situation<d>& at, CellsPlan& plan) {
   const double tolerance = at.options.tolerance;
@@ -54,7 +55,7 @@ double exponentials_of_pair(const Situation<d>& at) {
   return std::ceil(at.columns / (at.options.derivative_order > 0 ? 16 : 4));
 }
 
-/// Sources within reach of a target that lies like the sources, it being none of them: by a look at a part of the
+/// Sources within reach of a target that lies like the sources but is none of them, estimated from a part of the
 /// sample.
 template <int d>
 double sources_around(const Situation<d>& at, double reach) {
@@ -149,7 +150,7 @@ double grid_seconds(const Situation<d>& at, double reach, double side, const std
                             rows * 8 * std::ceil(depth / 8) * cost::outer_row));
 }
 
-/// Decides the cells for the targets that are expected; none if coordinates are beyond what cells can number.
+/// Chooses the cells for the expected targets. None if coordinates are so large that cells cannot be numbered.
 template <int d>
 std::optional<Proposal<d>> propose(const Situation<d>& at, Method method) {
   Proposal<d> proposal;

@@ -1,4 +1,4 @@
-// What the kernels of `cells` and `outer` are handed: pair sums over runs of sources, and outer products of rows.
+// The arguments of the kernels of `cells` and `outer`: pair sums over runs of sources, and outer products of rows.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ constexpr Exponential exponentials[] = {{4, 3.6e-6}, {6, 2.6e-9}, {8, 1.2e-12}, 
 
 constexpr double log2_e = 1.4426950408889634;
 
-/// Numbers that may be read beyond the end of an array of targets, and written beyond the end of results.
+/// Arrays of targets must be readable, and arrays of results writable, this many numbers beyond their end.
 constexpr std::size_t target_padding = 8;
 
 /// Targets first .. first + targets - 1, which share the runs of sources first_run .. end_run - 1.

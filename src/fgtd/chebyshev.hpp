@@ -1,7 +1,7 @@
-// Wide Gaussians: boxes with P Chebyshev nodes an axis, and the Gaussian between the nodes of two boxes, which is a
-// product over the axes (docs/fgtd.md).
-//   s_alpha(y) = (-1)^|alpha| N_alpha sum_m prod_l l_{m_l}(y_l) sum_boxes sum_n prod_l h~_{alpha_l}(sqrt(sigma) (y_m -
-//   x_n)_l) A_n,      A_n = sum_j lambda_j prod_l l_{n_l}(x_jl)
+// Method `chebyshev`, for wide Gaussians: boxes with P Chebyshev nodes an axis. Between the nodes of two boxes the
+// Gaussian is a product over the axes (docs/fgtd.md).
+//   s_alpha(y) = (-1)^|alpha| N_alpha sum_m prod_l l_{m_l}(y_l) B_m,   A_n = sum_j lambda_j prod_l l_{n_l}(x_jl)
+//   B_m        = sum_boxes sum_n A_n prod_l h~_{alpha_l}(sqrt(sigma) (y_m - x_n)_l)
 // with the Lagrange polynomials l of the nodes y_m of the target's box and x_n of the sources' boxes. On a tensor grid
 // the y_m are the grid's nodes themselves. The sums over boxes and nodes are taken one axis after the other, last axis
 // first.

@@ -30,7 +30,7 @@ struct BoxRange {
 /// Points sorted at a time: some for every box, so that boxes have runs of them, and few enough for the cache.
 constexpr std::size_t block_points(double boxes) { return boxes <= 16 ? 1 << 10 : boxes <= 64 ? 1 << 12 : 1 << 13; }
 
-/// How many boxes of P^d numbers are few enough for so many points, and whether these are.
+/// The largest number of boxes of P^d numbers that counts as few for so many points, and whether these are few.
 double most_few_boxes(double box_numbers, double points);
 bool are_few(double boxes, double box_numbers, double points);
 

@@ -38,7 +38,7 @@ Occupied<d> all_occupied(const Lattice<d>& lattice) {
   return found;
 }
 
-/// As cheap as it can be.
+/// Everything in one box: a bound from below.
 template <int d>
 Occupied<d> one_box() {
   Occupied<d> found;

@@ -3,8 +3,8 @@
 // scaled side h = side sqrt(sigma):
 //   |g^(n)| / sqrt(2^a a!) <= M_{a+n} / sqrt(2^a a!),   M_n = 2^n Gamma((n+1)/2) / sqrt(pi) >= max |d^n/dt^n exp(-t^2)|
 //   e_a  = 2 (h/4)^P / P! M_{a+P} / sqrt(2^a a!)            interpolation in one variable
-//   E_a  = 2 e_a + (2 (h/4)^P / P!)^2 M_{a+2P} / sqrt(2^a a!)   in both: I I' g - g = (I-1) g + (I'-1) g + (I-1)(I'-1)
-//   g E    = max_{|alpha| <= K} prod_l (1 + E_{alpha_l}) - 1       all axes, as |g_a| <= 1
+//   E_a  = 2 e_a + (2 (h/4)^P / P!)^2 M_{a+2P} / sqrt(2^a a!)   both: I I' g - g = (I-1) g + (I'-1) g + (I-1)(I'-1) g
+//   E    = max_{|alpha| <= K} prod_l (1 + E_{alpha_l}) - 1         all axes, as |g_a| <= 1
 // M_n bounds the Fourier integral of the derivative. A pair of boxes that is left out, because on one axis the boxes
 // are farther apart than the reach R, costs max_{|t| >= R, a <= K} |g_a(t)| instead.
 #pragma once

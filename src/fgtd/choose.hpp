@@ -1,5 +1,5 @@
-// Chooses among the methods: each proposes itself with the cheapest of its parameters that are proven to keep the
-// tolerance, a prediction of its cost, and a way to make it; the cheapest proposal is taken.
+// Chooses among the methods. Each method makes a proposal: the cheapest parameters that are proven to keep the
+// tolerance, a prediction of the cost, and a function that makes the sum. The cheapest proposal is taken.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,8 @@ struct Proposal {
   std::function<std::unique_ptr<Summation<d>>(Buffer<double> position)> make;  // position [d][N]
 };
 
-// One function a method; none if it cannot keep the promise here, or would need more than the memory limit.
+// One function for each method. Its result is empty if the method cannot keep the promise here, or would need more
+// memory than allowed.
 
 template <int d>
 Proposal<d> propose_direct(const Situation<d>& at);
@@ -42,8 +43,8 @@ std::optional<Proposal<d>> propose_outer(const Situation<d>& at);
 template <int d>
 std::optional<Proposal<d>> propose_spread(const Situation<d>& at);
 
-/// The proposal of the method that is asked for; of all for Method::automatic. A method that cannot serve here (no
-/// sources, boxes that coordinates cannot tell apart) gives way to `direct`. position [d][count].
+/// The proposal of the method that is asked for, or the cheapest for Method::automatic. `direct` replaces a method that
+/// cannot serve here (no sources, or boxes that coordinates cannot tell apart). position [d][count].
 template <int d>
 Proposal<d> choose(const Buffer<double>& position, std::size_t count, std::size_t columns, double sigma,
                    const Options& options);

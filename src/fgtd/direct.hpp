@@ -1,4 +1,5 @@
-// The definition itself, every source at every target: the oracle of all other methods, and the fastest for few points.
+// The definition: every source at every target. All other methods are tested against it, and for few points it is the
+// fastest.
 #pragma once
 
 #include <array>

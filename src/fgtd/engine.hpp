@@ -1,4 +1,4 @@
-// A Plan's inside: checks the arguments, lets a method be chosen, and passes the work on.
+// The implementation of Plan: checks the arguments, has a method chosen, and passes the work on.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// The inner loops: plain loops over raw pointers, compiled once for every instruction set (*_kernels.cpp) and picked
-// at run time, so that one binary runs everywhere and is fast where it can be.
+// The inner loops. They are plain loops over raw pointers, compiled once for every instruction set (*_kernels.cpp) and
+// picked at run time. So one program runs on every processor and uses the fastest instructions that it has.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ constexpr int max_dimension = 4;
 /// Highest derivative_order: no factor overflows up to here.
 constexpr int max_derivative_order = 16;
 
-/// Beyond the range of exp(), sigma r^2 > 708, a term counts as 0. That fades as promised if |E_alpha(t)| exp(t^2), a
-/// polynomial, is at most tolerance exp(L) = exp(40) / tolerance as long as the term is above the smallest double, which is
-/// until t^2 = 1500. It is below 8e16 for orders up to 12, and below 2e21 up to 16.
+/// Beyond the range of exp(), sigma r^2 > 708, a term counts as 0. This keeps the promise if the polynomial
+/// |E_alpha(t)| exp(t^2) is at most tolerance exp(L) = exp(40) / tolerance wherever the term is above the smallest
+/// double, up to t^2 = 1500. The polynomial is below 8e16 for orders up to 12, and below 2e21 up to 16.
 constexpr int any_tolerance_order = 12;
 constexpr double high_order_tolerance = 1e-4;
 
@@ -62,8 +62,8 @@ struct ProductJob {
 constexpr std::size_t row_padding = 8;
 
 /// Hermite expansions of some boxes summed at one group of targets:
-/// out[a][k][i] += sum_{boxes B within reach of y_i} sum_beta moments_B[k][beta] prod_l g_{alpha_l, beta_l}(sqrt(sigma)
-/// (y_i - c_B)_l), g_{a,b}(t) = sqrt(binomial(a+b, a)) h~_{a+b}(t).
+///   out[a][k][i] += sum_B sum_beta moments_B[k][beta] prod_l g_{alpha_l, beta_l}(sqrt(sigma) (y_i - c_B)_l)
+/// over the boxes B within reach of y_i, with g_{a,b}(t) = sqrt(binomial(a+b, a)) h~_{a+b}(t).
 struct ExpansionJob {
   int dimension;
   int terms;  // p
@@ -106,9 +106,9 @@ struct TableJob {
 struct CellsJob;  // cells_job.hpp
 struct OuterJob;
 
-/// Points begin .. end brought to a lattice (`spread`): lattice[k][node] += weights[k][j] prod_l phi at the node, or,
-/// with `out`, out[k][j - begin] = sum over nodes of lattice[k][node] prod_l phi. The lattice is readable and writable
-/// up to 16 numbers past every run of w nodes along axis 0; zeros are added there.
+/// Brings points begin .. end to a lattice (`spread`): lattice[k][node] += weights[k][j] prod_l phi at the node. With
+/// `out` the other way: out[k][j - begin] = sum over nodes of lattice[k][node] prod_l phi. The lattice must be readable
+/// and writable up to 16 numbers past every run of w nodes along axis 0; zeros are added there.
 struct SpreadJob {
   int dimension;
   int width;                          // w, at most 16

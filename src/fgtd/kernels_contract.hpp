@@ -1,5 +1,5 @@
-// Tensors of coefficients contracted with factors of every axis: the inner loop of expansions of `hermite` and
-// `chebyshev` at targets. Included as kernels_vector.hpp is.
+// Contracts tensors of coefficients with factors of every axis: the inner loop of `hermite` and `chebyshev` at targets.
+// Included in the way of kernels_vector.hpp.
 #pragma once
 
 #include "fgtd/kernels_vector.hpp"
@@ -7,8 +7,8 @@
 namespace fgtd::detail::FGTD_ISA {
 namespace {
 
-/// sums[i] = sum_b moments[i terms + b] g[b] for `rows` rows; g[b] is `vectors` vectors. Rows side by side keep the
-/// multipliers busy, which a single sum would leave waiting for its last addition.
+/// sums[i] = sum_b moments[i terms + b] g[b] for `rows` rows; g[b] is `vectors` vectors. Several rows side by side keep
+/// the multipliers busy; a single sum would make them wait for its last addition.
 template <int rows, int vectors>
 FGTD_INLINE void contract_rows(std::size_t terms, const double* moments, const double* g,
                                Vector (&sums)[rows][vectors]) {

@@ -1,5 +1,5 @@
-// Powers of two by polynomials whose degree suits the tolerance: the exponentials of `cells` and `outer`. Included as
-// kernels_vector.hpp is.
+// Powers of two by polynomials whose degree suits the tolerance: the exponentials of `cells` and `outer`. Included in
+// the way of kernels_vector.hpp.
 #pragma once
 
 #include "fgtd/kernels_vector.hpp"

@@ -1,5 +1,5 @@
 // Small products of matrices in registers: the inner loop of `hermite`, `outer` and the filters of `spread`. Included
-// as kernels_vector.hpp is.
+// in the way of kernels_vector.hpp.
 #pragma once
 
 #include "fgtd/kernels_vector.hpp"

@@ -1,7 +1,7 @@
 // Moments of the boxes [Sch06, Algorithm 3.6], as products of matrices: with powers tabulated an axis,
 //   A[(b_{d-1} .. b_1)][b_0] = sum_j Q[(b_{d-1} .. b_1)][j] (lambda_j X[j][b_0]),
-//   X[j][b] = (sqrt 2 t_0)^b / sqrt(b!),   Q[..][j] = prod_{l > 0} (sqrt 2 t_l)^{b_l} / sqrt(b_l!),   t = sqrt(sigma)
-//   (x_j - c).
+//   X[j][b] = (sqrt 2 t_0)^b / sqrt(b!),   Q[..][j] = prod_{l > 0} (sqrt 2 t_l)^{b_l} / sqrt(b_l!)
+//   t = sqrt(sigma) (x_j - c)
 #include <algorithm>
 #include <cmath>
 

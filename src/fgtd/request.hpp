@@ -1,7 +1,7 @@
-// What is to be evaluated, made flat: the distinct derivatives, and every combination as a list of (derivative, factor)
-// whose factor contains the sign and the scale of that derivative,
-//   D^alpha exp(-sigma |y-x|^2) = (-1)^|alpha| N_alpha prod_l h~_{alpha_l}(sqrt(sigma) (y-x)_l),  h~_n = h_n / sqrt(2^n
-//   n!).
+// The request of an evaluation as flat lists: the distinct derivatives, and every combination as a list of (derivative,
+// factor). A factor contains the sign and the scale of its derivative,
+//   D^alpha exp(-sigma |y-x|^2) = (-1)^|alpha| N_alpha prod_l h~_{alpha_l}(sqrt(sigma) (y-x)_l)
+//   h~_n = h_n / sqrt(2^n n!)
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// What a choice of method looks at: how many sources and targets there are, how they lie, and what is asked for.
+// All that the choice of a method looks at: how many sources and targets there are, how they lie, and what is asked
+// for.
 #pragma once
 
 #include <array>
@@ -29,15 +30,16 @@ template <int d>
 Situation<d> look_at(const Buffer<double>& position, std::size_t count, std::size_t columns, double sigma,
                      const Options& options);
 
-/// Places occupied by `points` points that fall on equally likely places, of which `sampled` points occupied `seen`.
+/// Estimates how many places `points` points occupy, if `sampled` of them occupied `seen` and all places are equally
+/// likely.
 double extrapolate(double seen, double sampled, double points);
 
 /// Sources within `distance` of a target that lies like the sources, at least 1.
 template <int d>
 double sources_within(const Situation<d>& at, double distance);
 
-/// Occupied boxes within reach of a target that lies like the sources: no more than there are, than the lattice has
-/// there (less at its edges), and than there are sources there.
+/// Occupied boxes within reach of a target that lies like the sources. There are at most as many as in all, as the
+/// lattice has there (fewer at its edges), and as there are sources there.
 template <int d>
 double boxes_within(const Situation<d>& at, double side, double reach, double occupied);
 

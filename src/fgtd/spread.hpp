@@ -1,10 +1,11 @@
-// Sums of dense clouds through a lattice tied to the width of the Gaussian (spread_filter.hpp): the weights are spread
-// onto the nodes around each source once; every derivative is then a pass of banded matrices along each axis, straight
-// onto the nodes of a grid, or onto the lattice around scattered targets, from where phi interpolates.
+// Method `spread`, for dense clouds. It uses a lattice whose spacing depends on the width of the Gaussian
+// (spread_filter.hpp). Weights are spread onto the nodes around each source once. Every derivative is then a pass of
+// banded matrices along each axis: onto the nodes of a grid, or onto the lattice around scattered targets, from where
+// phi interpolates.
 //   s(y) = sum_k prod_l f(y_l - x_k_l) sum_j lambda_j prod_l phi((x_j - x_k)_l / h)
 // The lattice exists in bricks around the sources: one for a cloud, several for clusters far apart. Sources are sorted
-// into tiles of a brick; tiles of one colour never touch the same node, so colours one after the other are parallel and
-// every node still adds its tiles in the same order.
+// into tiles of a brick. Tiles of one colour never touch the same node, so they are done in parallel, colour after
+// colour, and every node still adds its tiles in the same order.
 #pragma once
 
 #include <algorithm>
@@ -102,8 +103,8 @@ struct SpreadLayout {
   std::size_t nodes() const;  // of all bricks
 };
 
-/// Lays bricks around the points so that little of the lattice is empty; none if coordinates cannot be told apart on it
-/// or if it would be much larger than the points justify. position [d][count].
+/// Lays bricks around the points so that little of the lattice is empty. No bricks if coordinates cannot be told apart
+/// on it, or if it would be much larger than the points justify. position [d][count].
 template <int d>
 std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size_t count,
                                        const std::array<double, d>& low, const std::array<double, d>& extent,

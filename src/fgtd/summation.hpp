@@ -1,4 +1,4 @@
-// What every method offers: a sum prepared for one set of sources. method `direct` is the oracle of all others.
+// The interface of every method: a sum that is prepared for one set of sources. All others are tested against `direct`.
 //
 // To add a method: a class derived from Summation, a function that proposes it (choose.hpp), its line in the list of
 // proposals (choose.cpp), its constants of cost (cost.hpp), and its name (Method in fgtd.hpp). The tests over all
