@@ -12,14 +12,15 @@
 namespace farfield::detail {
 namespace {
 
-/// What the core of a blob that is taken for a point may cost, of the tolerance.
+/// The part of the tolerance that treating a blob as a point may cost.
 double core_share(const Problem& problem) { return problem.interaction == Interaction::blob ? 0.1 : 0; }
 
-/// What rounding may cost where potentials at the nodes of a cluster are fitted, of the tolerance.
+/// The part of the tolerance that rounding may cost where potentials at the nodes of a cluster are fitted.
 constexpr double fit_share = 0.125;
 
-/// The steepest fit (partition.hpp) that keeps to that. A fit enlarges rounding less than 10 times (interpolation.cpp),
-/// differentiating a polynomial 2 n^2 times (Markov), and a charge may be twice as far away as its leaf is wide.
+/// The steepest fit (partition.hpp) that keeps this part. A fit enlarges rounding less than 10 times
+/// (interpolation.cpp), differentiating a polynomial 2 n^2 times (Markov), and a charge may be twice as far away as its
+/// leaf is wide.
 double steepest_fit(double tolerance, int degree) {
   constexpr double rounding = 2.2e-16;
   return fit_share * tolerance / (rounding * 10 * 2 * degree * degree * 2);
@@ -100,7 +101,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction->leaf_size;
   choice.clusters = tree.clusters().size();
   choice.levels = static_cast<int>(tree.levels());
-  // Of couplings there are at most as many for a cluster as offsets that its place in the parent allows.
+  // A cluster has at most as many couplings as its place in the parent allows offsets.
   const double clusters = static_cast<double>(choice.clusters), offsets = d == 3 ? 189 : 27;
   check_memory("the block partition and the coefficients",
                points_bytes + clusters_bytes<d>(problem, fine_leaf_size) +

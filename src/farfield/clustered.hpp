@@ -1,5 +1,5 @@
-// The methods that replace clusters of points: `tree` puts substitute charges for clusters of sources, which act on the
-// targets; `symmetric` couples clusters of both [Boe22].
+// The two methods that replace clusters of points [Boe22]. `tree` replaces clusters of sources by substitute charges,
+// which act on the targets. `symmetric` couples clusters of sources with clusters of targets.
 #pragma once
 
 #include <memory>
@@ -31,7 +31,7 @@ class Clustered : public Summation {
   virtual void add_all(const Buffer<double>& charges, const PerCluster& moments, Sums& sums,
                        Seconds& seconds) const = 0;
 
-  /// Runs pair by pair, and smaller clusters of sources by substitute charges, at all leaves of targets.
+  /// Sums, at all leaves of targets, runs pair by pair and smaller clusters of sources by their substitute charges.
   void add_at_leaves(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const;
   double bytes_per_cluster() const { return operators_ ? 8.0 * static_cast<double>(operators_->functions()) : 0; }
 

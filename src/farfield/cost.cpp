@@ -6,8 +6,8 @@
 namespace farfield::detail {
 namespace {
 
-// Measured by tools/bench/bench_farfield on 3 GHz with AVX2; the first two beside a pair's seconds with AVX-512, where
-// two thirds and twice of them choose leaves that are as fast within 8 %.
+// Measured by tools/bench/bench_farfield on 3 GHz with AVX2. The first two were fitted with AVX-512 relative to the
+// seconds of a pair; two thirds of them, or twice, choose leaves that are as fast within 8 %.
 constexpr double multiplication = 0.07e-9;    // within a product of matrices
 constexpr double moved_number = 1.0e-9;       // gathered, scattered
 constexpr double function_at_point = 0.9e-9;  // moments; expansion of potential and field twice as much
@@ -24,7 +24,7 @@ constexpr std::size_t sizes[] = {8,   11,  16,  23,  32,   45,   64,   90,   128
                                  256, 362, 512, 724, 1024, 1448, 2048, 2896, 4096};
 constexpr std::size_t size_count = std::size(sizes);
 
-/// Seconds by leaf size, from events that happen for all sizes of an interval.
+/// Seconds for every leaf size, added up from events that happen for a whole interval of sizes.
 class BySize {
  public:
   /// For leaf sizes s with low <= s < high.

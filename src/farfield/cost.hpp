@@ -1,6 +1,6 @@
-// Predicted times, one thread: events counted on a sample of the clusters of a fine tree, for every size that a leaf
-// may have at most, times what an event costs. The constants are those of a processor with AVX2; only ratios matter for
-// the choice.
+// Predicted times on one thread. Events are counted on a sample of the clusters of a fine tree, for every largest size
+// of a leaf, and multiplied with their costs. The constants are those of a processor with AVX2; only their ratios
+// matter for the choice.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ class Costs {
  public:
   Costs(const Problem& problem, const Degrees<d>& degrees, Precisions precisions);
 
-  /// Tables for the degrees, if they are not at hand.
+  /// Seconds of making the tables for the degrees, if they do not exist yet.
   double setup(bool couple) const { return setup_ + (couple ? couplings_setup_ : 0); }
   double pair() const { return pair_; }
   double substitute_pair() const { return substitute_pair_; }

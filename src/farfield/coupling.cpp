@@ -8,7 +8,7 @@
 namespace farfield::detail {
 namespace {
 
-/// In place of values at reflections s = 0, 1, ... of a run: the sums with the signs of parity p = 0, 1, ...
+/// Replaces the values at reflections s = 0, 1, ... of a run by their sums with the signs of parity p = 0, 1, ...
 template <int d>
 void to_parities(double* values, std::size_t run) {
   for (std::size_t bit = 1; bit < (std::size_t{1} << d); bit *= 2)

@@ -15,8 +15,8 @@ namespace farfield::detail {
 
 constexpr int farthest = 3;  // |k_l| of clusters whose parents touch
 
-/// The same for all reflections of k, so for k_l >= 0 only; reflection s of k has sign(a, s) M_ab sign(b, s). Where k_l
-/// = 0 functions even and odd in t_l do not couple: M falls apart into one block or several.
+/// It is kept for k_l >= 0 only, because a reflection s of k has sign(a, s) M_ab sign(b, s). Where k_l = 0, functions
+/// even in t_l do not couple with odd ones, so M consists of one block or several.
 struct Coupling {
   /// The first `count` functions of one parity.
   struct Run {

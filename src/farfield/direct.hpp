@@ -1,4 +1,4 @@
-// Every pair.
+// Sums every pair.
 #pragma once
 
 #include "farfield/problem.hpp"

@@ -31,8 +31,8 @@ struct Box {
       high[l] = std::max(high[l], points.row(l).maxCoeff() / 2);
     }
   }
-  /// What is subtracted from coordinate l so that it is small beside the extent or at most twice it. The difference is
-  /// exact: points farther from 0 than they extend lie between the nearest and twice the nearest.
+  /// This is subtracted from coordinate l, so that the rest is at most twice the extent. The difference is exact: if
+  /// points are farther from 0 than they extend, all of them lie between the nearest and twice the nearest.
   double origin(int l) const {
     const double extent = high[l] - low[l];
     if (low[l] > extent) return 2 * low[l];

@@ -1,5 +1,5 @@
-// A Plan's inside: checks the arguments, brings every kernel to one of three interactions in units of the points'
-// extent, lets a method be chosen, and gives the results their signs and units.
+// The implementation of Plan: checks the arguments, turns every kernel into one of three interactions in units of the
+// points' extent, has a method chosen, and gives the results their signs and units.
 #pragma once
 
 #include <memory>

@@ -10,7 +10,7 @@
 
 namespace farfield::detail {
 
-/// Keeps values of high degree neither large nor small.
+/// Keeps values of high degree from becoming very large or very small.
 constexpr double stretch = 1.5;
 
 constexpr int max_degree = 40;

@@ -10,17 +10,18 @@
 namespace farfield::detail {
 namespace {
 
-/// Chebyshev-Lobatto points an axis, even, so that none lies on a plane of symmetry. Fewer let the fit grow values of
-/// the function (its Lebesgue constant is below 10 with these and 200 with two less), more only cost time.
+/// Chebyshev-Lobatto points an axis: an even number, so that none lies on a plane of symmetry. With two fewer the fit
+/// would amplify values of the function 200 times; with these it does less than 10 times (its Lebesgue constant). More
+/// only cost time.
 template <int d>
 int points_an_axis(int degree) {
   const double enough = d == 3 ? (degree + 1) / std::sqrt(6.0) + 3.0 : degree / 2.0 + 4;
   return 2 * static_cast<int>(std::ceil(enough / 2));
 }
 
-/// How much a node counts in the fit. The field is worst at the corners of a cluster, since differentiating costs most
-/// there, so nodes near edges and corners count more: the largest error falls by 1.1 to 2.1 against equal weights, and
-/// stays within a quarter of that for exponents half and one and a half times as large.
+/// How much a node counts in the fit. The field errs most at the corners of a cluster, since differentiating costs most
+/// there, so nodes near edges and corners count more. Against equal weights the largest error falls by factors of 1.1
+/// to 2.1. It stays within a quarter of that for exponents half or one and a half times as large.
 template <int d>
 double weight_of(const double* node) {
   double squared = 0, from_faces = 1;

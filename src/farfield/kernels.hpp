@@ -17,7 +17,7 @@ enum class Interaction {
   blob        // 2D: (1 - exp(-r^2/eps^2)) d/r^2
 };
 
-/// How well 1/r is computed, relative.
+/// The relative accuracy of 1/r.
 enum class Precision { full, ten_digits, six_digits };
 
 struct Range {

@@ -1,7 +1,7 @@
-// Vectors of FARFIELD_LANES doubles in namespace FARFIELD_ISA. Included only by *_kernels.cpp, which are compiled once
-// for every instruction set: an inline function that others include too would be compiled with instructions that the
-// processor may lack, and the linker could take that copy for everybody. For the same reason kernels use raw pointers
-// and loops and nothing of the standard library, and their helpers have internal linkage.
+// Vectors of FARFIELD_LANES doubles in namespace FARFIELD_ISA. Only *_kernels.cpp include it, which are compiled once
+// for every instruction set. An inline function that other sources include too would exist in several versions, and the
+// linker might keep one with instructions that the processor lacks. So kernels use nothing of the standard library, and
+// their helpers have internal linkage.
 #pragma once
 
 #include <cstddef>

@@ -217,8 +217,8 @@ double measure_pair_error(const Interpolation<d>& interpolation, const int* k, i
                           [&](const Point<d>& y) { return coupled<d>(coupling, k, y); });
 }
 
-// By symmetry the error of interpolated targets in the field of one charge; the field's is the larger one there, since
-// differentiating the interpolant costs accuracy that the kernel's own derivative does not.
+// By symmetry this is the error of interpolated targets in the field of one charge. The error of the field is the
+// larger one, because differentiating the interpolant costs accuracy; the kernel's own derivative does not.
 template <int d>
 double measure_one_sided_error(const Interpolation<d>& interpolation, int samples, unsigned seed, bool climb) {
   return largest_error<d>(interpolation.degree(), samples, seed, climb,

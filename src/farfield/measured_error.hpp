@@ -1,4 +1,4 @@
-// Errors of the interpolation, measured: what the table of errors is made from and tested with.
+// Measures errors of the interpolation. The table of errors is made from them and tested with them.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ template <int d>
 std::vector<std::array<int, 3>> offset_classes();
 
 /// Largest error, relative to |field| and |potential| of the pair (in 2D the potential's to 1), over `samples` points
-/// in each cluster, corners and edges among them. With `climb` the search goes on uphill from the worst of them.
+/// in each cluster, corners and edges among them. With `climb` the search continues uphill from the worst of them.
 template <int d>
 double measure_pair_error(const Interpolation<d>& interpolation, const int* k, int samples, unsigned seed, bool climb);
 

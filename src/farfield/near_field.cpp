@@ -93,7 +93,7 @@ void NearField<d>::add(const Cluster& leaf, const Range* runs, std::size_t count
   job.same_points = problem_.self;
   if (job.precision != Precision::six_digits) return fastest_kernels().pairs(job);
 
-  // Runs that reach equally far together; larger leaves far beyond this one in double.
+  // Runs that reach equally far go together; larger leaves far beyond this one are summed in double.
   const double side = tree_.side(leaf.level), farthest_in_float = 32 * side;
   const auto reach_of = [&](const Range& run) {
     const double reach = reach_from<d>(job.centre, source, run);

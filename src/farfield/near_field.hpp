@@ -1,4 +1,4 @@
-// What is summed pair by pair, or by substitute charges in place of points, for the targets of one leaf.
+// The sums for the targets of one leaf: pair by pair, or with substitute charges in place of points.
 #pragma once
 
 #include "farfield/interpolation.hpp"
@@ -12,12 +12,12 @@ struct Precisions {
   double point_beyond;  // of PairsJob
 };
 
-/// What keeps a tolerance; substitution takes a quarter of it at most.
+/// The precision that keeps a tolerance. Substitution takes at most a quarter of the tolerance.
 Precisions precisions_for(double tolerance, Interaction interaction);
 /// Largest error of a sum relative to the sum of its terms' sizes.
 double error_of(Precision precision);
-/// What computing with substitute charges adds to the error of their interpolation: in all they may be ten times larger
-/// than the charges they stand for.
+/// The rounding that substitute charges add to the error of interpolation. Together they may be ten times larger than
+/// the charges that they stand for.
 double substitution_error(Precision precision);
 
 /// Everything in the order of the tree.
@@ -38,15 +38,15 @@ class NearField {
     double reach = 0;
     std::vector<double> moments;  // of the cluster to be added
   };
-  /// Adds the nodes of a cluster of sources with the charges that stand for substitutes.moments; what has gathered acts
-  /// on the leaf before it becomes too much.
+  /// Adds the nodes of a cluster of sources, with the charges that stand for substitutes.moments. When too much has
+  /// gathered, it acts on the leaf first.
   void add(const Cluster& leaf, const Interpolation<d>& interpolation, const Cluster& sources, Substitutes& substitutes,
            Sums& sums) const;
-  /// What has gathered acts on the leaf.
+  /// Lets the gathered charges act on the leaf.
   void act(const Cluster& leaf, Substitutes& substitutes, Sums& sums) const;
 
-  /// Potential of the sources in `range` at the nodes of a cluster, overwritten; in 2D without log_shift, which is for
-  /// the fitted constant: large numbers at nodes cost digits.
+  /// The potential of the sources in `range` at the nodes of a cluster, overwritten. In 2D it is without log_shift,
+  /// which is added to the fitted constant, because large numbers at nodes cost digits.
   void at_nodes(const Cluster& cluster, const Interpolation<d>& interpolation, Range range,
                 const Buffer<double>& charges, double* values) const;
 

@@ -1,5 +1,6 @@
-// What interpolation of a given accuracy needs, the same for all points: degrees, couplings of all offsets, and the
-// transfer from a cluster to its parent. Lengths are in sides of the cluster, so one set serves every level.
+// All that interpolation of a given accuracy needs and that does not depend on the points: degrees, couplings of all
+// offsets, and the transfer from a cluster to its parent. Lengths are in sides of the cluster, so one set serves every
+// level.
 #pragma once
 
 #include <memory>
@@ -10,8 +11,8 @@
 
 namespace farfield::detail {
 
-/// Degrees of interpolation for an error of one charge at one target, relative to what the promise is relative to, by
-/// the measured table.
+/// Degrees of interpolation by the measured table, for an error of one charge at one target in the measure of the
+/// promise.
 template <int d>
 struct Degrees {
   /// Of two clusters, and where one side alone is interpolated; at least smallest_error().

@@ -36,8 +36,8 @@ struct Sums {
   Vector potential, field[3];
 };
 
-/// One source at one vector of targets. Square roots with divisions and estimates with series keep different parts of
-/// the processor busy: `divide` is set for every second vector of targets.
+/// One source at one vector of targets. `divide` is set for every second vector: square roots with divisions keep other
+/// parts of the processor busy than estimates with series.
 template <Interaction interaction, bool full, bool potential, bool field, bool divide>
 FARFIELD_INLINE void add_pair(const PairsJob& job, const Vector* distance, double charge, Bits& seen, Sums& sums) {
   constexpr int d = dimension_of<interaction>;
@@ -79,7 +79,8 @@ FARFIELD_INLINE void add_to(double* out, Vector value, std::size_t valid) {
   }
 }
 
-/// The pairs that the vectors have not seen and that are not at distance 0, one by one, without squares of distances.
+/// Sums one by one, without squares of distances, the pairs that the vectors have left out and that are not at distance
+/// 0.
 template <Interaction interaction>
 void add_unseen(const PairsJob& job, std::size_t first, std::size_t last, Range sources) {
   constexpr int d = dimension_of<interaction>;
@@ -108,7 +109,7 @@ void add_unseen(const PairsJob& job, std::size_t first, std::size_t last, Range 
     }
 }
 
-/// Is there a pair that the vectors have not seen and that is not at distance 0?
+/// Is there a pair that the vectors have left out and that is not at distance 0?
 template <Interaction interaction>
 bool some_unseen(const PairsJob& job, std::size_t first, Range sources) {
   constexpr int d = dimension_of<interaction>;

@@ -1,6 +1,6 @@
-// The block partition: which pairs of clusters are coupled, which are summed pair by pair, and where one side alone is
-// interpolated. A pair of equal size is admissible if the cubes do not touch: diam <= sqrt(d) dist. Every pair of a
-// target and a source is in exactly one of
+// The block partition decides which pairs of clusters are coupled, which are summed pair by pair, and where one side
+// alone is interpolated. A pair of equal size is admissible if the cubes do not touch: diam <= sqrt(d) dist. Every pair
+// of a target and a source is in exactly one of
 //   couplings      clusters of one size whose parents touch and who do not
 //   from_clusters  a leaf of targets and a smaller cluster of sources at a distance of the latter's side or more
 //   from_points    a cluster of targets and a larger leaf of sources at a distance of the former's side or more
@@ -51,8 +51,8 @@ struct Partition {
 struct PartitionOptions {
   std::size_t enough = 0;  // one side is interpolated alone where the other has more points
   bool couple = true;  // false (method tree): no pair of clusters is coupled, leaves of targets see admissible clusters
-  /// Largest size of potentials at the nodes of a cluster of targets, beside the field that they are fitted for: their
-  /// rounding is divided by the side of the cluster.
+  /// The largest size of potentials at the nodes of a cluster of targets, relative to the field that is fitted to them.
+  /// Fitting divides their rounding by the side of the cluster.
   double steepest_fit = HUGE_VAL;
   int threads = 1;
 };
@@ -60,7 +60,7 @@ struct PartitionOptions {
 template <int d>
 Partition make_partition(const Tree<d>& tree, const PartitionOptions& options);
 
-/// What is done for one evaluation, with so many nodes in place of a cluster.
+/// Counts the work of one evaluation, with this many nodes in place of a cluster.
 template <int d>
 Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes);
 

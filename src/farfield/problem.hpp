@@ -1,5 +1,5 @@
 // The sum as the methods see it: points by axis, in units in which they extend over about 1, charges up to 1, and one
-// of three interactions. What distinguishes the kernels of the interface is undone afterwards by the engine.
+// of three interactions. The engine turns the result into that of the kernel asked for.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // The cluster tree: cubes of a lattice that is halved from level to level, down to clusters of few points. It follows
-// the points, so clusters of points far smaller than the whole are resolved, to sides of 2^-40 of it. Sides and centres
-// are exact numbers, so that clusters are whole numbers of sides apart.
+// the points, so it resolves groups of points far smaller than the whole, down to sides of 2^-40 of it. Sides and
+// centres are exact numbers, so that clusters are whole numbers of sides apart.
 #pragma once
 
 #include <array>
