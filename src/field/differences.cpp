@@ -9,11 +9,11 @@ namespace gaussdrift {
 
 namespace {
 
-// A linear function keeps 1/16 of its change on a sixteenth of its length, a jump at least 1/2: a point that lies
-// exactly on it may see half of it on either side.
+// On a sixteenth of its length a linear function has 1/16 of its change, a jump at least 1/2: a point exactly on the
+// jump may see half of it on either side.
 constexpr double kept_by_a_jump = 1. / 3;
 constexpr int halvings = 4;
-// Of |u|: changes that may be rounding, and are too small to matter.
+// Relative to |u|: smaller changes may be rounding and do not matter.
 constexpr double noise = 1e-11;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -1,4 +1,4 @@
-// Gradients of a velocity field at given points, from its values, and the places where it jumps, which have none.
+// Gradients of a velocity field at given points, from its values. Places where it jumps have none and are listed.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct Jump {
 };
 
 /// gradient[k][i][j] = d u_k / d x_i at the point j of x, by differences over `distance` to either side. A jump is not
-/// a slope: where a third of all change within +-distance happens on a sixteenth of that length, the slope is taken
+/// a slope. Where a third of the change within +-distance happens on a sixteenth of that length, the slope is taken
 /// beside it, and `jumps`, if given, gets the place. Values that are not finite are passed on.
 std::array<Columns, max_dimension> gradient_by_differences(const VelocityField& field, double t, Columns x,
                                                            int dimension, double distance,

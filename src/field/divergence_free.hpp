@@ -61,8 +61,8 @@ class GaussianSum {
   /// One component alone.
   Eigen::VectorXd component(GaussianMatrix matrix, int row, const fgtd::Points<d>& targets,
                             const fgtd::Derivative<d>& alpha = {}) const;
-  /// The divergence of D^alpha of the sum (`field` or `curl`), each of its terms from a derivative of its own; needs a
-  /// derivative more than these.
+  /// The divergence of D^alpha of the sum (`field` or `curl`), with a derivative of its own for each term. It needs one
+  /// derivative more.
   Divergence divergence(GaussianMatrix matrix, const fgtd::Points<d>& targets,
                         const fgtd::Derivative<d>& alpha = {}) const;
 

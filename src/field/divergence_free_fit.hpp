@@ -1,6 +1,7 @@
 // Coefficients of a divergence-free Gaussian field from scattered samples of velocity or vorticity: the linear system
 // (A + lambda a I) Gamma = samples, A_ij = matrix(x_i - x_j), a = the diagonal of A. A is symmetric and positive
-// definite for distinct points, but the wider the Gaussians the nearer to singular. method.md, section 9.
+// definite for distinct points, but the wider the Gaussians, the nearer A is to a singular matrix. method.md, section
+// 9.
 #pragma once
 
 #include <fgtd/fgtd.hpp>
@@ -12,7 +13,7 @@
 
 namespace gaussdrift {
 
-/// Gaussians that can hardly be told apart at the samples, or cancel: regularisation cures that.
+/// The Gaussians can hardly be told apart at the samples, or cancel. Regularisation cures that.
 class GaussiansTooWide : public InputError {
  public:
   using InputError::InputError;

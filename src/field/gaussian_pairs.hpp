@@ -1,5 +1,5 @@
-// Sums of matrix Gaussians pair by pair: the matrices of method.md, section 9 collapse to one exponential a pair. The
-// inner loop is compiled once for every instruction set, as those of fgtd are, and picked when the program runs.
+// Sums of matrix Gaussians pair by pair. The matrices of method.md, section 9 collapse to one exponential a pair. The
+// inner loop is compiled once for every instruction set, as those of fgtd, and picked when the program runs.
 #pragma once
 
 #include <cstddef>

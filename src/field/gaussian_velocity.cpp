@@ -75,8 +75,8 @@ Eigen::MatrixXd rows_of(const std::vector<double>& numbers, Index count) {
       .transpose();
 }
 
-// The promise of fgtd is about single Gaussians; what it must be for the field to keep its own, relative to its
-// largest.
+// The promise of fgtd is about single Gaussians. This is the tolerance with which the field keeps its own, relative to
+// its largest value.
 template <int d>
 double term_tolerance(GaussianMatrix matrix, const fgtd::Points<d>& points, const Eigen::MatrixXd& coefficients,
                       double sigma, double tolerance, int threads) {
@@ -121,7 +121,7 @@ GaussianFit fit_as_needed(const GaussianModelOptions& options, const fgtd::Point
     how.regularisation = tried;
     try {
       GaussianFit fit = fitted();
-      // A field that misses its samples is not what was asked for; smoothing that much is for the user to decide.
+      // A field that misses its samples is not what was asked for. So much smoothing is for the user to decide.
       constexpr double near_enough = 1e-2;
       if (tried == 0 || fit.misfit <= near_enough) return fit;
     } catch (const GaussiansTooWide& error) {
@@ -130,7 +130,7 @@ GaussianFit fit_as_needed(const GaussianModelOptions& options, const fgtd::Point
       if (tried == 0) throw;
     }
   }
-  // What was tried in vain is not recommended.
+  // Advice that was tried in vain is not given.
   why.resize(std::min(why.size(), why.find(". Lower width")));
   throw InputError(why +
                    ". A regularisation up to 1e-6 does not help. Lower width, or remove samples that lie very close "

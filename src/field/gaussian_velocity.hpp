@@ -14,7 +14,7 @@
 
 namespace gaussdrift {
 
-/// What the numbers beside the points are.
+/// The meaning of the numbers beside the points.
 enum class GaussianKind {
   velocity,           // samples of u; the field is S, fitted
   vorticity,          // samples of curl u; the field is the curl form, fitted
@@ -44,7 +44,7 @@ struct GaussianModelOptions {
   GaussianFitOptions fit = {};
 };
 
-/// A field that is ready to be evaluated: points, coefficients, and what is known of them. Plain data.
+/// A field that is ready to be evaluated: points, coefficients, and facts about them. Plain data.
 struct GaussianModel {
   int dimension = 2;
   GaussianMatrix matrix = GaussianMatrix::field;  // or curl

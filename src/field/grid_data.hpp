@@ -1,5 +1,5 @@
-// Numbers on a rectilinear grid at one or several times, and their interpolation. Plain data: who read it is of no
-// interest here.
+// Numbers on a rectilinear grid at one or several times, and their interpolation. Plain data, whoever read
+// it.
 #pragma once
 
 #include <array>

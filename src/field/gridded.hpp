@@ -9,8 +9,8 @@
 
 namespace gaussdrift {
 
-/// u = the first components of the data. Its divergence is that of the interpolating function: the divergence of the
-/// flow that the data stand for only to the order of the interpolation, less one.
+/// u = the first components of the data. Its divergence is that of the interpolating function. To the divergence of the
+/// flow behind the data it converges with one order less than the interpolation.
 class GriddedVelocity : public VelocityField {
  public:
   explicit GriddedVelocity(GridInterpolator grid) : grid_(std::move(grid)) {}

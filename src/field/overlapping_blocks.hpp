@@ -1,6 +1,6 @@
-// A preconditioner for the systems of fit_gaussians(): the matrix inverted exactly on small sets of neighbouring points
-// that overlap, and the results added up (additive Schwarz, [SBG96]). Gaussians a few spacings wide couple near points
-// strongly and far ones hardly, so this takes away what makes the system ill-conditioned.
+// A preconditioner for the systems of fit_gaussians(). It inverts the matrix exactly on small overlapping sets of
+// neighbouring points and adds the results up (additive Schwarz, [SBG96]). Gaussians a few spacings wide couple near
+// points strongly and far ones hardly, so this removes most of the bad condition.
 #pragma once
 
 #include <fgtd/fgtd.hpp>
@@ -17,8 +17,8 @@ class OverlappingBlocks {
  public:
   /// Up to so many unknowns are one block, and solve() is exact.
   static constexpr Eigen::Index dense_unknowns = 1000;
-  /// Else blocks of `core` points or fewer, each with the nearest points around it up to `block_points`. Larger blocks
-  /// save iterations and cost memory: 2 MB a block in two dimensions, 4 MB in three.
+  /// Otherwise blocks of up to `core` points, each with the nearest points around it up to `block_points`. Larger
+  /// blocks save iterations and cost memory: 2 MB a block in two dimensions, 4 MB in three.
   static constexpr std::size_t core = 80, block_points = 240;
 
   /// `shift` is added to the diagonal. Throws InputError if the factors would take more than memory_limit bytes.
@@ -29,11 +29,12 @@ class OverlappingBlocks {
   Eigen::VectorXd solve(const Eigen::VectorXd& x) const;
   bool is_exact() const { return blocks_.size() == 1; }
 
-  /// Of the worst block, 0 if that is not definite to rounding. The whole matrix is not better conditioned.
+  /// The reciprocal condition of the worst block, 0 if it is not definite to rounding. The whole matrix is not better.
   double reciprocal_condition() const;
 
-  /// How well samples follow from the others around them: the root mean square of the errors with which each, left out,
-  /// is predicted by a fit to the rest of its block, relative to that of the samples [Rip99]. At 24 blocks at most.
+  /// How well samples follow from the others around them. Each is left out and predicted by a fit to the rest of its
+  /// block; this is the root mean square of the errors, relative to that of the samples [Rip99]. At most 24 blocks are
+  /// used.
   double left_out_error(const Eigen::VectorXd& samples) const;
 
  private:

@@ -1,4 +1,4 @@
-// Scalar fields of place and time: rates that weights change by.
+// Scalar fields of place and time: rates at which weights change.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class ScalarField {
   virtual bool is_steady() const = 0;
   /// False if it or a derivative of it jumps somewhere.
   virtual bool is_smooth() const = 0;
-  /// What a value costs, roughly, in values of a formula with a sine or two.
+  /// The rough cost of a value, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
   /// Its formula.
   virtual std::string describe() const = 0;

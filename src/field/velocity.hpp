@@ -22,18 +22,18 @@ class VelocityField {
   virtual void add_divergence(double t, const PointsView& x, double* values) const = 0;
   /// True if u does not depend on t.
   virtual bool is_steady() const { return false; }
-  /// False if u or a derivative of it jumps somewhere: integrators of high order then step finely there.
+  /// False if u or a derivative of it jumps somewhere. Methods of high order take short steps there.
   virtual bool is_smooth() const { return true; }
   /// True if div u = 0 everywhere, by construction.
   virtual bool is_solenoidal() const { return false; }
-  /// Position at time `to` of what is at x at time `from`, from the closed form of the flow; nothing where none is
-  /// known.
+  /// The position at time `to` of a particle that is at x at time `from`, if the flow has a known closed
+  /// form.
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
-  /// True if calls for a few hundred points cost no more a point than one call for all of them.
+  /// True if a point costs no more in calls for a few hundred points than in one call for all.
   virtual bool evaluates_in_blocks() const { return true; }
   /// What a value costs, roughly, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
-  /// Why u is not finite at x, and what can be done, for a message; empty where the field does not know more than that.
+  /// Why u is not finite at x, and what can be done, for a message. Empty if the field knows no reason.
   virtual std::string why_not_finite(double /*t*/, const Vector& /*x*/) const { return ""; }
   /// One line for people: formula and what is known of it.
   virtual std::string describe() const = 0;
