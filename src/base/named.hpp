@@ -1,5 +1,5 @@
-// A named formula of a case file, such as a velocity field or a shape of density: what it is called, what it means and
-// which numbers it takes. The reader, its messages and docs/cases.md are driven by these facts.
+// A named formula of a case file, such as a velocity field or a shape of density: its name, its meaning and the numbers
+// that it takes. The reader, its messages and docs/cases.md are made from these facts.
 #pragma once
 
 #include <array>

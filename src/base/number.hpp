@@ -44,7 +44,7 @@ std::string told_apart(double number, Others... others) {
   return text;
 }
 
-/// x > 0 to some digits, never upwards: a limit that is written so still keeps to it. Rounding up to 1e-12 is mended.
+/// x > 0 with few digits, rounded down, so that a printed limit keeps to the limit. Rounding of up to 1e-12 is undone.
 inline double rounded_down(double x, int digits) {
   if (!(x > 0) || !std::isfinite(x)) return x;
   const double unit = std::pow(10, std::floor(std::log10(x)) - (digits - 1));

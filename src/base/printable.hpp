@@ -1,5 +1,5 @@
-// Text of others on its way to a person: what a file, a title or a name holds must not steer a terminal, forge a line
-// or fill a screen.
+// Makes text from files and names safe to print: it must not steer a terminal, forge a line or fill a
+// screen.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ std::string printable_lines(std::string_view text);
 /// The beginning of `text`: at most so many bytes, not cut within a character, and then "...".
 std::string shortened(std::string_view text, std::size_t longest);
 
-/// As a message quotes what stands in a file: printable, in quotation marks, its beginning alone if it is long.
+/// Text of a file as a message quotes it: printable, in quotation marks, shortened if it is long.
 std::string in_quotes(std::string_view text, std::size_t longest = 24);
 
 }  // namespace gaussdrift::base

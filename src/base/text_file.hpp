@@ -8,7 +8,7 @@
 
 namespace gaussdrift::base {
 
-/// What comes through a pipe has no size to look at beforehand; more than this is refused.
+/// The size of what comes through a pipe is not known beforehand; more than this is refused.
 constexpr std::size_t most_piped = std::size_t{1} << 30;
 
 /// Reads the file to its end. `kind` says what it should be: "a case file". Pipes are read (`<(...)`, /dev/stdin).

@@ -1,4 +1,4 @@
-// Messages of the libraries fgtd and farfield, which speak to programmers, as the program tells them.
+// Turns messages of the libraries fgtd and farfield, which are for programmers, into words for users of the program.
 #pragma once
 
 #include <initializer_list>

@@ -1,5 +1,5 @@
-// How much weight can lie near one place: what turns the promise of fgtd, which is about single Gaussians, into one
-// about their sum.
+// How much weight can lie near one place. It turns the promise of fgtd about single Gaussians into one about their
+// sum.
 #pragma once
 
 #include "base/points.hpp"

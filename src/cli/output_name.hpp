@@ -1,4 +1,4 @@
-// Names for results whose ending asks for a kind of file that is not written: what is possible instead.
+// Refuses names of results whose ending asks for a kind of file that is not written, and says what is possible.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ inline std::string known_ending(const std::filesystem::path& name) {
   return std::find(known.begin(), known.end(), ending) != known.end() ? ending : "";
 }
 
-/// Results fill a folder; a folder that is there already may be called as it likes.
+/// For results that fill a folder. A folder that exists may have any name.
 inline void check_folder_name(const std::filesystem::path& out, std::string_view what) {
   std::error_code error;
   if (known_ending(out).empty() || std::filesystem::is_directory(out, error)) return;
@@ -34,7 +34,7 @@ inline void check_folder_name(const std::filesystem::path& out, std::string_view
                                      std::filesystem::path(out).replace_extension().string()));
 }
 
-/// Values are written as a table.
+/// For values that are written as a table.
 inline void check_table_name(const std::filesystem::path& out) {
   const std::string ending = known_ending(out);
   if (ending.empty() || ending == ".csv" || ending == ".txt") return;

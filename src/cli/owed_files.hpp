@@ -1,5 +1,5 @@
-// Files that a verb still owes when its numbers are there. One that cannot be written costs none of the others, nor
-// what is said at the end; the exit code tells.
+// Files that a verb writes once its numbers are known. If one cannot be written, the others and the closing lines still
+// are, and the exit code tells.
 #pragma once
 
 #include <string>

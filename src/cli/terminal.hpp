@@ -1,5 +1,5 @@
-// What the program says: results on standard output, all else on standard error. A terminal, pipe or disk that takes
-// no more text costs the text and nothing else; a verb that is asked for results notices it at its end.
+// Prints results on standard output and all else on standard error. If a terminal, pipe or disk takes no more text,
+// only the text is lost; a verb that is asked for results notices it at its end.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,14 +12,14 @@
 
 namespace gaussdrift::cli {
 
-/// Before any file is opened: a stream that was closed at the start must not share its number with a file of the run,
-/// and a reader that went away must not end it.
+/// Call it before any file is opened: a stream that was closed at the start must not share its number with a file of
+/// the run, and a reader that goes away must not end the run.
 void prepare_streams();
 
-/// As it is, for what steers the terminal on purpose. Never throws over a stream that is full or closed.
+/// Prints the text as it is, to steer the terminal on purpose. It does not throw if the stream is full or closed.
 void put(std::FILE* stream, std::string_view text);
 
-/// Printable: what cases, tables and names of files bring along steers no terminal.
+/// Prints the text made safe: nothing from cases, tables or file names steers the terminal.
 
 template <class... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {

@@ -10,10 +10,10 @@ class ParseError;
 
 namespace gaussdrift::cli {
 
-/// A verb that there is not: what was probably meant.
+/// The answer to an unknown verb: the one that was probably meant.
 std::string unknown_verb(const CLI::App& app, const std::string& word);
 
-/// Options that the verb has not, words that are one too many; or else what the parser says.
+/// The answer to options that the verb does not have and to needless words; else the parser's message.
 std::string explained(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace gaussdrift::cli

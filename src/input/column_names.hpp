@@ -1,5 +1,5 @@
-// What the name of a column says about it. A table of points is read by position, and a column that only numbers its
-// lines would be taken for a coordinate: a wrong sum without a word.
+// What the name of a column says about it. A table of points is read by position. A column that only numbers the lines
+// would be taken for a coordinate, and the sum would be wrong without a warning.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ bool names_an_axis(std::string_view name);
 /// id, index, time, ...: what tables have beside coordinates.
 bool names_no_coordinate(std::string_view name);
 
-/// The columns that would be coordinates, each with its numbers, [row][column]: a sentence for each that may be none
-/// though its name does not say so: it counts the lines, or stands beside axes with a name of another kind.
+/// Looks at the columns that would be coordinates, with their numbers [row][column]. One sentence for each that may be
+/// none although its name does not say so: it counts the lines, or stands beside axes with a name of another kind.
 std::vector<std::string> doubtful_coordinates(const std::vector<std::string>& names,
                                               const std::vector<double>& numbers);
 

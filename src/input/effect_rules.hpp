@@ -1,5 +1,5 @@
-// Which effects go together: one list, from which a case is refused, the table in docs/cases.md is written, and
-// `explain effects` answers.
+// Which effects go together. One list refuses cases, makes the table in docs/cases.md, and answers `explain
+// effects`.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Files that are given as tables and are none: what they are, and how a table is made of them.
+// Recognises files that are given as tables but are not, and says how to make a table of them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Particles at the start: one on every lattice point that carries enough of something to matter.
+// Particles at the start: one on every lattice point whose density or charge is large enough.
 #pragma once
 
 #include <functional>

@@ -56,7 +56,7 @@ std::string way_to_read(const std::filesystem::path& file);
 /// Of the library that runs: "9.1.0".
 std::string vtk_version();
 
-/// From now on VTK's own log is silent: what is wrong is said by errors.
+/// Silences VTK's own log: what is wrong is told by exceptions.
 void silence_vtk();
 
 }  // namespace gaussdrift::read

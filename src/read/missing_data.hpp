@@ -1,5 +1,5 @@
-// Data that are missing: land in a wind of the sea, clouds before a satellite. A file marks them by numbers that are no
-// winds (NaN, 1e20, -9999, ...). Taken as numbers they would carry particles out of the world.
+// Missing data: land in a wind over the sea, clouds before a satellite. A file marks them by numbers that cannot be
+// winds (NaN, 1e20, -9999, ...). Taken as values they would carry particles out of the world.
 #pragma once
 
 #include <array>
@@ -35,9 +35,9 @@ struct Marks {
   std::string reason(double value) const;
 };
 
-/// Marks that occur in the data: `named` ones, those of common use (those below 1e19 only where they are at least four
-/// times the largest of the rest), and, unless the data decay over many powers of ten by nature, what is at least a
-/// million and thousands of times the largest of the rest.
+/// Marks that occur in the data: `named` ones, and those of common use (below 1e19 only where they are at least four
+/// times the largest of the rest). A value of at least a million that is thousands of times the largest of the rest is
+/// a mark too, unless the data decay over many powers of ten by nature.
 Marks recognise_marks(const GridData& data, std::vector<double> named, bool decays);
 
 /// Does what `missing` says with points that are hidden, have a mark, or are not finite. Throws GridFileError for

@@ -1,5 +1,5 @@
-// What the XML of a .vti or .vtr says of the grid, checked: every attribute is read whole, all pieces have the same
-// arrays, and together they cover the extent.
+// Reads and checks the XML of a .vti or .vtr: every attribute is read whole, all pieces have the same arrays, and
+// together they cover the extent.
 #pragma once
 
 #include <array>

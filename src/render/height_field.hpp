@@ -9,7 +9,7 @@
 
 namespace gaussdrift::render {
 
-/// What colours alone do not tell of a density.
+/// Numbers of a density that colours alone do not show.
 struct ValueFacts {
   double minimum = 0, maximum = 0;  // of its finite values
   std::size_t not_finite = 0;       // values that are NaN or infinite

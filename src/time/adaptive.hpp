@@ -1,5 +1,5 @@
-// Solutions to nearly full precision: the explicit Runge-Kutta method of order 8 of Dormand and Prince with a step that
-// follows its error estimates of orders 5 and 3 [HNW93, II.5 and II.10]. method.md, section 7.
+// Solutions to nearly full precision by the explicit Runge-Kutta method of order 8 of Dormand and Prince. Error
+// estimates of orders 5 and 3 choose its steps [HNW93, II.5 and II.10]. method.md, section 7.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,7 @@ struct AdaptiveResult {
 using BlockRate = std::function<void(double t, const double* y, double* k)>;
 
 /// Carries `points` independent points with components.size() numbers each, state[c * points + i], from `begin` to
-/// `end` (either may be the later one). All take the same steps, short enough for the one that needs the shortest.
+/// `end` (either may be the later one). All take the same steps: the shortest that any of them needs.
 AdaptiveResult integrate_adaptively(const BlockRate& rate, double begin, double end, std::size_t points,
                                     const AdaptiveOptions& options, double* state);
 

@@ -1,4 +1,4 @@
-// When steps are taken: full steps of tau, the last one before a landing time shortened to meet it exactly.
+// The times of steps: full steps of tau, the last of which is shortened to end exactly at the landing time.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Files that are there whole or not at all: written to "<name>.part", then renamed.
+// Writes files that exist whole or not at all: to "<name>.part" first, which is then renamed.
 #pragma once
 
 #include <filesystem>

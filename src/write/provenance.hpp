@@ -1,4 +1,4 @@
-// provenance.json: with what a run was made.
+// provenance.json: the program, machine and data that a run was made with.
 #pragma once
 
 #include <filesystem>

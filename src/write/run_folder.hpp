@@ -1,4 +1,4 @@
-// The folder that a run leaves: made, checked and emptied of an older run before anything is computed.
+// The folder of a run. It is made, checked and emptied of an older run before anything is computed.
 #pragma once
 
 #include <filesystem>
