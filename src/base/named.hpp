@@ -49,7 +49,7 @@ struct NamedFormula {
   std::string_view formula;
   int least_dimension = 2, most_dimension = 3;
   std::vector<NamedParameter> parameters = {};
-  /// What is wrong with complete arguments that are each in range, for people; empty if nothing.
+  /// The problem with arguments that are complete and each in range, as text for the user; empty if there is none.
   std::string (*problem)(int dimension, const Arguments& arguments) = nullptr;
 };
 

@@ -43,7 +43,7 @@ void write_guide(const std::filesystem::path& file) {
   write::write_text(file, guide);
 }
 
-/// What is possible in place of the word, if it is known from other programs; else what was probably meant.
+/// The answer to the word if it is known from other programs; else the word that was probably meant.
 std::string not_known(const std::string& word) {
   const std::string text =
       fmt::format("{} is no key, table, field, shape, function or symbol", base::in_quotes(word, 60));

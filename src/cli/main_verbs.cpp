@@ -24,7 +24,7 @@ namespace {
 
 constexpr int exit_code(ExitCode code) { return static_cast<int>(code); }
 
-/// As a shell reads it again: words with other than the plain characters stand in single quotes.
+/// The command line in a form that a shell reads again: words with unusual characters stand in single quotes.
 std::string quoted(const std::string& word) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;

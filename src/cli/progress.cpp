@@ -45,7 +45,7 @@ bool rewrites_lines() {
          columns() >= least_columns;
 }
 
-/// What fits into so many columns, every character of UTF-8 whole.
+/// The beginning of a text that fits into this many columns, with whole UTF-8 characters.
 std::string_view cut(std::string_view text, std::size_t most) {
   std::size_t shown = 0;
   for (std::size_t i = 0; i < text.size(); ++i)

@@ -49,7 +49,7 @@ Case read(const CaseOptions& options) {
   return std::move(result.scene);
 }
 
-/// The case as it is, or with the settings that its accuracy.target asks for, which are told.
+/// The case as it is, or with settings for its accuracy.target, which the user is told.
 Case settled(Case scene, const CaseOptions& options) {
   if (!scene.accuracy.target) return scene;
   study::AccuracyChoice choice;
@@ -120,7 +120,7 @@ void add_observers(Simulation& simulation, const Case& scene, const fs::path& fo
   }
 }
 
-/// What the seconds went into, largest first, down to a hundredth of all: "charge 460.21, density 30.02".
+/// The stages that took the seconds, the largest first, down to a hundredth of all: "charge 460.21, density 30.02".
 std::string seconds_text(const RunSummary& summary) {
   base::StageTimes parts;
   double told = 0;
@@ -291,7 +291,7 @@ void add_accuracy_table(const Case& scene, const RunSummary& summary, const stud
   more["accuracy_table"] = table;
 }
 
-/// What the results do not show by themselves; for the terminal, the page and the log.
+/// Warnings: facts that the results do not show by themselves. For the terminal, the page and the log.
 std::vector<std::string> warnings_of(const Case& scene, const RunSummary& summary) {
   std::vector<std::string> warnings;
   if (summary.transform_achievable > scene.evaluate.tolerance)
@@ -328,8 +328,8 @@ bool budgeted(const Case& scene) {
   return scene.accuracy.budget != AccuracySpec::Budget::none && scene.reference.kind != ReferenceSpec::Kind::none;
 }
 
-/// What is found out about a finished run beyond its numbers: where its error comes from, what digits cost. The run
-/// does not depend on it, so what fails is a warning.
+/// Finds out more about a finished run: where its error comes from, and what digits cost. The run does not depend on
+/// it, so a failure is a warning.
 std::optional<study::Budget> look_back(const Case& scene, RunSummary& summary, const study::LastFrame::Kept& last,
                                        nlohmann::ordered_json& more, std::vector<std::string>& warnings, int threads) {
   const auto stage = [&](const char* name, const auto& work) {

@@ -127,7 +127,7 @@ void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd
   }
 }
 
-/// What is the same for every kernel; returns the seconds of reading.
+/// Reads what every kernel needs; returns the seconds that it took.
 double read_points(const SumOptions& options, study::PointsRequest& request) {
   request.tolerance = options.tolerance;
   request.threads = options.threads;
@@ -139,7 +139,7 @@ double read_points(const SumOptions& options, study::PointsRequest& request) {
   request.tell = [](const std::string& what) { note("{}\n", what); };
   if (!options.grid.empty()) request.grid = study::parse_grid(options.grid);
   const input::CoordinateNames coordinates = study::parse_columns(options.columns);
-  // Of what a machine or a limit has, nearly all: the rest is the program.
+  // Nearly all of the memory of the machine or of a limit; the rest is for the program.
   request.memory_limit = static_cast<std::size_t>(
       std::min(static_cast<double>(request.memory_limit), 0.9 * study::memory_of_this_machine()));
   const base::Stopwatch reading;

@@ -32,7 +32,7 @@ void note(fmt::format_string<Values...> format, Values&&... values) {
   put(stderr, base::printable_lines(fmt::format(format, std::forward<Values>(values)...)));
 }
 
-/// Whether standard output has taken all that was said, now that nothing more comes.
+/// Call it at the end: true if standard output has taken all text.
 enum class Delivery { all, lost, reader_gone };
 Delivery delivery();
 

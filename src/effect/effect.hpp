@@ -53,7 +53,7 @@ class Effect {
 
   /// The velocity that it adds to the flow; null: none.
   virtual const Drift* drift() const { return nullptr; }
-  /// What it wants integrated along the paths; null: nothing.
+  /// The quantity to integrate along the paths; null: none.
   virtual const PathIntegral* path_integral() const { return nullptr; }
   /// Applies integral[j], gathered since the last call; the caller sets it back to 0 afterwards.
   virtual void settle(Particles& /*particles*/, const double* /*integral*/, double /*time*/) {}

@@ -27,7 +27,7 @@ class PairVelocity {
  private:
   double tolerance_;
   int threads_;
-  // Of the last evaluation: plans share their tables as long as one of them lives.
+  // The plan of the last evaluation. It is kept because plans share their tables as long as one of them lives.
   mutable std::unique_ptr<farfield::Plan<2>> plane_;
   mutable std::unique_ptr<farfield::Plan<3>> space_;
   mutable farfield::Choice choice_{};

@@ -1,5 +1,6 @@
-// What accumulates along the path of a particle, I_j' = f(X_j(t), t): exponents of weights and of volumes. The stepper
-// integrates it with the very stages of the path, so it has the path's order and costs one evaluation of f a stage.
+// A quantity that accumulates along the path of a particle, I_j' = f(X_j(t), t): exponents of weights and of volumes.
+// The stepper integrates it with the stages of the path, so it has the path's order and costs one evaluation of f a
+// stage.
 #pragma once
 
 #include <string>

@@ -210,7 +210,7 @@ void Remesh::remesh(Particles& particles) {
     mass += value;
     negative += std::max(0.0, -value);
   });
-  // What was left out, and rounding, goes to the others in proportion to their size.
+  // The weight of nodes that are left out, and the rounding, go to the other nodes in proportion to their size.
   for (double& alpha : fresh.alpha) alpha += (before - mass) * std::abs(alpha) / (total - dropped);
   if (!particles.volume.empty()) fresh.volume.assign(fresh.size(), nodes_.cell());
   fresh.path.resize(particles.path.size());

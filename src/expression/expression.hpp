@@ -55,10 +55,10 @@ class Expression {
   /// rough_spots() says what is taken where there is no derivative. Neither result may be one of the arguments.
   void differentiate(const double* const* arguments, std::size_t count, const std::vector<std::size_t>& variables,
                      double* values, double* const* derivatives) const;
-  /// What the expression has that is not differentiable everywhere, each once.
+  /// The functions and operators of the expression that are not differentiable everywhere, each once.
   std::vector<RoughSpot> rough_spots() const;
 
-  /// What a value costs, roughly, in values of a formula with a sine or two (some 40 ns of one core).
+  /// The rough cost of a value, in values of a formula with a sine or two (some 40 ns of one core).
   double cost() const;
 
   const std::string& text() const;

@@ -1,6 +1,6 @@
-// What an expression may look like, checked before muParser sees it: muParser names neither the place nor the remedy
-// reliably, and accepts assignments, lists, strings and chained comparisons that nobody means.
-// Knows nothing about values and precedence.
+// Checks the grammar of an expression before muParser sees it: muParser names neither the place nor the remedy
+// reliably, and accepts assignments, lists, strings and chained comparisons that nobody means. Knows nothing about
+// values and precedence.
 #pragma once
 
 #include <string>

@@ -38,7 +38,7 @@ struct Box {
     if (low[l] > extent) return 2 * low[l];
     return high[l] < -extent ? 2 * high[l] : 0;
   }
-  /// Of the smallest power of 2 above the extent; 0 for one point.
+  /// The exponent of the smallest power of 2 above the extent; 0 for one point.
   int exponent() const {
     double extent = 0;
     for (int l = 0; l < 3; ++l)

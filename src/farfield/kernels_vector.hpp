@@ -37,7 +37,7 @@ FARFIELD_INLINE bool any(Mask mask) {
   return all != 0;
 }
 
-/// Of a comparison's result.
+/// Is any lane of a comparison's result set?
 FARFIELD_INLINE bool any_true(Signed mask) {
 #if FARFIELD_LANES == 8 && defined(__AVX512F__)
   return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) != 0;

@@ -50,7 +50,7 @@ double distance(const Point<d>& x, const Point<d>& y, Point<d>& difference) {
   return std::sqrt(squared);
 }
 
-/// Of potential and gradient of g at distance r.
+/// Errors of potential and gradient of g at distance r.
 template <int d>
 double relative_error(double potential, const Point<d>& gradient, const Point<d>& difference, double r) {
   const double exact = d == 3 ? 1 / r : std::log(r), slope = d == 3 ? -1 / (r * r * r) : 1 / (r * r);

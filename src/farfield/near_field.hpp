@@ -6,7 +6,7 @@
 
 namespace farfield::detail {
 
-/// Of pairs of points, and of substitute charges with points.
+/// The precision of pairs of points, and of substitute charges with points.
 struct Precisions {
   Precision points, substitutes;
   double point_beyond;  // of PairsJob

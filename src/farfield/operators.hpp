@@ -15,11 +15,11 @@ namespace farfield::detail {
 /// promise.
 template <int d>
 struct Degrees {
-  /// Of two clusters, and where one side alone is interpolated; at least smallest_error().
+  /// The tolerable error, for two clusters and where one side alone is interpolated; at least smallest_error().
   Degrees(double tolerable, double tolerable_one_sided);
   static double smallest_error();
 
-  /// Of clusters |k_l| apart; 0 if they touch.
+  /// The degree for clusters |k_l| apart; 0 if they touch.
   int between(const int* k) const { return at_offset[octant_number<d>(k)]; }
 
   double error = 0;            // the largest of two clusters, at most the tolerable

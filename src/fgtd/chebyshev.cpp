@@ -160,7 +160,8 @@ struct BoundingBox {
   }
 };
 
-/// Of points [count][d], count > 0. Several points side by side, so that no comparison waits for the one before.
+/// The same for points [count][d], count > 0. Several points are done side by side, so that no comparison waits for the
+/// one before.
 template <int d>
 BoundingBox<d> bounding_box(const double* points, std::size_t count, int threads) {
   constexpr std::size_t together = 4, piece_points = 1 << 15;

@@ -17,7 +17,7 @@ constexpr double hermite_value = 2.2e-9;    // one value of a table of Hermite f
 constexpr double point_sort = 53e-9;        // one source or target brought to its box
 constexpr double grid_value = 3.8e-9;       // one value of the result: fresh memory
 
-// What a search for parameters takes; it is left out where the best method so far is faster than that.
+// The seconds of a search for parameters. The search is left out if the best method so far is faster than that.
 constexpr double cells_search = 0.03e-3;
 constexpr double outer_search = 0.03e-3;
 constexpr double spread_search = 0.1e-3;

@@ -82,7 +82,7 @@ double extrapolate(double seen, double sampled, double points) {
   return std::min(points, -high * std::expm1(-points / high));
 }
 
-/// By a look at a part of the sample.
+/// Looks at a part of the sample.
 template <int d>
 double sources_within(const Situation<d>& at, double distance) {
   const std::size_t step = std::max<std::size_t>(1, at.sample_count / 1024),

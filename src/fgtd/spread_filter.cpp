@@ -114,8 +114,8 @@ void SpreadFilter::window_at(double theta, double* values) const {
   }
 }
 
-/// By the trapezoidal rule, exact to rounding: the integrands are smooth, and the images of f that the rule adds lie
-/// beyond the range where it is used.
+/// Integrates by the trapezoidal rule. It is exact to rounding, because the integrands are smooth and the images of f
+/// that the rule adds lie outside the range where f is used.
 void SpreadFilter::make_filters() {
   const double top = bessel_i0(shape_), h = spacing_;
   const auto transform = [&](double q) {

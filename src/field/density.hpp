@@ -18,7 +18,7 @@ class InitialDensity {
   virtual ~InitialDensity() = default;
   /// values[i] += rho_0(x_i). Values that are not finite are passed on; the caller reports them with their place.
   virtual void add(const PointsView& x, double* values) const = 0;
-  /// What a value costs, roughly, in values of a formula with a sine or two.
+  /// The rough cost of a value, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
   /// One line for people: formula, smoothness, and the mass where it is known.
   virtual std::string describe() const = 0;

@@ -70,7 +70,7 @@ class GaussianSystem : public Eigen::EigenBase<GaussianSystem<d>> {
   }
   double shift() const { return shift_; }
 
-  /// Of A, every entry: Phi(0) = 2 sigma (d - 1) I; -Laplacian phi(0) = 4 sigma in two dimensions.
+  /// The diagonal of A, every entry: Phi(0) = 2 sigma (d - 1) I; -Laplacian phi(0) = 4 sigma in two dimensions.
   static double diagonal(GaussianMatrix matrix, double sigma) {
     return matrix == GaussianMatrix::field ? 2 * sigma * (d - 1) : 4 * sigma;
   }

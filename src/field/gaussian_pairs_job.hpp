@@ -1,4 +1,4 @@
-// What the kernels of sum_gaussian_pairs() are given: a group of targets, padded by repeating one of them.
+// The arguments of the kernels of sum_gaussian_pairs(): a group of targets, padded by repeating one of them.
 #pragma once
 
 #include <cstddef>

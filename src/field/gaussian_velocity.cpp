@@ -130,7 +130,7 @@ GaussianFit fit_as_needed(const GaussianModelOptions& options, const fgtd::Point
       if (tried == 0) throw;
     }
   }
-  // Advice that was tried in vain is not given.
+  // The end of the message is cut off: it recommends what was tried in vain.
   why.resize(std::min(why.size(), why.find(". Lower width")));
   throw InputError(why +
                    ". A regularisation up to 1e-6 does not help. Lower width, or remove samples that lie very close "

@@ -17,7 +17,7 @@ std::size_t character_count(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return !continues_character(c); }));
 }
 
-/// Of a message or note: names in it may be as long as the file.
+/// The longest message or note; names in it may be as long as the file.
 std::string told(const std::string& text) {
   constexpr std::size_t longest = 2000;
   return base::printable(base::shortened(text, longest));

@@ -119,7 +119,7 @@ std::string plain_description(const toml::parse_error& error) {
   return fmt::format("cannot read this {}", description.substr(opening.size()));
 }
 
-/// What stands after the "=" of an override: a TOML value, or else bare words taken as a string.
+/// The text after the "=" of an override: a TOML value, or else bare words, which are taken as a string.
 std::optional<Value> override_value(const std::string& text, const OverrideLocator& locator, Diagnostics& diagnostics) {
   try {
     const toml::table parsed = toml::parse("v = " + text + "\n");

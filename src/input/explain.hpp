@@ -1,5 +1,5 @@
-// What a word of a case file means: a key, a table, a named field or shape, a function, a value of a choice, or a
-// symbol of the thesis. All of it is told from the registry.
+// Explains a word of a case file: a key, a table, a named field or shape, a function, a value of a choice, or a symbol
+// of the thesis. All of it is told from the registry.
 #pragma once
 
 #include <optional>

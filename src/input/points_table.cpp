@@ -42,7 +42,7 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 bool is_number(std::string_view text) { return read_cell(text).value.has_value(); }
 
-/// What stands between the values of a line without commas; empty for one value.
+/// The separator of a line without commas; empty if the line has one value.
 std::string_view separator_of(std::string_view line) {
   const std::string_view inner = trimmed(line);
   if (inner.find(';') != std::string_view::npos) return "semicolons";
@@ -221,7 +221,7 @@ class Parser {
     names_.emplace_back(name);
   }
 
-  /// Of --columns: all there?
+  /// Refuses names of --columns that the table does not have.
   void check_wanted() const {
     for (const std::string& wanted : wanted_) {
       if (contains(names_, wanted)) continue;

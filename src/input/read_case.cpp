@@ -220,7 +220,7 @@ class Reader {
     return fmt::format("; did you mean {}?", is_table ? fmt::format("[{}]", *near) : fmt::format("\"{}\"", *near));
   }
 
-  /// What is possible in place of a word that other programs have, or else the note.
+  /// The answer to a word that is known from other programs, or else the note.
   static std::string answer_to(const std::string& name, const std::string& note) {
     const ForeignKey* foreign = find_foreign_key(name);
     return foreign ? std::string(foreign->answer) : note;

@@ -71,7 +71,7 @@ const Key& find_key(std::string_view table, std::string_view name, std::string_v
 const Table& find_table(std::string_view name);
 /// Each once, in the order of the registry.
 std::vector<std::string> key_names(std::string_view table);
-/// Those that go with a kind and the value named there.
+/// The keys that go with a kind and the value named there.
 std::vector<std::string> key_names(std::string_view table, std::string_view kind, std::string_view value);
 std::vector<std::string> table_names();
 
@@ -80,7 +80,7 @@ std::string type_text(const Key& key);
 /// "at least 2", "greater than 0", "at least 1e-14 and less than 1"; empty without ends.
 std::string range_text(const Range& range);
 
-/// Of a meaning, where its first sentence is enough: in lists of keys and under errors.
+/// The first sentence of a meaning, for lists of keys and under errors.
 std::string_view first_sentence(std::string_view meaning);
 
 /// The tables of keys and of functions, as docs/cases.md shows them.

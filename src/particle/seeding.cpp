@@ -51,7 +51,7 @@ Line weigh_line(const Lattice& lattice, std::size_t number, const std::vector<Ca
   return line;
 }
 
-// What a line carries; parts are joined in the order of lines.
+// The particles of one line; lines are joined in their order.
 struct Part {
   Particles particles;
   SeedReport report;

@@ -19,7 +19,7 @@ struct Carried {
   DensityFunction density;
 };
 
-/// What was left out, of one of the things carried.
+/// The points without a particle, for one of the things carried.
 struct LeftOut {
   double all = 0;       // sum of |weights| on all lattice points
   double left_out = 0;  // of those without a particle

@@ -60,7 +60,7 @@ std::string in_quotes(const std::vector<std::string>& names) {
   return fmt::format("[\"{}\"]", fmt::join(names, "\", \""));
 }
 
-/// What could be written instead.
+/// Suggests what could be written instead.
 std::string array_remedy(const std::vector<ArrayInfo>& arrays, const GridRequest& request) {
   for (const ArrayInfo& array : arrays)
     if (array.components >= request.least_components && array.components <= request.most_components)
@@ -71,7 +71,7 @@ std::string array_remedy(const std::vector<ArrayInfo>& arrays, const GridRequest
   return "";
 }
 
-/// Those that are asked for; complains if they are not there or do not fit.
+/// The arrays that are asked for. Throws if they do not exist or do not fit.
 std::vector<ArrayInfo> chosen(const VtkGrid& grid, const std::filesystem::path& file, const GridRequest& request) {
   const std::vector<ArrayInfo>& arrays = grid.arrays();
   std::vector<std::string> shown;

@@ -1,5 +1,5 @@
-// Data on grids from ParaView files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of them).
-// What a file holds is vtk_grid.hpp's matter; here it becomes numbers on axes that ascend.
+// Data on grids from ParaView files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of them). vtk_grid.hpp
+// reads the files; here their contents become numbers on ascending axes.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string&
 /// What can be done with a file that has this ending ("nc", ".png"); empty where nothing is known.
 std::string way_to_read(const std::filesystem::path& file);
 
-/// Of the library that runs: "9.1.0".
+/// The version of the library that runs: "9.1.0".
 std::string vtk_version();
 
 /// Silences VTK's own log: what is wrong is told by exceptions.

@@ -56,7 +56,7 @@ class Complaints {
   bool any_ = false;
 };
 
-/// What VTK calls the type of a DataArray.
+/// VTK's name for the type of a DataArray.
 std::optional<int> word_type(std::string_view type) {
   static constexpr std::pair<std::string_view, int> types[] = {
       {"Float32", VTK_FLOAT},    {"Float64", VTK_DOUBLE},     {"Int8", VTK_TYPE_INT8},   {"UInt8", VTK_TYPE_UINT8},
@@ -67,7 +67,7 @@ std::optional<int> word_type(std::string_view type) {
   return std::nullopt;
 }
 
-/// What the checks add to VTK's reader. Errors must not fly through VTK: they are kept.
+/// The checks that are added to VTK's reader. Exceptions must not pass through VTK, so errors are kept.
 class Checks {
  public:
   const std::filesystem::path* file = nullptr;
@@ -134,8 +134,8 @@ class CheckedReader : public Base, public Checks {
     });
   }
 
-  // Of one piece. VTK takes as many numbers as it needs and says nothing of those that are left: then the extent is
-  // wrong, or one of them has a comma.
+  // Checks the numbers of one piece. VTK takes as many as it needs and does not report those that are left. Then the
+  // extent is wrong, or a number has a comma.
   int ReadPieceData() override {
     if (!Base::ReadPieceData()) return 0;
     return kept([&] {
@@ -275,7 +275,7 @@ struct VtkGrid::Parts {
     return array;
   }
 
-  /// Of a field array with one number; NaN where there is none.
+  /// The number of a field array that has one; NaN if there is no such array.
   double field_number(const std::string& name) const {
     vtkDataArray* array = data->GetFieldData()->GetArray(name.c_str());
     return array && array->GetNumberOfTuples() > 0 ? array->GetComponent(0, 0)

@@ -34,7 +34,7 @@ std::string why_not_known(CheckSpec::Quantity what, const FrameNumbers& numbers)
   return numbers.error ? "it is not a number" : "the run was compared with nothing";
 }
 
-// How far a value lies beyond the limits: positive if it does. One that is no number is beyond all.
+// How far a value lies beyond the limits; positive if it does. NaN lies beyond all limits.
 double excess(const CheckSpec& check, double value) {
   if (std::isnan(value)) return std::numeric_limits<double>::infinity();
   double beyond = -std::numeric_limits<double>::infinity();

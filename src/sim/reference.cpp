@@ -178,7 +178,7 @@ class Characteristics : public Reference {
     report.untraced += count;
   }
 
-  // By fixed steps: points do not see each other, so what is lost is lost alone.
+  // Traces by fixed steps. Points do not see each other, so a lost one does not affect the others.
   template <class Rate>
   void walk(const Rate& rate, std::vector<double>& state, std::size_t count, double from,
             ReferenceReport& report) const {
@@ -362,7 +362,7 @@ GridSample sample_of_grid(const Lattice& lattice, const std::vector<double>& rho
   for (std::size_t h = 0; h < 2; ++h) {
     const auto& points = halves[h];
     const std::size_t other = halves[1 - h].size();
-    // What one half has no use for goes to the other.
+    // If one half needs fewer points than planned, the other gets them.
     const std::size_t wanted = std::min(points.size(), std::max(count / 2, count - std::min(count, other)));
     for (std::size_t i = 0; i < wanted; ++i) {
       const auto at = static_cast<std::size_t>((static_cast<double>(i) + 0.5) / static_cast<double>(wanted) *

@@ -193,7 +193,7 @@ Affordable affordable_paths(const Case& description, const Scene& scene, double 
     const double bound = allowed / (8 * rate * static_cast<double>(tried * stages));
     const auto most = static_cast<std::size_t>(std::clamp(bound, 16.0, static_cast<double>(usual)));
     std::vector<std::size_t> points;
-    // By the golden ratio: an even stride may meet one column of the grid alone.
+    // Points are chosen by the golden ratio, because an even stride may meet only one column of the grid.
     for (std::size_t i = 0; i < tried; ++i) {
       const double along = std::fmod((static_cast<double>(i) + 0.5) * std::numbers::phi, 1.0);
       points.push_back(std::min(whole - 1, static_cast<std::size_t>(along * static_cast<double>(whole))));

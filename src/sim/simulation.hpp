@@ -81,7 +81,7 @@ struct Affordable {
 /// as long as those of the case. The answer comes from following some paths, which takes at most a quarter of the work.
 Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads);
 
-/// What of an output is compared with the reference.
+/// The part of an output that is compared with the reference.
 struct Comparison {
   std::size_t points = 0;  // of the grid; 0: none, for the reason `left_out`
   Following following{};

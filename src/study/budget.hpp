@@ -37,7 +37,7 @@ struct Budget {
 /// Why a case has no budget: effects that move weight between particles, ...; empty if it has one.
 std::string budget_not_covered(const Case& description);
 
-/// What may be spent on it.
+/// How much work may be spent on it.
 enum class Effort {
   whatever,      // it takes
   share_of_run,  // measured: 9 % of the work of the run, predicted: 5 %, or a tenth of a second; else not covered

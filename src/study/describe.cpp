@@ -116,7 +116,7 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
   result.divergence_noise = 1e3 * std::numeric_limits<double>::epsilon() * result.largest_speed / scene.core_radius;
 }
 
-/// What fits into the work of a few steps.
+/// The number of particles that fits into the work of a few steps.
 std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_t particles) {
   const time::Tableau& tableau = time::find_tableau(spec.time.method);
   const double stages = tableau.stages;
@@ -124,7 +124,7 @@ std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_
   one_step.time.step = one_step.time.end = 1;
   one_step.time.method = "rk4";
   one_step.output.times = {1};
-  // Of one particle of so many, in a step.
+  // The work of one particle of so many in a step.
   const double rates = work_of(one_step, scene, particles).transport / static_cast<double>(particles) / 4 * stages;
   const double reaction = scene.reaction_rate ? stages * scene.reaction_rate->cost() : 0;
   double each = rates + reaction;

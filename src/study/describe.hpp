@@ -1,4 +1,5 @@
-// What a case will do, found without running it: fields sampled, particles counted, cost predicted from short trials.
+// Describes what a case will do without running it: fields are sampled, particles counted, and costs predicted from
+// short trials.
 #pragma once
 
 #include <cstddef>

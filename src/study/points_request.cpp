@@ -20,7 +20,7 @@ double node(const GridAxis& axis, std::size_t i) {
   return axis.lower + (axis.upper - axis.lower) * static_cast<double>(i) / static_cast<double>(axis.count - 1);
 }
 
-// As doubles: a product of counts may exceed an integer.
+// In doubles, because a product of counts may exceed an integer.
 double targets_of(const PointsRequest& request) {
   if (request.targets) return static_cast<double>(request.targets->size());
   if (request.grid.empty()) return static_cast<double>(request.sources.size());

@@ -19,7 +19,7 @@ struct PublishedFile {
 /// In alphabetical order. Generated from tests/reference/ by cmake/EmbedFiles.cmake.
 const std::vector<PublishedFile>& published_files();
 
-/// What is printed as a dash: a break-even that is never reached, a factor below one.
+/// Stands for a printed dash: a break-even that is never reached, a factor below one.
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// Rows of one table, by the name in their first column.

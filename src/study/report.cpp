@@ -365,7 +365,7 @@ void draw_summary(const fs::path& folder, const json& summary, ReportFiles& resu
   }
 }
 
-/// One that cannot be written is told in the end.
+/// A file that cannot be written is named at the end.
 void write_file(const fs::path& file, const std::string& text, ReportFiles& result) {
   try {
     write::write_text(file, text);

@@ -88,7 +88,7 @@ struct FgtdOptions {
   TableSet set = TableSet::fgtd;
   std::string table;  // one of table_numbers(set), or empty for all
   int threads = 0;    // 0: all, but one where seconds are measured, as the thesis's machine had one
-  // What is larger is left out (rows) or measured at a sample of the targets; infinite for everything.
+  // Larger rows are left out, larger sums are measured at a sample of the targets; infinite for everything.
   double most_points = 1e6;
   double most_pairs = 5e7;  // of sources and targets in a direct sum
   double most_terms = 5e9;  // of expansions that are timed

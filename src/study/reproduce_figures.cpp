@@ -48,7 +48,7 @@ std::vector<std::pair<double, DensityGrid>> densities(const std::string& name,
   return frames;
 }
 
-/// What a figure needs to be made.
+/// All that a figure is made from.
 struct Maker {
   const FiguresOptions& options;
   std::vector<Figure>& made;

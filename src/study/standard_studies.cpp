@@ -250,7 +250,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
     experiment.conclusion = "There are no steps before the last output.";
     return experiment;
   }
-  // What `run` takes, asked of the run's own rules for the whole case.
+  // The steps that `run` accepts, by the run's own rules for the whole case.
   const Scene whole = make_scene(scene, threads);
   const Case asked = with_steps(scene, time::find_tableau("rk4"), scene.time.end, 0);
   Carrier rules(asked, whole, threads);

@@ -131,7 +131,7 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
         bare.reference = {};  // repeats are for the time alone
       }
       seconds.push_back(seconds_of_run(summary));
-      if (seconds.back() > 1) break;  // dear runs are their own warm-up
+      if (seconds.back() > 1) break;  // long runs need no warm-up
       if (repeat == 0 && options.repeats > 0) seconds.clear();
     }
     sample.seconds = median(seconds);

@@ -40,7 +40,7 @@ void measure_errors(const PairSumRequest& request, PairSums& sums);
 /// NumericalError for sums beyond the range of double.
 PairSums sum_pairs(const PairSumRequest& request);
 
-/// What was chosen and what it cost, for people and as JSON.
+/// The choice and its cost, as text for people and as JSON.
 std::string to_text(const PairSums& sums);
 std::string to_json(const PairSums& sums);
 

@@ -14,7 +14,7 @@ namespace gaussdrift::time {
 /// Order 8, 12 stages. Not among tableaux(): it is for references, not for the steps of a run.
 const Tableau& dormand_prince_8();
 
-/// What one component of the state asks of a step.
+/// The bounds that one component of the state sets to a step.
 struct StepBound {
   double absolute = 1e-12;  // the estimated error of a step is at most absolute + relative |y|
   double relative = 0;

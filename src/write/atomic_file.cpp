@@ -1,4 +1,4 @@
-// Temporary file, fsync, rename; and how a failure of the system is told.
+// Temporary file, fsync, rename; and messages about failures of the system.
 #include "write/atomic_file.hpp"
 
 #include <fcntl.h>

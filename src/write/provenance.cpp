@@ -42,7 +42,7 @@ std::string date() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(seconds)));
 }
 
-/// Of bytes as they come.
+/// The hash of bytes, fed piece by piece.
 class Hash {
  public:
   void add(std::string_view bytes) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a run writes at the top of its folder, and the numbered files below it.
+// The files that a run writes at the top of its folder, and the numbered files below it.
 constexpr std::array<std::string_view, 13> run_files{
     "case.toml", "density.pvd", "log.txt",      "particles.pvd",     "provenance.json", "report.html", "report.json",
     "run.toml",  "series.csv",  "summary.json", "summary.png.panel", "summary.png",     "view.py"};

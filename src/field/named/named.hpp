@@ -1,4 +1,4 @@
-// What the named fields share.
+// Helpers that the named fields share.
 #pragma once
 
 #include <cmath>
