@@ -1,5 +1,5 @@
-// Points and few boxes: where all boxes of a part of the lattice stay in the cache, points are sorted a block at a
-// time, in the cache too, instead of all at once through main memory. Boxes then carry coefficients of Chebyshev polynomials,
+// Part of `chebyshev` for few boxes. If all of them stay in the cache, points are sorted a block at a time in the cache,
+// and not all at once through main memory. Boxes then carry coefficients of Chebyshev polynomials,
 //   c_n = sum_j lambda_j prod_l T_{n_l}(z_jl)   and   s(y) = sum_n c_n prod_l T_{n_l}(z_l),
 // which are cheaper at a point than Lagrange's, and are turned into numbers at the nodes once a box:
 //   l_m(z) = sum_k t_mk T_k(z),   t_mk = (2 - delta_k0) / P  T_k(z_m),   z_m = cos(pi (m + 1/2) / P).
