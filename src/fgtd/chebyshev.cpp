@@ -10,9 +10,9 @@
 
 namespace fgtd::detail {
 
-/// The Gaussian and its derivatives on one axis, between the nodes of source boxes and groups of targets: the nodes of
-/// a box, or neighbouring nodes of a grid. A matrix is rows x P; for the first axis, where it stands on the right, P x
-/// rows.
+/// Matrices of the Gaussian and its derivatives on one axis, between the nodes of source boxes and groups of targets. A
+/// group is the nodes of a box, or neighbouring nodes of a grid. A matrix is rows x P. For the first axis it stands on
+/// the right and is P x rows.
 struct AxisMatrices {
   struct Group {
     std::size_t first_row, rows;
@@ -89,7 +89,7 @@ AxisMatrices box_matrices(const std::vector<double>& node, double scaled_side, s
   return matrices;
 }
 
-/// Groups of grid nodes with the boxes in their reach, of the `boxes` boxes there are.
+/// Groups of grid nodes, each with those of the `boxes` boxes that are in its reach.
 std::vector<AxisMatrices::Group> grid_groups(const std::vector<double>& nodes, double origin, double side,
                                              std::int64_t boxes, double reach, std::size_t p) {
   std::vector<AxisMatrices::Group> groups;
@@ -129,7 +129,7 @@ AxisMatrices grid_matrices(const std::vector<double>& nodes, const std::vector<d
   for (const auto& group : matrices.group)
     for (std::int64_t source = group.low; source <= group.high; ++source) {
       const double corner = origin + static_cast<double>(source) * side;
-      // A node that is out of the box's reach takes no part, whatever its group does: an argument of 1e3 gives 0.
+      // A node out of the box's reach gets 0, whatever its group does: an argument of 1e3 gives 0.
       const auto argument = [&](std::size_t row, std::size_t k) {
         const double above = nodes[group.first_row + row] - corner;
         const double gap = std::max(-above, above - side);
@@ -221,8 +221,8 @@ class ChebyshevSum<d>::Translation {
       input_[d][box] = sum_.moments_.data() + (box * sum_.columns_ + k) * sum_.box_numbers_;
   }
 
-  /// Contracts axis `axis` of what the axes above have left, for every distinct derivative on it; then(order's subset)
-  /// is called for each with the result in place. `above`: rows of the axes above.
+  /// Contracts axis `axis` of the result of the axes above, for every distinct derivative on it. It calls then(subset
+  /// of that order) for each, when its result is in place. `above`: rows of the axes above.
   template <class Then>
   void contract(std::size_t axis, const Group& group, std::size_t above, const std::vector<std::size_t>& derivatives,
                 const Then& then) {
@@ -371,7 +371,8 @@ void ChebyshevSum<d>::set_weights(const double* weights, std::size_t columns) {
   }
 }
 
-/// Pieces of sorted sources; a box that two pieces share is summed apart by each, and then added up in their order.
+/// Pieces of sorted sources. If two pieces share a box, each sums its own part, and the parts are added in the order of
+/// the pieces.
 template <int d>
 void ChebyshevSum<d>::sum_moments(const double* weights) {
   const std::size_t columns = columns_, numbers = columns * box_numbers_, count = sources_.order.size();
@@ -455,7 +456,7 @@ void ChebyshevSum<d>::evaluate(const Request<d>& request, const double* targets,
     evaluate_few(request, range, least, most, targets, count, values);
     return;
   }
-  // one box more, where the rounding of a quotient may have missed it
+  // one box more, because rounding of the quotient may have missed it
   for (std::size_t l = 0; l < d; ++l) {
     range.low[l] = std::max(least[l], range.low[l] - 1);
     range.high[l] = std::min(most[l], range.high[l] + 1);

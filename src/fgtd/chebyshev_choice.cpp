@@ -1,5 +1,5 @@
-// The number of nodes and the sides of the boxes of `chebyshev`: of all that keep the tolerance, the cheapest by
-// prediction.
+// Chooses the number of nodes and the sides of the boxes of `chebyshev`: the cheapest by prediction of all that keep
+// the tolerance.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,7 +21,7 @@ constexpr std::size_t points_looked_at = 1024;
 constexpr double glance_error = 2;        // factor by which a prediction from a glance may be too high
 constexpr double most_neighbours = 2048;  // of which a table is made
 
-/// Occupied boxes of a lattice by a look at the sample: leading[j] counts the distinct (i_0, ..., i_j) of sources,
+/// Occupied boxes of a lattice, estimated from the sample. leading[j] counts the distinct (i_0, ..., i_j) of sources,
 /// trailing[j] the distinct (i_j, ..., i_{d-1}) of targets that lie like the sources.
 template <int d>
 struct Occupied {

@@ -22,7 +22,7 @@ FGTD_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, do
   i = floor_of(i);
   i = i < job.first ? broadcast(job.first) : i;
   i = i > job.last ? broadcast(job.last) : i;
-  // The rounding of the quotient may miss the box by one; what is left over says so.
+  // The rounding of the quotient may miss the box by one; the remainder shows it.
   Vector rest = x - (i * job.side + job.origin);
   const Vector below =
       select(reinterpret_cast<Bits>(rest < 0.0) & reinterpret_cast<Bits>(i > job.first), broadcast(1.0));
@@ -189,7 +189,8 @@ void sort_block_in(const SortBlockJob& job) {
     next[box] = total;
     total += held;
   }
-  // From here on keys are places. The arrays in names of their own: stores could change what the job points to.
+  // From here on keys are places. The arrays have names of their own, because for the compiler stores could change the
+  // job's pointers.
   const double* unsorted = job.unsorted;
   double* local = job.local;
   for (std::size_t j = 0; j < count; ++j) {
@@ -256,8 +257,8 @@ FGTD_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x
   }
 }
 
-/// Rows in blocks that are tall enough that the additions of a sum wait for nobody, of nearly the same height, and no
-/// larger than the registers.
+/// Cuts rows into blocks of nearly the same height. They are so tall that no addition waits for the one before, and
+/// small enough for the registers.
 template <int vectors>
 FGTD_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t valid) {
   constexpr std::size_t tall = vectors == 1 ? 8 : 4;
@@ -333,8 +334,8 @@ FGTD_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, st
   }
 }
 
-/// to[l][j], l < d, and the weight of records behind: what is known of the points first .. first + count, one row a
-/// coordinate, the last point repeated up to a whole vector of 8.
+/// Coordinates of the points first .. first + count as rows to[l][j], l < d, and behind them the weight that records
+/// carry. The last point is repeated up to a whole vector of 8.
 template <int d>
 FGTD_INLINE void bring_apart(const double* local, std::size_t step, std::size_t count, double* to, std::size_t stride) {
   const std::size_t padded = (count + 7) / 8 * 8;

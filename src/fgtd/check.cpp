@@ -23,7 +23,7 @@ std::string text(std::size_t value) { return std::to_string(value); }
 
 constexpr std::size_t piece = 1 << 15;  // numbers looked at together
 
-/// x - x is 0 for finite x and else not a number, which no sum loses again.
+/// x - x is 0 for finite x and NaN otherwise, and a sum with a NaN stays NaN.
 bool row_is_finite(const double* row, std::size_t count) {
   double sum[8] = {};
   std::size_t i = 0;
@@ -35,7 +35,7 @@ bool row_is_finite(const double* row, std::size_t count) {
   return all == 0;
 }
 
-/// Which number is not finite is looked for only where one is.
+/// Searches for the number that is not finite only if there is one.
 bool columns_are_finite(const double* data, std::size_t rows, std::size_t columns, std::size_t stride, int threads) {
   if (stride == rows || columns == 1) {  // without gaps: one long row
     rows *= columns;

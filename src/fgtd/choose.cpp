@@ -37,7 +37,7 @@ Proposal<d> choose(const Buffer<double>& position, std::size_t count, std::size_
     std::optional<Proposal<d>> proposal = propose(at);
     if (proposal && (asked == method || proposal->choice.seconds < best.choice.seconds)) best = std::move(*proposal);
   };
-  // A search that takes about as long as it could save is left out.
+  // A search is left out if it takes about as long as it could save.
   const auto worth = [&](Method method, double search) { return asked == method || best.choice.seconds > 2 * search; };
   // The quickest searches come first.
   if (worth(Method::cells, cost::cells_search)) consider(Method::cells, propose_cells<d>);

@@ -1,4 +1,4 @@
-// Hands groups of targets to the kernel `direct`; a group is always summed in the same order, whoever computes it.
+// Hands groups of targets to the kernel `direct`. A group is summed in the same order on every thread.
 #include "fgtd/direct.hpp"
 
 #include <algorithm>

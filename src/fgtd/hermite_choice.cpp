@@ -1,4 +1,5 @@
-// The parameters r, p, n of `hermite`: of all whose error is proven to keep the tolerance, the cheapest by prediction.
+// Chooses the parameters r, p, n of `hermite`: the cheapest by prediction of all whose error is proven to keep the
+// tolerance.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,9 +36,9 @@ Buffer<double> corners(const Situation<d>& at) {
   return points;
 }
 
-/// How much slower the numbers of a box come that exceed the first cache, and those that exceed the second. Measured in
-/// 3D and 4D with 8 to 130 thousand numbers a box, where the time was 2 to 6 times that within the cache; with this
-/// factor predictions there are right to within a factor of 2.
+/// How much slower the numbers of a box are if they exceed the first or the second cache. Measured in 3D and 4D with 8
+/// to 130 thousand numbers a box, where the time was 2 to 6 times that within the cache. With this factor such
+/// predictions are right to within a factor of 2.
 double slowed_by_memory(double numbers) {
   constexpr double first_cache = 4096;
   return std::clamp(1 + 1.2 * std::log2(numbers / first_cache), 1.0, 6.0);
@@ -82,8 +83,8 @@ double hermite_seconds(const Situation<d>& at, double side, int p, double reach,
   return seconds + targets * (cost::point_sort + lanes * near * at_box);
 }
 
-/// The error that a summed box may have so that it fades as promised: beyond rho^2 = L a term may be off by
-/// tolerance exp(L - rho^2), and a summed box is off by exp(far error - |t|^2/2) with rho <= |t| + half a diagonal.
+/// The error that a summed box may have and still fade as promised. Beyond rho^2 = L a term may be off by tolerance
+/// exp(L - rho^2). A summed box is off by exp(far error - |t|^2/2), with rho <= |t| + half a diagonal.
 bool fades(int d, double r, int p, double farthest, double tolerance, int derivative_order) {
   const double limit = 2 * std::log(1 / tolerance) + 40;
   if (farthest * farthest <= limit) return true;

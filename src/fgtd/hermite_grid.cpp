@@ -3,8 +3,8 @@
 //   line   T1[b2 b1][x]    = sum_{boxes of a line}  sum_{b0} A[b2 b1 b0] X[b0][x]
 //   slab   T2[b2][y x]    += sum_{lines of a slab}  sum_{b1} Y[y][b1] T1[b2 b1][x]
 //   grid   S[z][y x]      += sum_{slabs}            sum_{b2} Z[z][b2] T2[b2][y x]
-// where every sum over nodes runs over the window of nodes that the boxes reach. Slabs are independent; the grid is
-// then updated in pieces of its last axis, every node adding its slabs in ascending order, so threads change nothing.
+// where every sum over nodes runs over the window of nodes that the boxes reach. Slabs are independent. The grid is
+// then updated in pieces of its last axis. Every node adds its slabs in ascending order, so threads change no bit.
 #include <algorithm>
 #include <cmath>
 
