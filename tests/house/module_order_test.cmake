@@ -27,4 +27,19 @@ foreach(pair
   check(fails "${file} includes ${header}")
   file(WRITE ${SCRATCH}/${file} "${before}")
 endforeach()
+
+# A header that a module keeps to itself, whatever its folder, and one of a list that nobody includes.
+file(WRITE ${SCRATCH}/src/time/own.hpp "#pragma once\n")
+file(WRITE ${SCRATCH}/src/time/folder/own.hpp "#pragma once\n")
+foreach(header time/own.hpp time/folder/own.hpp)
+  file(WRITE ${SCRATCH}/src/time/user.cpp "#include \"${header}\"\n")
+  check(passes "${header} in its own module")
+  file(WRITE ${SCRATCH}/src/sim/user.cpp "#include \"${header}\"\n")
+  check(fails "${header} in another")
+  file(REMOVE ${SCRATCH}/src/sim/user.cpp ${SCRATCH}/src/time/user.cpp)
+endforeach()
+file(REMOVE_RECURSE ${SCRATCH}/src/cli ${SCRATCH}/src/study)
+check(fails "headers that only cli and study included")
+file(COPY ${ROOT}/src DESTINATION ${SCRATCH})
 check(passes "the tree again")
+
