@@ -12,8 +12,8 @@
 
 namespace gaussdrift::cli {
 
-/// Call it before any file is opened: a stream that was closed at the start must not share its number with a file of
-/// the run, and a reader that goes away must not end the run.
+/// Call it before any file is opened. A stream that was closed at the start must not share its number with a file of
+/// the run. A reader that goes away must not end the run.
 void prepare_streams();
 
 /// Prints the text as it is, to steer the terminal on purpose. It does not throw if the stream is full or closed.

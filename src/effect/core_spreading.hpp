@@ -1,7 +1,7 @@
 // Diffusion by core spreading, d_t rho + div(rho u) = D Laplacian rho: every blob is itself a solution of the heat
-// equation, so the square of each Gaussian width grows by 4 D t and weights and paths stay. Exact where the flow only
-// carries and turns. Where it strains, blobs stay round although they should be stretched; [effects.remesh] cures that
-// by putting their spread into the weights. docs/method.md, section 8.2.
+// equation. The square of each Gaussian width grows by 4 D t; weights and paths stay. Exact where the flow only carries
+// and turns. Where it strains, blobs stay round although they should be stretched; [effects.remesh] cures that by
+// putting their spread into the weights. docs/method.md, section 8.2.
 #pragma once
 
 #include "effect/effect.hpp"

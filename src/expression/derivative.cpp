@@ -1,7 +1,7 @@
 // Forward differentiation: each row of the stack carries one row of derivatives a variable,
 //   d f(a, b, ...) = sum_k (df/d operand k) d operand k.
-// A derivative that is 0 for the whole row is not computed, and 0 times an infinite slope is 0, so that sqrt(x^2 + y^2)
-// has slope 0 at its corner, as abs and hypot have.
+// A derivative that is 0 for the whole row is not computed. 0 times an infinite slope is 0, so sqrt(x^2 + y^2) has
+// slope 0 at its corner, as abs and hypot have.
 #include <array>
 #include <cmath>
 

@@ -1,6 +1,6 @@
-// muParser turns the text into postfix bytecode; the bytecode is then run over rows of numbers, one operation for a
-// whole row at a time. muParser's own ways of evaluating take one number at a time, change the number of OpenMP threads
-// of the program and write to the parser; running the bytecode here is const and several times as fast.
+// muParser turns the text into postfix bytecode. Here the bytecode is run over rows of numbers, one operation for a
+// whole row at a time. This is const and several times as fast as muParser itself, which takes one number at a time,
+// changes the number of OpenMP threads of the program and writes to the parser.
 #include "expression/expression.hpp"
 
 #include <fmt/format.h>

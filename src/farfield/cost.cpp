@@ -116,8 +116,8 @@ Costs<d>::Costs(const Problem& problem, const Degrees<d>& degrees, Precisions pr
     for (const double s : size) coupling_[number] += s * s * multiplication + 2 * s * moved_number;
     all += coupling_[number] * static_cast<double>(reflections);
   }
-  // Points that fill a cube: 3^d leaves pair by pair, and of the 7^d - 3^d offsets those that the place in the parent
-  // allows, 6^d - 3^d; both cost the same at the best size.
+  // For points that fill a cube. A leaf has 3^d leaves pair by pair, and couplings at 6^d - 3^d offsets, those of 7^d -
+  // 3^d that its place in the parent allows. At the best size both cost the same.
   const double near = d == 3 ? 27 : 9, far_clusters = d == 3 ? 189 : 27, offsets = d == 3 ? 316 : 40;
   good_leaf_size_ = std::sqrt(all * far_clusters / offsets / (near * pair_));
 }

@@ -1,6 +1,6 @@
-// Interpolation of a harmonic function in a cluster from its values on the cluster's surface: by the harmonic
-// polynomial of a degree that fits best, in the sense of least squares, at nodes that are tensor products of
-// Chebyshev-Lobatto points.
+// Interpolation of a harmonic function in a cluster from its values on the cluster's surface. The interpolant is the
+// harmonic polynomial of a degree that fits best by least squares. Nodes are tensor products of Chebyshev-Lobatto
+// points.
 //   f(t) ~ sum_k h_k(t) sum_i weight[k][i] f(node_i)
 // Harmonic functions need d - 1 dimensions of nodes and of polynomials where general ones need d. [Boe22]
 #pragma once

@@ -9,9 +9,9 @@
 
 namespace fgtd::detail {
 
-/// Finds boxes and local coordinates of points on one axis: box i covers origin + [i side, (i+1) side).
-/// origin and side have so few digits that origin + i side is exact for |i| < 2^41; so is the place in the box then,
-/// but for one rounding.
+/// Finds boxes and local coordinates of points on one axis: box i covers origin + [i side, (i+1) side). origin and
+/// side have so few digits that origin + i side is exact for |i| < 2^41; so is the place in the box, but for one
+/// rounding.
 struct LocateJob {
   std::size_t count;
   const double* coordinate;
@@ -80,8 +80,8 @@ constexpr std::size_t interpolate_scratch(int dimension, int nodes) {
   return static_cast<std::size_t>(dimension) * static_cast<std::size_t>(nodes) * 32 + record_numbers * 32;
 }
 
-/// Some points sorted by box, together with their weights. Box i of axis l covers origin + [i side, (i+1) side); the
-/// boxes are low .. high, and a point elsewhere belongs to the nearest, or to none (the last) if its box is beyond
+/// Some points sorted by box, together with their weights. Box i of axis l covers origin + [i side, (i+1) side). The
+/// boxes are low .. high. A point elsewhere belongs to the nearest of them, or to none (the last) if its box is beyond
 /// least .. most. The box may be missed by rounding: a local coordinate then is beyond 1 by as much.
 struct SortBlockJob {
   int dimension;

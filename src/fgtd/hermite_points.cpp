@@ -1,4 +1,4 @@
-// Hermite expansions at scattered targets [Sch06, Algorithm 3.7]: targets are sorted by box, and the targets of one box
+// Hermite expansions at scattered targets [Sch06, Algorithm 3.7]. Targets are sorted by box. The targets of one box
 // share the list of neighbour boxes and are computed side by side in the lanes of a vector.
 #include <algorithm>
 #include <cmath>

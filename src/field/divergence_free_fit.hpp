@@ -37,11 +37,11 @@ struct GaussianFit {
 };
 
 /// matrix: `field` for samples of the velocity S, `vorticity` for samples of the vorticity of the curl form.
-/// points   d x N, distinct;  samples  N x c with c = gaussian_columns(matrix, d)
-/// Up to OverlappingBlocks::dense_unknowns unknowns by a dense factorisation, more by preconditioned conjugate
-/// gradients over products with A. Throws InputError naming the samples if two points are equal, and if samples do not
-/// follow from each other at all (too narrow); GaussiansTooWide if the matrix is too near to singular or the residual
-/// cannot be reached.
+/// points   d x N, distinct;  samples  N x c with c = gaussian_columns(matrix, d) Up to
+/// OverlappingBlocks::dense_unknowns unknowns by a dense factorisation, more by preconditioned conjugate gradients
+/// over products with A. Throws InputError naming the samples if two points are equal, and if samples do not
+/// follow from each other at all (too narrow). Throws GaussiansTooWide if the matrix is too near to singular or
+/// the residual is not reached.
 template <int d>
 GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, const Eigen::MatrixXd& samples,
                           double sigma, const GaussianFitOptions& options = {});

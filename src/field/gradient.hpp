@@ -15,8 +15,8 @@ struct GradientSample {
 };
 
 /// Samples u at points of a Halton sequence in the box, at evenly spaced times from `begin` to `end` (at one time for a
-/// steady field), with central differences over a millionth of the box: right to about 1e-9 of the largest gradient at
-/// the sampled places. It is a lower bound of the true maximum, because places in between are not seen.
+/// steady field). Central differences over a millionth of the box are right to about 1e-9 of the largest gradient. It
+/// is a lower bound of the true maximum, because places in between are not seen.
 GradientSample sample_gradient(const VelocityField& field, int dimension, const Vector& min, const Vector& max,
                                double begin, double end, std::size_t points = 4096, int times = 9);
 

@@ -1,5 +1,5 @@
-// The registry as a JSON schema: an object a table, closed against unknown keys; a table of several kinds is one of
-// several objects, so that a parameter is only accepted beside the value that it goes with.
+// The registry as a JSON schema. Each table is an object, closed against unknown keys. A table of several kinds is one
+// of several objects, so that a parameter is only accepted beside the value that it goes with.
 #include <cmath>
 #include <nlohmann/json.hpp>
 

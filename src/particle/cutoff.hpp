@@ -39,8 +39,8 @@ int cutoff_order(std::string_view name);
 /// zeta_eps(0), the largest |zeta_eps|: the Fourier transforms of all cutoffs are positive.
 double peak(const Cutoff& cutoff);
 
-/// The cutoff convolved with the Gaussian of variance spread/2 an axis: the square of every width grows by `spread`,
-/// its integral stays, and the coefficients of the derivatives stay those of the widths before (method.md, equation 11).
+/// The cutoff convolved with the Gaussian of variance spread/2 an axis. The square of every width grows by `spread`.
+/// Its integral and the coefficients of the derivatives stay (method.md, equation 11).
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread);
 
 }  // namespace gaussdrift

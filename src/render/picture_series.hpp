@@ -11,10 +11,10 @@
 
 namespace gaussdrift::render {
 
-/// images/surface_0000.png, ... The range is that of the first frame, with round ends. Should a later frame leave it by
-/// more than a hundredth, the pictures are drawn again with the wider range at the end of the run (in 3D from every
-/// second, third, ... point where an axis has more than 128). Errors have a range of their own, as far below 0 as
-/// above; Style::error needs frames with an exact density.
+/// images/surface_0000.png, ... The range is that of the first frame, with round ends. If a later frame leaves it by
+/// more than a hundredth, all pictures are drawn again at the end, with the wider range (in 3D from every second,
+/// third, ... point where an axis has more than 128). Errors have a range of their own, as far below 0 as above;
+/// Style::error needs frames with an exact density.
 std::unique_ptr<Observer> picture_series(const std::filesystem::path& folder, std::vector<Style> styles,
                                          std::string title);
 

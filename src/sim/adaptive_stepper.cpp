@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t usual_block = 256;  // as in stepper.cpp
 
-// The usual controller: the error of a step goes like its length to the power of the order, aimed at 0.9 of what is
-// allowed; lengths change by bounded factors, so that one lucky or unlucky estimate does no harm.
+// The usual controller. The error of a step goes like its length to the power of the order. The aim is 0.9 of what is
+// allowed. Lengths change by bounded factors, so that one lucky or unlucky estimate does no harm.
 constexpr double safety = 0.9, shrink_most = 0.2, grow_most = 5;
 
 double factor_for(double error, int order) {

@@ -45,8 +45,8 @@ class Stepper {
 
   /// Takes steps first .. first + count - 1 of the interval. `steps_before` steps were taken before the interval;
   /// messages count from there. Throws NumericalError naming step, time, particle and place where the field or a
-  /// position is not finite; the particles are then as they were before the call. particles.path has an array for each
-  /// integral, which is added to.
+  /// position is not finite. The particles then stay as they were. particles.path has an array for each integral, which
+  /// is added to.
   StepperSeconds advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                          std::size_t steps_before) const;
 

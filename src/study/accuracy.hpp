@@ -23,9 +23,9 @@ struct AccuracyChoice {
 /// Work of a search for settings: ten seconds of one core. Judging the chosen settings may take as much again.
 constexpr double most_work_of_search = 2.5e8;
 
-/// Chooses particles.per_axis, overlap and cutoff, time.step and evaluate.tolerance so that the largest error at the
-/// last output, relative to max |rho|, is predicted to be between a fifth of the target and the target, at the least
-/// predicted cost. Throws InputError where no budget covers the case, or where the target cannot be met with at most
+/// Chooses particles.per_axis, overlap and cutoff, time.step and evaluate.tolerance at the least predicted cost. The
+/// predicted largest error at the last output, relative to max |rho|, is between a fifth of the target and the
+/// target. Throws InputError where no budget covers the case, or where the target cannot be met with at most
 /// `most_particles` particles or by a search of at most `most_work`, naming the error that can. `doing` is told what
 /// comes next.
 AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads,

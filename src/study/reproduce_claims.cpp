@@ -63,8 +63,8 @@ struct Choice {
   int p = 0, nu = 0;
 };
 
-/// The cheapest p and nu whose bound for d = 3, sigma = 2, alpha = 0, Q = 1 is below `error`, among those of Tables 3.2
-/// and 3.3 or, without that limit, among many more.
+/// The cheapest p and nu whose bound for d = 3, sigma = 2, alpha = 0, Q = 1 is below `error`. Only those of Tables 3.2
+/// and 3.3 are tried or, without that limit, many more.
 Choice cheapest(double error, bool of_tables) {
   Choice best;
   for (int nu = 2; nu <= (of_tables ? 4 : 10); ++nu)

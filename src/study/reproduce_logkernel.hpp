@@ -1,5 +1,5 @@
-// The exercises of Melenk's project sheet: the matrix ln |x_i - x_j| in blocks of low rank, its storage, its error, and
-// its product with a vector beside the dense one and that by the fast Fourier transform.
+// The exercises of Melenk's project sheet: the matrix ln |x_i - x_j| in blocks of low rank. Storage, error and product
+// with a vector, beside the dense product and that by the fast Fourier transform.
 #pragma once
 
 #include <filesystem>

@@ -75,8 +75,8 @@ Study run_study(const StudyOptions& options);
 /// Marks the front and fills in observed orders along the last key, where it is a number that errors are powers of.
 void finish(Experiment& experiment, const Case& scene);
 
-/// The order that is expected along a key, the error's power of a length or of a step: that of the cutoff for
-/// particles.overlap and for 1/particles.per_axis, that of the method for time.step; nothing for others.
+/// The expected order along a key: the power of a length or a step with which the error falls. For particles.overlap
+/// and 1/particles.per_axis it is that of the cutoff, for time.step that of the method; nothing for others.
 std::optional<double> expected_order(const std::string& key, const Case& scene);
 
 std::string to_text(const Study& study);

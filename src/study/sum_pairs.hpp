@@ -35,8 +35,8 @@ struct PairSums {
 /// Compares the values with all pairs at some targets. sum_pairs() has done so, unless `direct` did the sum.
 void measure_errors(const PairSumRequest& request, PairSums& sums);
 
-/// Throws CommandLineError where the request contradicts the tables or itself, InputError for tables that do not belong
-/// together, a tolerance that cannot be promised, sizes beyond the limit and predicted seconds beyond theirs,
+/// Throws CommandLineError where the request contradicts the tables or itself. Throws InputError for tables that do not
+/// belong together, a tolerance that cannot be promised, and memory or seconds beyond their limits. Throws
 /// NumericalError for sums beyond the range of double.
 PairSums sum_pairs(const PairSumRequest& request);
 
