@@ -35,13 +35,13 @@ std::string quoted(const std::string& word) {
 
 void add_case_options(CLI::App& verb, CaseOptions& options) {
   verb.add_option("case", options.file, "case file (TOML), see docs/cases.md")->required()->type_name("CASE");
-  verb.add_option("--set", options.overrides, "set a key of the case, as in --set time.step=0.01; repeatable")
+  verb.add_option("--set", options.overrides, "set a key of the case: --set time.step=0.01. Repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   verb.add_option("--accuracy", options.accuracy,
-                  "largest error at the end, relative to the largest density: settings are chosen for it")
+                  "error that you accept at the end, relative to the largest density. Settings are chosen for it")
       ->type_name("X");
-  verb.add_option("--threads", options.threads, "threads to use; all by default")
+  verb.add_option("--threads", options.threads, "number of threads; all by default")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   verb.add_flag("--json", options.json, "results as JSON on standard output");
@@ -51,51 +51,52 @@ void add_sum_options(CLI::App& verb, SumOptions& options) {
   verb.add_option("--sources", options.sources, "table of sources (CSV): coordinates and a column weight")
       ->required()
       ->type_name("FILE");
-  CLI::Option* targets = verb.add_option("--targets", options.targets, "table of targets; the sources by default");
+  CLI::Option* targets = verb.add_option("--targets", options.targets, "table of targets. By default the sources");
   targets->type_name("FILE");
   verb.add_option("--columns", options.columns,
-                  "the columns that are coordinates, as in --columns x,y; all but weight by default")
+                  "the columns that are coordinates: --columns x,y. By default all but weight")
       ->type_name("NAME,...");
-  verb.add_option("--grid", options.grid, "a grid instead, as in --grid=-1:1:200,0:1:100; its first axis runs fastest")
+  verb.add_option("--grid", options.grid, "a grid of targets: --grid=-1:1:200,0:1:100. Its first axis runs fastest")
       ->type_name("LOW:HIGH:COUNT,...")
       ->excludes(targets);
-  verb.add_option("--sigma", options.sigma, "kernel gauss: exp(-sigma r^2)")->type_name("X");
+  verb.add_option("--sigma", options.sigma, "of the Gaussian exp(-sigma r^2)")->type_name("X");
   verb.add_option("--derivative", options.derivatives,
-                  "a derivative, as in --derivative 0,1,2; repeatable; the plain sum by default")
+                  "a derivative of the Gaussians: --derivative 0,1,2. Repeatable. By default the plain sum")
       ->type_name("A1,A2,...")
       ->allow_extra_args(false);
-  verb.add_option("--tolerance", options.tolerance, "see docs/fgtd.md and docs/farfield.md; 1e-6 by default")
+  verb.add_option("--tolerance", options.tolerance,
+                  "error of every term (docs/fgtd.md, docs/farfield.md); 1e-6 by default")
       ->type_name("X");
   verb.add_option("--method", options.method,
-                  "auto (the default), or a method of the kernel's library; a wrong name lists them")
+                  "auto (the default), or a method of the library. A wrong name is answered with the list")
       ->type_name("NAME");
   verb.add_option("--seconds", options.seconds,
-                  "refuse what is predicted to take longer; 300 by default for a method that is named")
+                  "refuse a sum that is predicted to take longer; 300 by default for a method that you name")
       ->type_name("S");
   verb.add_option("--kernel", options.kernel,
-                  "gauss (the default), or potential and field of coulomb (2D, 3D) or log (1D, 2D)")
+                  "gauss (the default), coulomb (2D, 3D) or log (1D, 2D). The last two give potential and field")
       ->type_name("NAME");
-  verb.add_option("--out", options.out, "file for the values; standard output by default, also as -")
-      ->type_name("FILE");
-  verb.add_option("--threads", options.threads, "threads to use; all by default")
+  verb.add_option("--out", options.out, "file for the values. By default, or as -, standard output")->type_name("FILE");
+  verb.add_option("--threads", options.threads, "number of threads; all by default")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  verb.add_flag("--json", options.json, "what was chosen and what it cost, as JSON on standard output; needs --out");
+  verb.add_flag("--json", options.json, "what was chosen and what it cost, as JSON on standard output. Needs --out");
 }
 
 ExitCode dispatch(int argc, char** argv) {
-  CLI::App app("Smoothed-particle advection: carries blobs through a velocity field and draws their density.",
-               "gaussdrift");
+  CLI::App app(
+      "Moves a density with a flow that you prescribe, by smoothed particles, and says how accurate the result is.",
+      "gaussdrift");
   app.set_version_flag("--version", "gaussdrift " GAUSSDRIFT_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 ok, 1 internal error, 2 command line, 3 input invalid, 4 numerical failure, 5 a check failed, 6 "
-      "files.\n"
-      "Start with: gaussdrift new rotating_cone, then gaussdrift run rotating_cone.toml");
+      "Exit codes: 0 ok, 1 internal error, 2 wrong command line, 3 wrong case or table, 4 numerical failure, 5 a check "
+      "failed, 6 files.\n"
+      "First steps: gaussdrift new rotating_cone, then gaussdrift run rotating_cone.toml");
 
   NewOptions new_options;
-  CLI::App* new_verb = app.add_subcommand("new", "list the built-in examples, or write one to start from");
-  new_verb->add_option("name", new_options.name, "the example (none: a list)")->type_name("NAME");
+  CLI::App* new_verb = app.add_subcommand("new", "list the built-in cases, or write one to start from");
+  new_verb->add_option("name", new_options.name, "the case to write. Without it, a list")->type_name("NAME");
   new_verb->add_option("--out", new_options.folder, "folder for the file; this one by default")->type_name("DIR");
   new_verb->add_flag("--force", new_options.force, "replace a file of that name");
   new_verb->add_flag("--json", new_options.json, "results as JSON on standard output");
@@ -108,25 +109,27 @@ ExitCode dispatch(int argc, char** argv) {
   run_verb->add_flag("--force", run_options.force, "replace an earlier run in that folder");
 
   CaseOptions check_options;
-  CLI::App* check_verb =
-      app.add_subcommand("check", "validate a case, describe it and predict what it costs, without running it");
+  CLI::App* check_verb = app.add_subcommand("check", "describe a case and predict what it costs, without running it");
   add_case_options(*check_verb, check_options);
 
   StudyVerbOptions study_options;
-  CLI::App* study_verb = app.add_subcommand("study", "what accuracy costs in time: tables, charts, conclusions");
+  CLI::App* study_verb =
+      app.add_subcommand("study", "measure what accuracy costs in time: tables, charts, a conclusion");
   add_case_options(*study_verb, study_options.scene);
   study_verb
       ->add_option(
           "--vary", study_options.vary,
-          "run with these values of a key, as in --vary time.step=0.1,0.05; repeatable; without it the standard "
-          "studies")
+          "run with these values of a key: --vary time.step=0.1,0.05. Repeatable: then every combination. Without it, "
+          "the standard studies")
       ->type_name("KEY=A,B,...")
       ->allow_extra_args(false);
   study_verb
-      ->add_option("--repeats", study_options.repeats, "timings of a cheap run, whose median counts; 3 by default")
+      ->add_option("--repeats", study_options.repeats,
+                   "how often a cheap run is timed. The median counts; 3 by default")
       ->check(CLI::Range(1, 100))
       ->type_name("N");
-  study_verb->add_option("--seconds", study_options.seconds, "about what the standard studies may take; 90 by default")
+  study_verb
+      ->add_option("--seconds", study_options.seconds, "about how long the standard studies may take; 90 by default")
       ->check(CLI::Range(1, 100000))
       ->type_name("S");
   study_verb->add_option("--out", study_options.folder, "folder for tables and charts; output/study_<case> by default")
@@ -156,7 +159,7 @@ ExitCode dispatch(int argc, char** argv) {
 
   CompareOptions compare_options;
   CLI::App* compare_verb =
-      app.add_subcommand("compare", "norms of the difference of two results, relative to the second");
+      app.add_subcommand("compare", "compare two results: norms of the difference, relative to the second");
   compare_verb->add_option("first", compare_options.first, "folder of a run, or a .vti")->required()->type_name("A");
   compare_verb->add_option("second", compare_options.second, "what it is compared with")->required()->type_name("B");
   compare_verb
@@ -166,42 +169,41 @@ ExitCode dispatch(int argc, char** argv) {
   compare_verb->add_flag("--json", compare_options.json, "results as JSON on standard output");
 
   DoctorOptions doctor_options;
-  CLI::App* doctor_verb =
-      app.add_subcommand("doctor", "does everything work on this machine? a sum, a picture, a file");
+  CLI::App* doctor_verb = app.add_subcommand("doctor", "try everything on this machine: a sum, a picture, a file");
   doctor_verb->add_flag("--json", doctor_options.json, "results as JSON on standard output");
 
   SumOptions sum_options;
-  CLI::App* sum_verb =
-      app.add_subcommand("sum", "sums of Gaussians, Coulomb charges or logarithms over a table of points");
+  CLI::App* sum_verb = app.add_subcommand("sum", "sum Gaussians, Coulomb charges or logarithms over a table of points");
   add_sum_options(*sum_verb, sum_options);
 
   ReproduceOptions reproduce_options;
   CLI::App* reproduce_verb =
       app.add_subcommand("reproduce", "compute a published table again, beside the published numbers");
-  reproduce_verb->add_option("what", reproduce_options.what, "what to reproduce (none: a list)")->type_name("WHAT");
+  reproduce_verb->add_option("what", reproduce_options.what, "what to reproduce. Without it, a list")
+      ->type_name("WHAT");
   reproduce_verb
       ->add_option("table,--table", reproduce_options.table,
-                   "one table of fgtd or divergence, or a figure, as in 4.6; all by default")
+                   "one table of fgtd or divergence, or one figure, such as 4.6. By default all")
       ->type_name("TABLE");
   reproduce_verb
       ->add_option("--out", reproduce_options.folder,
-                   "figures, logkernel: folder for what is written; output/figures or output/logkernel by default")
+                   "folder for figures or for logkernel; output/figures or output/logkernel by default")
       ->type_name("DIR");
   reproduce_verb->add_flag(
       "--full", reproduce_options.full,
       "fgtd, divergence, coulomb: also the largest rows, and every target compared; figures: 5.3 with the "
       "thesis's steps");
-  reproduce_verb->add_option("--threads", reproduce_options.threads, "threads to use; all by default")
+  reproduce_verb->add_option("--threads", reproduce_options.threads, "number of threads; all by default")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   reproduce_verb->add_flag("--json", reproduce_options.json, "results as JSON on standard output");
 
   ExplainOptions explain_options;
   CLI::App* explain_verb =
-      app.add_subcommand("explain", "what a key of the case file means: type, default, range, unit, symbol");
+      app.add_subcommand("explain", "tell what a key of the case file means: type, default, range, unit, symbol");
   CLI::Option* word = explain_verb->add_option("key", explain_options.word,
-                                               "a key, table, field, shape, function, value or symbol of the thesis "
-                                               "(n_g, alpha_j); none: all keys");
+                                               "a key, table, field, shape, function, value or symbol (n_g, "
+                                               "alpha_j). Without it, all keys");
   word->type_name("KEY");
   CLI::Option* schema = explain_verb->add_flag("--schema", explain_options.schema, "the JSON schema of a case");
   explain_verb->add_flag("--json", explain_options.json, "results as JSON on standard output");

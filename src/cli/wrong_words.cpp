@@ -68,19 +68,19 @@ std::string unknown_option(const CLI::App& app, const CLI::App& verb, const std:
 std::string unknown_verb(const CLI::App& app, const std::string& word) {
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-  std::string text = fmt::format("there is no verb {}", in_quotes(word, 60));
+  std::string text = fmt::format("there is no command {}", in_quotes(word, 60));
   std::string remedy;
   if (const auto near = base::suggest(word, verbs)) remedy = fmt::format("; did you mean \"{}\"?", *near);
   for (const auto& [elsewhere, here] : verbs_elsewhere)
     if (word == elsewhere) remedy = fmt::format("; did you mean \"{}\"?", here);
   if (word.size() > 5 && word.substr(word.size() - 5) == ".toml")
     remedy = fmt::format("; to run the case write: gaussdrift run {}", base::printable(word));
-  return text + remedy + "; gaussdrift --help shows the verbs and their options";
+  return text + remedy + "; gaussdrift --help lists the commands";
 }
 
 std::string explained(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<const CLI::App*> parsed = app.get_subcommands([](const CLI::App* verb) { return verb->parsed(); });
-  if (parsed.empty()) return fmt::format("{}; gaussdrift --help shows the verbs and their options", error.what());
+  if (parsed.empty()) return fmt::format("{}; gaussdrift --help lists the commands", error.what());
   const CLI::App& verb = *parsed.front();
   const std::string help = fmt::format("; gaussdrift {} --help shows its options", verb.get_name());
   // Before what is missing: an option that is misspelt is missing too.

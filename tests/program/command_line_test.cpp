@@ -36,7 +36,7 @@ TEST(CommandLine, NamesTheVerbThatWasMeant) {
   const ScratchFolder folder;
   const Outcome refused = gaussdrift_in(folder, "chekc small.toml");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("there is no verb \"chekc\"; did you mean \"check\"?"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("there is no command \"chekc\"; did you mean \"check\"?"), std::string::npos) << refused.err;
 }
 
 TEST(CommandLine, NamesTheOptionThatWasMeant) {
@@ -53,7 +53,7 @@ TEST(CommandLine, NamesTheOptionThatWasMeant) {
       {"sum --sources S.csv --sigma 1 --toleranc=1e-3", "did you mean --tolerance?"},
       {"run small.toml more.toml", "\"more.toml\" is one word too many; gaussdrift run --help shows its options"},
       {"small.toml", "to run the case write: gaussdrift run small.toml"},
-      {"plot small.toml", "there is no verb \"plot\"; did you mean \"render\"?"},
+      {"plot small.toml", "there is no command \"plot\"; did you mean \"render\"?"},
       {"run small.toml --\x1b[31m", "run has no option \"--\\x1b[31m\""}};
   for (const auto& [arguments, said] : wrong) {
     std::string quoted;
