@@ -36,7 +36,8 @@ TEST(CommandLine, NamesTheVerbThatWasMeant) {
   const ScratchFolder folder;
   const Outcome refused = gaussdrift_in(folder, "chekc small.toml");
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("there is no command \"chekc\"; did you mean \"check\"?"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("there is no command \"chekc\"; did you mean \"check\"?"), std::string::npos)
+      << refused.err;
 }
 
 TEST(CommandLine, NamesTheOptionThatWasMeant) {
