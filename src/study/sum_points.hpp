@@ -40,10 +40,9 @@ struct PointSums {
 /// "0,1,2". Throws CommandLineError.
 std::vector<int> parse_derivative(const std::string& text);
 
-/// Throws CommandLineError where the request contradicts the tables or itself, InputError for tables that do not belong
-/// together, a tolerance that cannot be promised, sizes beyond the limit and predicted seconds beyond theirs,
-/// NumericalError for values that are not
-/// finite.
+/// Throws CommandLineError where the request contradicts the tables or itself. Throws InputError for tables that do not
+/// belong together, a tolerance that cannot be promised, and memory or seconds beyond their limits. Throws
+/// NumericalError for values that are not finite.
 PointSums sum_points(const SumRequest& request);
 
 /// Compares the values with all pairs at some targets. sum_points() has done so, unless `direct` did the sum.
