@@ -1,11 +1,14 @@
 // Verbs that look at what runs have left: report, render, compare.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "base/number.hpp"
 #include "base/suggest.hpp"
@@ -66,6 +69,45 @@ std::string described(const Lattice& lattice) {
 }
 
 std::string in_text(std::optional<double> time) { return time ? fmt::format("t = {:g}", *time) : "no time"; }
+
+bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+/// Outputs of two runs that belong together, as indices, and those that have no partner.
+struct Partners {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<std::size_t> first_alone, second_alone;
+};
+
+/// Two single outputs belong together whatever their times; others if their times agree, or if neither has one, in
+/// their order.
+Partners partners_of(const std::vector<study::WrittenOutput>& a, const std::vector<study::WrittenOutput>& b) {
+  if (a.size() == 1 && b.size() == 1) return {.pairs = {{0, 0}}, .first_alone = {}, .second_alone = {}};
+  Partners partners;
+  std::vector<bool> taken(b.size(), false);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t j = 0;
+    while (j < b.size() && (taken[j] || a[i].time.has_value() != b[j].time.has_value() ||
+                            (a[i].time && !same_time(*a[i].time, *b[j].time))))
+      ++j;
+    if (j == b.size()) {
+      partners.first_alone.push_back(i);
+      continue;
+    }
+    taken[j] = true;
+    partners.pairs.emplace_back(i, j);
+  }
+  for (std::size_t j = 0; j < b.size(); ++j)
+    if (!taken[j]) partners.second_alone.push_back(j);
+  return partners;
+}
+
+/// "t = 0, 0.5 and 1", at most the first and the last where they are many.
+std::string times_text(const std::vector<study::WrittenOutput>& outputs) {
+  std::vector<std::string> times;
+  for (const auto& output : outputs) times.push_back(output.time ? fmt::format("{:g}", *output.time) : "none");
+  if (times.size() > 8) return fmt::format("{} from t = {} to {}", times.size(), times.front(), times.back());
+  return fmt::format("t = {}", fmt::join(times, ", "));
+}
 
 }  // namespace
 
@@ -147,25 +189,32 @@ ExitCode render(const RenderOptions& options) {
 
 ExitCode compare(const CompareOptions& options) {
   const auto a = outputs_of(options.first), b = outputs_of(options.second);
-  if (a.size() != b.size())
-    throw FileError(fmt::format("{} has {} outputs, {} has {}: compare runs with the same output times",
-                                options.first.string(), a.size(), options.second.string(), b.size()));
-  const bool files = !fs::is_directory(options.first) && !fs::is_directory(options.second);
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const Partners partners = partners_of(a, b);
+  if (partners.pairs.empty())
+    throw FileError(
+        fmt::format("{} and {} have no output time in common: the one has {}, the other {}; compare two of "
+                    "their files to see how far apart they are all the same",
+                    options.first.string(), options.second.string(), times_text(a), times_text(b)));
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array(), alone = nlohmann::ordered_json::array();
+  const auto number = [](std::optional<double> t) { return t ? nlohmann::ordered_json(*t) : nullptr; };
+  const auto tell_alone = [&](const std::vector<study::WrittenOutput>& outputs, const std::vector<std::size_t>& which,
+                              const fs::path& other) {
+    for (const std::size_t i : which) {
+      note("warning: {} ({}) is not compared: {} has no output at that time\n", outputs[i].file.string(),
+           in_text(outputs[i].time), other.string());
+      alone.push_back({{"file", outputs[i].file.string()}, {"t", number(outputs[i].time)}});
+    }
+  };
+  tell_alone(a, partners.first_alone, options.second);
+  tell_alone(b, partners.second_alone, options.first);
   double worst = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const std::optional<double> time = a[i].time, other = b[i].time;
-    const bool at_other_time =
-        time && other && std::abs(*time - *other) > 1e-9 * std::max(std::abs(*time), std::abs(*other));
-    if (at_other_time && !files)
-      throw FileError(fmt::format(
-          "output {} (counted from 1) is at t = {} in the one and at t = {} in the other: compare runs with the "
-          "same output times, or two files",
-          i + 1, base::told_apart(*time, *other), base::told_apart(*other, *time)));
+  for (const auto& [i, j] : partners.pairs) {
+    const std::optional<double> time = a[i].time, other = b[j].time;
+    const bool at_other_time = time && other && !same_time(*time, *other);
     if (at_other_time)  // has it come back?
       note("warning: the times differ: {} is at t = {}, {} at t = {}\n", a[i].file.string(),
-           base::told_apart(*time, *other), b[i].file.string(), base::told_apart(*other, *time));
-    const DensityGrid x = study::read_density(a[i].file, "rho"), y = study::read_density(b[i].file, "rho");
+           base::told_apart(*time, *other), b[j].file.string(), base::told_apart(*other, *time));
+    const DensityGrid x = study::read_density(a[i].file, "rho"), y = study::read_density(b[j].file, "rho");
     const auto apart_by = [&](int k) {
       return std::abs(x.lattice.origin[static_cast<std::size_t>(k)] - y.lattice.origin[static_cast<std::size_t>(k)]);
     };
@@ -174,18 +223,18 @@ ExitCode compare(const CompareOptions& options) {
         apart_by(0) > same || apart_by(1) > same || apart_by(2) > same)
       throw FileError(fmt::format(
           "{} and {} are on different grids, {} and {}; run one of them with the domain and [evaluate] of the other",
-          a[i].file.string(), b[i].file.string(), described(x.lattice), described(y.lattice)));
+          a[i].file.string(), b[j].file.string(), described(x.lattice), described(y.lattice)));
     const ErrorNorms norms = gaussdrift::compare(x.rho, y.rho);
     const double linf = std::isnan(norms.linf) ? (x.rho == y.rho ? 0.0 : INFINITY) : norms.linf;
     worst = std::max(worst, linf);
-    const auto number = [](std::optional<double> t) { return t ? nlohmann::ordered_json(*t) : nullptr; };
     rows.push_back({{"t", number(time)}, {"L1", norms.l1}, {"L2", norms.l2}, {"Linf", linf}});
     if (at_other_time) rows.back()["t_second"] = number(other);
     if (!options.json) say("{:<14} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", in_text(time), norms.l1, norms.l2, linf);
   }
   const bool apart = options.tolerance >= 0 && !(worst <= options.tolerance);
   if (options.json)
-    say("{}\n", laid_out(nlohmann::ordered_json{{"outputs", rows}, {"largest", worst}, {"within", !apart}}));
+    say("{}\n", laid_out(nlohmann::ordered_json{
+                    {"outputs", rows}, {"not_compared", alone}, {"largest", worst}, {"within", !apart}}));
   else
     say("largest difference {:.2e}, relative to {}{}\n", worst, options.second.string(),
         options.tolerance < 0 ? ""

@@ -126,6 +126,46 @@ TEST(Compare, MeasuresTheDifferenceOfTwoRuns) {
   EXPECT_NE(grids.err.find("different grids"), std::string::npos) << grids.err;
 }
 
+TEST(Compare, OfDifferentTimesComparesThoseThatAgreeAndTellsTheOthers) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  const std::string quick = " --set output.report=none --set 'output.images=[]' --set 'output.times=";
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out three" + quick + "[0, 0.25, 1]'").exit_code, 0);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out four" + quick + "[0, 0.5, 0.75, 1]'").exit_code, 0);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out late" + quick + "[0.8, 0.9]'").exit_code, 0);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out last" + quick + "[1]'").exit_code, 0);
+
+  const Outcome some = gaussdrift_in(folder, "compare three four --json");
+  EXPECT_EQ(some.exit_code, 0) << some.err;
+  const auto found = nlohmann::json::parse(some.out);
+  ASSERT_EQ(found["outputs"].size(), 2u);
+  EXPECT_EQ(found["outputs"][0]["t"], 0.0);
+  EXPECT_EQ(found["outputs"][1]["t"], 1.0);
+  EXPECT_LT(found["largest"].get<double>(), 1e-6);  // the same but for where steps are cut
+  ASSERT_EQ(found["not_compared"].size(), 3u);
+  EXPECT_EQ(found["not_compared"][0]["t"], 0.25);
+  EXPECT_EQ(found["not_compared"][2]["t"], 0.75);
+  EXPECT_NE(some.err.find("(t = 0.25) is not compared: four has no output at that time"), std::string::npos)
+      << some.err;
+  EXPECT_NE(some.err.find("(t = 0.5) is not compared: three has no output"), std::string::npos) << some.err;
+  EXPECT_EQ(gaussdrift_in(folder, "compare three four --tolerance 1e-6").exit_code, 0);
+
+  const Outcome none = gaussdrift_in(folder, "compare three late");
+  EXPECT_EQ(none.exit_code, 6);
+  EXPECT_NE(none.err.find("no output time in common: the one has t = 0, 0.25, 1, the other t = 0.8, 0.9"),
+            std::string::npos)
+      << none.err;
+
+  // One output on each side, whatever holds it: has it come back?
+  const Outcome single = gaussdrift_in(folder, "compare last three/density/density_0000.vti");
+  EXPECT_EQ(single.exit_code, 0) << single.err;
+  EXPECT_NE(single.err.find("the times differ"), std::string::npos) << single.err;
+  // A file and a folder: the output of its time.
+  const auto one = nlohmann::json::parse(gaussdrift_in(folder, "compare last four --json").out);
+  EXPECT_EQ(one["outputs"].size(), 1u);
+  EXPECT_EQ(one["not_compared"].size(), 3u);
+}
+
 TEST(Doctor, FindsThisMachineWell) {
   const ScratchFolder folder;
   const Outcome out = gaussdrift_in(folder, "doctor --json");
