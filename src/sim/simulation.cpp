@@ -158,6 +158,11 @@ double work_of_drift(const Case& description, const Scene& scene, double particl
 
 }  // namespace
 
+double work_of_rate(const Case& description, const Scene& scene, std::size_t particles) {
+  const auto n = static_cast<double>(particles);
+  return n * (scene.velocity->cost() + (description.effects.drifts() ? work_of_drift(description, scene, n) : 0));
+}
+
 Work work_of(const Case& description, const Scene& scene, std::size_t particles) {
   const time::Tableau& tableau = time::find_tableau(description.time.method);
   // The number of steps that a method chooses is not known here; some hundred are usual.
@@ -167,8 +172,7 @@ Work work_of(const Case& description, const Scene& scene, std::size_t particles)
   // picture, 0.4 s for the first.
   const double sum = description.domain.dimension == 2 ? 5 : 25, picture = 5e6, first = 2e7;
   const double pictures = outputs * static_cast<double>(description.output.images.size());
-  const double drift = description.effects.drifts() ? work_of_drift(description, scene, n) : 0;
-  return {n * steps * static_cast<double>(tableau.stages) * (scene.velocity->cost() + drift),
+  return {steps * static_cast<double>(tableau.stages) * work_of_rate(description, scene, particles),
           outputs * sum * (n + static_cast<double>(scene.evaluation.size())),
           pictures > 0 ? first + picture * pictures : 0};
 }

@@ -65,6 +65,9 @@ struct Work {
 };
 Work work_of(const Case& description, const Scene& scene, std::size_t particles);
 
+/// The work of one evaluation of the velocity at all particles, with what they do to each other.
+double work_of_rate(const Case& description, const Scene& scene, std::size_t particles);
+
 /// The work of one evaluation on an exact path, the integrator included.
 double work_of_exact_rate(const Scene& scene);
 

@@ -715,6 +715,8 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, Allow
         .rho;
   };
   const std::vector<double> density = summed(carried, scene.cutoff), other = summed(aside, scene.cutoff);
+  const auto [lowest, highest] = std::minmax_element(density.begin(), density.end());
+  budget.lowest = *lowest, budget.highest = *highest;
   const GridSample sample = sample_of_grid(scene.evaluation, density, knowable.points);
   std::vector<double> exact;
   exact_density(description, scene, knowable.following, threads)->evaluate_at(time, sample.points, exact);

@@ -28,6 +28,7 @@ struct Budget {
   std::size_t probes = 0;           // points at which the causes were told apart
   double outside = 0;               // part of sum |alpha_j| outside the domain at the last output
   std::size_t particles = 0;        // at the start, of a prediction
+  double lowest = 0, highest = 0;   // of the density at the last output, predicted
   std::string not_covered;          // why there are no numbers; empty: there are
   bool too_dear = false;            // they would have taken more work than was allowed
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <numeric>
 #include <thread>
@@ -15,9 +14,13 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
+#include "render/picture.hpp"
 #include "sim/outside.hpp"
 #include "sim/simulation.hpp"
+#include "sim/stepper.hpp"
 #include "study/footprint.hpp"
+#include "study/picture_seconds.hpp"
+#include "study/processor_clock.hpp"
 #include "study/trial.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
@@ -29,27 +32,13 @@ namespace {
 
 constexpr double enough_seconds = 0.05;  // for a timing
 // Work that the parts of a check may take (sim/simulation.hpp): together two seconds of one core, or less.
-constexpr double work_of_steps = 2e6, work_of_paths = 4e6, work_of_samples = 2e6;
+constexpr double work_of_steps = 2e6, work_of_paths = 4e6, work_of_samples = 2e6, work_of_drifts = 2e7,
+                 work_of_growth = 1e7;
 /// The prediction of the errors may take half as much again as steps, density and pictures of the run, within bounds.
 constexpr double least_work_of_errors = 3e7, most_work_of_errors = 2.5e8;
 constexpr std::size_t most_particles = 400'000, most_with_method = 30'000;  // of a trial; with a method asked by name
 constexpr double most_pairs = 3e8;                                          // summed one by one
 constexpr std::size_t written_particles = 20'000, written_points = 40'000;  // of a file that is made on trial
-
-/// Processor seconds of this thread. Trials run on one thread and are timed by it: other programs on the machine, and
-/// threads that wait for each other in a small trial, do not count.
-class ProcessorClock {
- public:
-  double seconds() const { return now() - start_; }
-
- private:
-  static double now() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-  double start_ = now();
-};
 
 /// Seconds on `threads` threads of work that takes `seconds` on one. `serial` is the share that is not divided.
 double shared(double seconds, int threads, double serial) {
@@ -118,14 +107,14 @@ void sample_field(const Scene& scene, const Particles& particles, double end, De
 
 /// The number of particles that fits into the work of a few steps.
 std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_t particles) {
-  const time::Tableau& tableau = time::find_tableau(spec.time.method);
-  const double stages = tableau.stages;
-  Case one_step = spec;
-  one_step.time.step = one_step.time.end = 1;
-  one_step.time.method = "rk4";
-  one_step.output.times = {1};
-  // The work of one particle of so many in a step.
-  const double rates = work_of(one_step, scene, particles).transport / static_cast<double>(particles) / 4 * stages;
+  if (spec.effects.drifts()) {
+    // As many as one sum over all pairs affords. Fewer are summed pair by pair, which does not tell what many take.
+    std::size_t most = particles;
+    while (most > 1000 && work_of_rate(spec, scene, most) > work_of_drifts) most -= most / 8;
+    return most;
+  }
+  const double stages = time::find_tableau(spec.time.method).stages;
+  const double rates = stages * scene.velocity->cost();  // of one particle, in a step
   const double reaction = scene.reaction_rate ? stages * scene.reaction_rate->cost() : 0;
   double each = rates + reaction;
   const auto& diffusion = spec.effects.diffusion;
@@ -134,9 +123,7 @@ std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_
     const double halo = 2 * spec.particles.overlap * std::sqrt(std::log(1 / diffusion->tolerance)) + 1;
     each += 0.2 * std::pow(halo, spec.domain.dimension) + 60;
   }
-  // Few particles that move each other are summed pair by pair, so that fewer cost less each.
-  const double least = !spec.effects.drifts() ? 20 : spec.domain.dimension == 2 ? 30'000 : 12'000;
-  return static_cast<std::size_t>(std::clamp(work_of_steps / each, least, 1e9));
+  return static_cast<std::size_t>(std::clamp(work_of_steps / each, 20.0, 1e9));
 }
 
 /// Particles that move each other leave the lattice at once. Sums over particles on a lattice are cheaper, so they
@@ -161,7 +148,6 @@ double time_steps(const Case& spec, const Scene& scene, const Particles& particl
     Carrier carrier(spec, scene, 1);
     Particles copy = particles;
     carrier.begin(copy);
-    if (spec.effects.drifts()) shake(copy, scene.seeding.spacing);
     base::StageTimes ignored;
     std::size_t taken = 0;
     const ProcessorClock begun;
@@ -176,6 +162,83 @@ double time_steps(const Case& spec, const Scene& scene, const Particles& particl
     if (watch.seconds() > (repeat == 0 ? 4 : 1) * enough_seconds) break;
   }
   return fastest;
+}
+
+/// Seconds a step on one thread of particles that move each other: sums over all of them, which grow dearer as their
+/// blobs spread. A few sums at the start, in the middle and at the end of the run, by Simpson's rule.
+double time_drifts(const Case& spec, const Scene& scene, const Particles& particles) {
+  Carrier carrier(spec, scene, 1);
+  Particles copy = particles;
+  carrier.begin(copy);
+  shake(copy, scene.seeding.spacing);
+  Columns u;
+  VectorsView view{copy.dimension, copy.size(), {}};
+  for (int k = 0; k < copy.dimension; ++k) {
+    u[k].assign(copy.size(), 0.0);
+    view.axis[k] = u[k].data();
+  }
+  const auto at = [&](double t) {
+    double fastest = std::numeric_limits<double>::infinity();
+    // Twice at least: the first sum makes tables that all later ones find.
+    const ProcessorClock watch;
+    for (int i = 0; i < 2 || watch.seconds() < enough_seconds; ++i) {
+      const ProcessorClock one;
+      add_flow_and_drifts(*scene.velocity, carrier.drifts(), t, copy, copy.view(), view, 1);
+      fastest = std::min(fastest, one.seconds());
+    }
+    return fastest;
+  };
+  const double end = spec.time.end, start = at(0);
+  const double sum = spec.effects.diffusion ? (start + 4 * at(end / 2) + at(end)) / 6 : start;
+  return sum * time::find_tableau(spec.time.method).stages;
+}
+
+/// What effects that replace particles take and do to the number of particles over the run, from fewer particles that
+/// take all its steps, or as many as an amount of work allows.
+struct Growth {
+  double seconds = 0;         // of a step, for each particle at the start
+  double between_steps = 0;   // part of it that is neither the flow's nor the drifts'
+  double mean = 1, most = 1;  // numbers of particles to that at the start
+};
+Growth grow(const Case& spec, Trial& trial) {
+  const time::Interval interval(0, spec.time.end, spec.time.step);
+  const double stages = time::find_tableau(spec.time.method).stages, steps = static_cast<double>(interval.steps());
+  // Exchanging and remeshing take some 0.3 us of one core for each particle and step in the cases shear_diffusion and
+  // swirl_remesh.
+  const double each = stages * trial.scene.velocity->cost() + 8;
+  constexpr double fewest = 500;
+  thin_out(trial, static_cast<std::size_t>(std::clamp(work_of_growth / (each * steps), fewest, 1e9)), 1);
+  Particles copy = trial.particles;
+  Carrier carrier(trial.spec, trial.scene, 1);
+  carrier.begin(copy);
+  const auto begun = static_cast<double>(copy.size());
+  double sum = 0, most = begun, count = 0;
+  base::StageTimes stages_taken;
+  const ProcessorClock watch;
+  // Counted with the particles that there are by then.
+  for (std::size_t i = 0; i < interval.steps() && (i == 0 || sum * each < work_of_growth); ++i) {
+    carrier.advance(copy, interval, i, 1, 0, stages_taken);
+    const auto now = static_cast<double>(copy.size());
+    sum += now;
+    most = std::max(most, now);
+    ++count;
+  }
+  // They grow by a rim of so many spacings, which on a lattice of wider spacing is a larger part.
+  const auto on_lattice_of_case = [&](double times) {
+    const double d = spec.domain.dimension, rim = (std::pow(times, 1 / d) - 1) / static_cast<double>(trial.part.stride);
+    return std::pow(1 + rim, d);
+  };
+  const double seconds = watch.seconds();
+  double all = 0, between = 0;
+  for (const auto& [name, stage] : stages_taken.stages()) {
+    all += stage;
+    if (name == "effect remesh" || name == "effect diffusion") between += stage;
+  }
+  Growth growth{.between_steps = all > 0 ? between / all : 0,
+                .mean = on_lattice_of_case(sum / count / begun),
+                .most = on_lattice_of_case(most / begun)};
+  growth.seconds = seconds / sum * growth.mean;
+  return growth;
 }
 
 /// Seconds of the reference of all outputs, from the paths of some grid points over as much of the run as an amount of
@@ -318,6 +381,38 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
+/// The largest difference between the density of the blobs and the initial one, on the grid.
+double error_at_start(const Scene& scene, const DensityGrid& density) {
+  const Lattice& grid = density.lattice;
+  Columns x;
+  PointsView nodes{grid.dimension, density.rho.size(), {}};
+  for (int k = 0; k < grid.dimension; ++k) x[k].resize(nodes.count);
+  for (std::size_t i = 0; i < nodes.count; ++i)
+    for (std::size_t k = 0, rest = i; k < static_cast<std::size_t>(grid.dimension); rest /= grid.points[k++])
+      x[k][i] = grid.coordinate(static_cast<int>(k), rest % grid.points[k]);
+  for (int k = 0; k < grid.dimension; ++k) nodes.axis[k] = x[k].data();
+  std::vector<double> exact(density.rho.size(), 0.0);
+  scene.density->add(nodes, exact.data());
+  double largest = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) largest = std::max(largest, std::abs(exact[i] - density.rho[i]));
+  return largest;
+}
+
+/// Which pictures are drawn again at the end: those of a quantity that leaves the range of colours which its first
+/// output was given.
+Redrawn redrawn(const Case& spec, const Description& result) {
+  if (spec.output.times.size() < 2) return {};
+  const auto [low, high] = render::rounded_range(std::min(0.0, result.density_minimum), result.density_maximum);
+  const double margin = 0.01 * (high - low);
+  // Where the end is not predicted, the error is taken to grow, and the density of vortex blobs, of which flat patches
+  // are usual, to ripple when they leave the lattice.
+  if (!result.budget.known())
+    return {.density = spec.effects.vortex && result.density_maximum > high - margin, .error = true};
+  const double error = render::symmetric_range(-result.error_at_start, result.error_at_start).second;
+  return {.density = result.budget.lowest < low - margin || result.budget.highest > high + margin,
+          .error = result.error_at_start < 0 || result.budget.total * result.density_maximum > 1.02 * error};
+}
+
 /// The density at the start, and the seconds that an output of the case takes.
 void try_density(const Case& spec, const Trial& trial, int threads, Description& result) {
   DensityOptions options;
@@ -336,7 +431,11 @@ void try_density(const Case& spec, const Trial& trial, int threads, Description&
   const double took = watch.seconds();
   // The first sum is timed: sums of a run find as little in the caches, because their memory is new each time.
   const double seconds = took * of_sum;
-  result.density_maximum = *std::max_element(density.rho.begin(), density.rho.end());
+  const auto [lowest, highest] = std::minmax_element(density.rho.begin(), density.rho.end());
+  result.density_minimum = *lowest, result.density_maximum = *highest;
+  const auto& images = spec.output.images;
+  if (trial.whole && std::find(images.begin(), images.end(), OutputSpec::Image::error) != images.end())
+    result.error_at_start = error_at_start(trial.scene, density);
   const auto all = static_cast<double>(result.particles), points = static_cast<double>(result.grid_points),
              m = static_cast<double>(grid.size());
   const auto measured = [](double particles) { return std::max(2e7, 4 * particles); };  // pairs
@@ -366,6 +465,7 @@ void try_steps(const Case& spec, Trial& trial, int threads, Description& result)
   thin_out(trial, particles_for_steps(trial.spec, trial.scene, trial.particles.size()), threads);
   const double seeded = static_cast<double>(trial.particles.size()), each = trial.carried / seeded;
   Particles particles = trial.particles;
+  result.tried_in_steps = particles.size();
   Carrier carrier(trial.spec, trial.scene, threads);
   carrier.begin(particles);
   result.step_warnings = carrier.warnings();
@@ -376,16 +476,28 @@ void try_steps(const Case& spec, Trial& trial, int threads, Description& result)
   // A halo lies around the particles: like their surface.
   const double halo = static_cast<double>(particles.size()) - seeded;
   result.particles_at_end = trial.carried + halo * std::pow(each, 1 - 1 / static_cast<double>(spec.domain.dimension));
+  result.particles_at_most = result.particles_at_end;
+  const double times = result.particles_at_end / static_cast<double>(particles.size());
+  const bool drifts = spec.effects.drifts();
+  double seconds = 0;
+  result.steps = total_steps(spec);
   if (carrier.is_adaptive()) {
     const ChosenSteps chosen = try_chosen_steps(trial.spec, trial.scene, trial.particles);
     result.steps = static_cast<std::size_t>(chosen.steps);
-    result.step_seconds = chosen.seconds;
+    seconds = chosen.seconds * times;
   } else {
-    result.steps = total_steps(spec);
-    result.step_seconds = time_steps(trial.spec, trial.scene, trial.particles);
+    const bool replaced = carrier.replaces_particles() && spec.time.end > 0;
+    seconds = drifts      ? time_drifts(trial.spec, trial.scene, trial.particles) * times
+              : !replaced ? time_steps(trial.spec, trial.scene, trial.particles) * times
+                          : 0;
+    if (replaced) {
+      const Growth growth = grow(spec, trial);
+      seconds = seconds * growth.mean + growth.seconds * (drifts ? growth.between_steps : 1) * result.particles_at_end;
+      result.particles_at_most *= growth.most;
+      result.particles_at_end *= growth.mean;
+    }
   }
-  result.step_seconds = shared(result.step_seconds * result.particles_at_end / static_cast<double>(particles.size()),
-                               threads, spec.effects.drifts() ? serial_drifts : serial_steps);
+  result.step_seconds = shared(seconds, threads, drifts ? serial_drifts : serial_steps);
 }
 
 /// After the last output: the error budget, the table of tolerances and the page.
@@ -471,16 +583,16 @@ Description describe(const Case& spec, int asked_threads, const std::function<vo
                       .compared_everywhere = compared > 0 && compared >= result.grid_points};
   result.file_seconds = time_files(spec, trial, extent);
 
-  const auto frames = static_cast<double>(result.frames),
-             pictures = frames * static_cast<double>(spec.output.images.size());
-  result.picture_seconds =
-      pictures > 0 ? 0.4 + 0.13 * pictures : 0;  // start of the renderer, and a picture, on two cores
+  const auto frames = static_cast<double>(result.frames);
+  result.picture_seconds = seconds_of_pictures(spec, result.grid_points, redrawn(spec, result));
   const double run = result.seed_seconds + static_cast<double>(result.steps) * result.step_seconds +
                      frames * result.evaluate_seconds + result.reference_seconds + result.picture_seconds +
                      result.file_seconds;
   result.report_seconds = time_report(spec, result, run);
   result.seconds = run + result.report_seconds;
-  result.memory_bytes = before + memory_of_run(spec, extent);
+  Extent largest = extent;
+  largest.particles = result.particles_at_most;
+  result.memory_bytes = before + memory_of_run(spec, largest);
   result.memory_there = memory_of_this_machine();
   result.disk_bytes = disk_of_run(spec, extent);
   return result;

@@ -31,14 +31,17 @@ struct Description {
   std::vector<std::string> left_out;  // what was done with a sample, or not at all
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0, frames = 0;
   double spacing = 0, core_radius = 0;
-  SeedReport seeding;          // what has no particle
-  double beyond_at_start = 0;  // part of the mass of rho_0 that lies outside the domain
-  DensityReport density;       // of a trial evaluation at t = 0
-  double density_maximum = 0;  // rho_eps^h on the grid at t = 0
+  SeedReport seeding;                               // what has no particle
+  double beyond_at_start = 0;                       // part of the mass of rho_0 that lies outside the domain
+  DensityReport density;                            // of a trial evaluation at t = 0
+  double density_minimum = 0, density_maximum = 0;  // rho_eps^h on the grid at t = 0
   // Predictions
   double seed_seconds = 0, step_seconds = 0, evaluate_seconds = 0;  // the latter two of one
   double reference_seconds = 0, picture_seconds = 0, file_seconds = 0, report_seconds = 0, seconds = 0;
-  double particles_at_end = 0;  // with those that diffusion adds
+  double error_at_start = -1;   // largest, of rho_eps^h on the grid; negative: not known
+  double particles_at_end = 0;  // with those that diffusion and remeshing add, on the mean of the run
+  double particles_at_most = 0;
+  std::size_t tried_in_steps = 0;  // particles whose steps were timed
   double memory_bytes = 0, disk_bytes = 0, memory_there = 0;
   int threads = 1;
   Budget budget;  // predicted

@@ -101,7 +101,7 @@ double memory_of_run(const Case& spec, const Extent& extent) {
     output = std::max(output, shown + n * number * 8 + 2.2 * bytes_of_particle_file(extent));
   if (pictures) output = std::max(output, shown) + m * number;
   // The drawing library stays once it has drawn.
-  const double drawing = pictures ? 1.1e8 : 0;
+  const double drawing = pictures ? 1.4e8 : 0;
   return drawing + std::max({seed, step, density + copy, output + copy});
 }
 

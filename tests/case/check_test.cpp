@@ -2,7 +2,9 @@
 // Work is counted, in values of density and velocity, not timed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "input/read_case.hpp"
 #include "study/accuracy.hpp"
 #include "study/describe.hpp"
+#include "study/picture_seconds.hpp"
 #include "study/trial.hpp"
 
 namespace gaussdrift::study {
@@ -133,6 +136,75 @@ TEST(Check, PredictsErrorsWhereTheyTakeLessThanTheRun) {
   EXPECT_TRUE(told.budget.known()) << told.budget.not_covered;
   EXPECT_NEAR(told.budget.total, 0.024, 0.001);  // published: the cone's height falls by that
   EXPECT_TRUE(told.whole);
+}
+
+/// Numbers of particles at the outputs of a run.
+struct CountParticles : Observer {
+  explicit CountParticles(std::vector<double>& counted) : counts(counted) {}
+  std::string name() const override { return "count"; }
+  void frame(const Frame& frame) override { counts.push_back(static_cast<double>(frame.particles->size())); }
+  std::vector<double>& counts;
+};
+
+// What a run takes follows from its steps and its particles. Seconds themselves are compared by hand (method.md).
+TEST(Check, CountsTheStepsAndTheParticlesOfTheRun) {
+  struct Counted {
+    std::string name;
+    std::vector<std::string> overrides;
+  };
+  for (const Counted& counted : {
+           // Steps chosen by their error, counted in a part of the run.
+           Counted{"taylor_green", {"particles.per_axis=60", "evaluate.per_axis=21", "time.method=\"dopri5\""}},
+           // Particles that remeshing adds, from every other point of the lattice.
+           Counted{"swirl_remesh",
+                   {"params.T=2", "particles.per_axis=201", "effects.remesh.stretch=1.2", "evaluate.per_axis=21"}},
+           Counted{"shear_diffusion", {"evaluate.per_axis=21"}},
+       }) {
+    const Case spec = built_in(counted.name, counted.overrides);
+    const Description told = describe(spec, 1);
+    std::vector<double> counts;
+    Simulation simulation(spec, 1);
+    simulation.observe(std::make_unique<CountParticles>(counts));
+    const RunSummary taken = simulation.run();
+    const auto expect_near = [&](double predicted, double counted_in_run, const char* what) {
+      EXPECT_LT(predicted / counted_in_run, 1.3) << counted.name << ", " << what;
+      EXPECT_GT(predicted / counted_in_run, 1 / 1.3) << counted.name << ", " << what;
+    };
+    expect_near(static_cast<double>(told.steps), static_cast<double>(taken.steps), "steps");
+    double mean = 0;
+    for (const double count : counts) mean += count / static_cast<double>(counts.size());
+    expect_near(told.particles_at_end, mean, "particles");
+    expect_near(told.particles_at_most, *std::max_element(counts.begin(), counts.end()), "particles at most");
+  }
+}
+
+// Vortex blobs that have spread are summed pair by pair, six times as dear as at the start: what is tried has to be all
+// of the particles, for fewer are summed by another method.
+TEST(Check, TriesAllParticlesThatMoveEachOtherWhereTheyAreFew) {
+  const Description told = describe(built_in("lamb_oseen", {}), 0);
+  EXPECT_EQ(told.tried_in_steps, told.particles);
+  // Of 130 000 in space, as many as still take the tree.
+  const Description many = describe(built_in("charged_ball", {"particles.per_axis=161", "evaluate.per_axis=21"}), 0);
+  EXPECT_GE(many.tried_in_steps, 9'000u);
+  EXPECT_LE(many.tried_in_steps, 80'000u);
+}
+
+TEST(Pictures, CostByStyleNumberAndSize) {
+  Case spec = built_in("rotating_cone", {});
+  const auto seconds = [&](OutputSpec::Image style, std::size_t points, std::size_t outputs, Redrawn again = {}) {
+    spec.output.images = {style};
+    spec.output.times.assign(outputs, 0.0);
+    return seconds_of_pictures(spec, points, again);
+  };
+  using Image = OutputSpec::Image;
+  // Ratios alone, which are those of the constants; the two timings of the machine may differ by a half.
+  const double one = seconds(Image::heatmap, 10'000, 1), many = seconds(Image::heatmap, 10'000, 101);
+  EXPECT_NEAR(many / one, (0.11 + 101 * 0.133) / (0.11 + 0.133), 28);
+  EXPECT_GT(seconds(Image::surface, 90'000, 10), 1.2 * seconds(Image::heatmap, 90'000, 10));
+  EXPECT_LT(seconds(Image::surface, 10'000'000, 10), 2 * seconds(Image::surface, 90'000, 10));
+  EXPECT_GT(seconds(Image::error, 10'000, 100, {.error = true}), 1.2 * seconds(Image::error, 10'000, 100));
+  spec.output.images.clear();
+  EXPECT_EQ(seconds_of_pictures(spec, 10'000, {}), 0);
 }
 
 TEST(Check, OfAnAbsurdCaseSaysThatItDoesNotFit) {

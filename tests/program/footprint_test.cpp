@@ -124,6 +124,13 @@ TEST_P(Footprint, IsPredictedWithinAFactorOf1Point3) {
   EXPECT_LT(told / taken.peak, 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
   EXPECT_GT(told / taken.peak, 1 / 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
   EXPECT_LT(predicted.peak, 200e6);
+  // Beside the small files of a run, which are not counted to the byte.
+  double files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "r"))
+    if (entry.is_regular_file()) files += static_cast<double>(entry.file_size());
+  const double disk = nlohmann::json::parse(predicted.out)["predicted"]["disk_bytes"];
+  EXPECT_LT(disk, 1.3 * files + 1e5) << size.name;
+  EXPECT_GT(disk, files / 1.3 - 1e5) << size.name;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -184,6 +191,20 @@ TEST(Inputs, ThatAreNoFilesOfTextAreRefusedWithoutReadingThem) {
   EXPECT_EQ(huge.exit_code, 3);
   EXPECT_NE(huge.err.find("a case file has at most 4.0 MB"), std::string::npos) << huge.err;
   EXPECT_EQ(gaussdrift_in(folder, "check c.toml --set particles.overlap=1e-300").exit_code, 3);
+}
+
+// A pipe has no size: what comes is read up to the size of a case file, not to the end.
+TEST(Inputs, ThatNeverEndAreReadInPart) {
+  const ScratchFolder folder;
+  for (const std::string verb : {"check", "run", "study"}) {
+    const Outcome refused = gaussdrift_in(folder, verb + " endless", "mkfifo endless 2>/dev/null; yes > endless &");
+    EXPECT_EQ(refused.exit_code, 3) << verb;
+    EXPECT_NE(refused.err.find("a case file has at most 4.0 MB"), std::string::npos) << refused.err;
+  }
+  ASSERT_EQ(std::system(("cd " + folder.path().string() + " && (yes > endless &)").c_str()), 0);
+  const Measured check = measured(folder, {"check", "endless"});
+  EXPECT_EQ(check.exit_code, 3);
+  EXPECT_TRUE(sanitized || check.peak < 120e6) << check.peak;  // 80 MB are the program and its libraries
 }
 
 }  // namespace
