@@ -38,7 +38,7 @@ void list_examples(bool json) {
     say("{}\n", list.dump(2));
     return;
   }
-  say("examples; gaussdrift new NAME writes one as NAME.toml:\n");
+  say("Built-in cases. gaussdrift new NAME writes one as NAME.toml:\n");
   for (const auto& entry : list)
     say("  {:<18} {}\n", entry["name"].get<std::string>(), entry["title"].get<std::string>());
 }
@@ -64,7 +64,7 @@ ExitCode new_case(const NewOptions& options) {
   }
   if (std::find(names.begin(), names.end(), wanted) == names.end()) {
     const auto near = base::suggest(wanted, names);
-    throw CommandLineError(fmt::format("there is no example \"{}\"{}; gaussdrift new lists them", wanted,
+    throw CommandLineError(fmt::format("there is no built-in case \"{}\"{}; gaussdrift new lists them", wanted,
                                        near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
   }
   for (const input::ExampleFile* file : files)

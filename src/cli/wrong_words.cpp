@@ -75,7 +75,7 @@ std::string unknown_verb(const CLI::App& app, const std::string& word) {
     if (word == elsewhere) remedy = fmt::format("; did you mean \"{}\"?", here);
   if (word.size() > 5 && word.substr(word.size() - 5) == ".toml")
     remedy = fmt::format("; to run the case write: gaussdrift run {}", base::printable(word));
-  return text + remedy + "; gaussdrift --help lists the commands";
+  return text + remedy + " (gaussdrift --help lists the commands)";
 }
 
 std::string explained(const CLI::App& app, const CLI::ParseError& error) {
