@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "farfield/cost.hpp"
 
 namespace farfield::detail {
 
@@ -14,7 +15,8 @@ Clustered<d>::Clustered(const Problem& problem, Parts parts)
       partition_(std::move(parts.partition)),
       operators_(std::move(parts.operators)),
       near_(problem_, tree_, parts.precisions),
-      threads_(parts.threads) {}
+      threads_(parts.threads),
+      work_(work_of<d>(partition_, tree_, operators_ ? operators_->one_sided().nodes() : 0)) {}
 
 template <int d>
 double Clustered<d>::evaluation_bytes() const {
@@ -54,8 +56,9 @@ template <int d>
 void Clustered<d>::add_at_leaves(const Buffer<double>& charges, const PerCluster& moments, Sums& sums) const {
   constexpr std::size_t piece = 16;  // clusters
   const std::size_t count = tree_.clusters().size();
+  const double seconds = (work_.pairs + work_.substitute_pairs) * pair_seconds(problem_, Precision::full);
   gaussdrift::base::parallel_for(
-      (count + piece - 1) / piece, threads_, [] { return typename NearField<d>::Substitutes{}; },
+      {(count + piece - 1) / piece, seconds}, threads_, [] { return typename NearField<d>::Substitutes{}; },
       [&](typename NearField<d>::Substitutes& substitutes, std::size_t p) {
         for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
           const Cluster& leaf = tree_.clusters()[i];
@@ -91,7 +94,11 @@ void SymmetricMethod<d>::add_all(const Buffer<double>& charges, const PerCluster
   Laps laps;
   PerCluster coefficients(this->tree_.clusters().size() * this->operators_->functions());
   std::fill(coefficients.begin(), coefficients.end(), 0.0);
-  gaussdrift::base::parallel_for(this->partition_.couplings.size(), this->threads_,
+  // Of all pairs of functions those whose parities go together.
+  const auto functions = static_cast<double>(this->operators_->functions());
+  const double a_coupling = functions * (functions * 0.02e-9 + 2e-9);
+  gaussdrift::base::parallel_for({this->partition_.couplings.size(), this->work_.couplings * a_coupling},
+                                 this->threads_,
                                  [&](std::size_t c) { couple(this->partition_.couplings[c], moments, coefficients); });
   add_from_points(charges, coefficients);
   seconds.coupling = laps.lap();
@@ -159,7 +166,9 @@ template <int d>
 void SymmetricMethod<d>::add_from_points(const Buffer<double>& charges, PerCluster& coefficients) const {
   const Interpolation<d>& interpolation = this->operators_->one_sided();
   const std::size_t functions = this->operators_->functions();
-  gaussdrift::base::parallel_for(this->tree_.clusters().size(), this->threads_, [&](std::size_t i) {
+  if (this->partition_.from_points.entries.empty()) return;
+  const double seconds = this->work_.substitute_pairs * pair_seconds(this->problem_, Precision::full);
+  gaussdrift::base::parallel_for({this->tree_.clusters().size(), seconds}, this->threads_, [&](std::size_t i) {
     const std::size_t count = this->partition_.from_points.count(i);
     if (count == 0) return;
     std::vector<double> values(interpolation.nodes()), sum(interpolation.nodes()),

@@ -41,6 +41,7 @@ class Clustered : public Summation {
   const std::shared_ptr<const Operators<d>> operators_;
   const NearField<d> near_;
   const int threads_;
+  const Work work_;
 };
 
 template <int d>

@@ -14,8 +14,6 @@ constexpr double function_at_point = 0.9e-9;  // moments; expansion of potential
 constexpr double sorted_point = 40e-9;        // on every level of the tree
 constexpr double listed_coupling = 60e-9;
 constexpr double small_things = 1.5e-3;
-constexpr double fitted_number = 1.2e-9;
-constexpr double table_entry = 12e-9;  // of the kernel at two nodes, with its share of the products
 
 constexpr std::size_t samples_a_level = 200;
 

@@ -12,6 +12,9 @@
 
 namespace farfield::detail {
 
+constexpr double fitted_number = 1.2e-9;  // seconds of one function at one node for one function, in a fit
+constexpr double table_entry = 12e-9;     // of the kernel at two nodes, with its share of the products
+
 /// Seconds of one pair.
 double pair_seconds(const Problem& problem, Precision precision);
 

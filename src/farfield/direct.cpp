@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
+#include "farfield/cost.hpp"
 
 namespace farfield::detail {
 
@@ -11,7 +12,10 @@ void Direct::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& second
   constexpr std::size_t piece = 128;  // targets; a source serves all of them while it is in the cache
   const Coordinates& target = problem_.target_points();
   const Range all{0, problem_.sources};
-  gaussdrift::base::parallel_for((problem_.targets + piece - 1) / piece, threads_, [&](std::size_t i) {
+  const double pairs = static_cast<double>(problem_.targets) * static_cast<double>(problem_.sources);
+  const gaussdrift::base::Pieces pieces((problem_.targets + piece - 1) / piece,
+                                        pairs * pair_seconds(problem_, Precision::full));
+  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
     PairsJob job{};
     job.interaction = problem_.interaction;
     job.precision = Precision::full;

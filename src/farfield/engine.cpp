@@ -58,10 +58,11 @@ void take(const Eigen::Ref<const Points<d>>& points, const Box& box, int dimensi
   for (std::size_t l = 0; l < static_cast<std::size_t>(dimension); ++l) {
     to[l].resize(count + padding);
     const double origin = count > 0 && l < d ? box.origin(static_cast<int>(l)) : 0;
-    gaussdrift::base::parallel_for((count + piece - 1) / piece, threads, [&](std::size_t i) {
-      for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j)
-        to[l][j] = l < d ? (points.data()[j * stride<d>(points) + l] - origin) * scale : 0;
-    });
+    gaussdrift::base::parallel_for(
+        {(count + piece - 1) / piece, 1e-9 * static_cast<double>(count)}, threads, [&](std::size_t i) {
+          for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j)
+            to[l][j] = l < d ? (points.data()[j * stride<d>(points) + l] - origin) * scale : 0;
+        });
     std::fill(to[l].begin() + static_cast<std::ptrdiff_t>(count), to[l].end(), 0.0);
   }
 }

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include "base/parallel.hpp"
+#include "farfield/cost.hpp"
 #include "farfield/kernels.hpp"
 #include "farfield/measured_error.hpp"
 
@@ -77,7 +78,17 @@ Operators<d>::Operators(const Degrees<d>& degrees, bool couplings, int threads) 
     const int* const end = degrees.at_offset + octant_offsets<d>;
     return n == degrees.highest || n == degrees.one_sided || (couplings && std::find(degrees.at_offset, end, n) != end);
   };
-  gaussdrift::base::parallel_for(interpolation.size(), threads, [&](std::size_t n) {
+  const auto size_of = [](int degree) {
+    return std::pair{static_cast<double>(detail::functions<d>(degree)),
+                     static_cast<double>(nodes_of_degree<d>(degree))};
+  };
+  double fits = 0, tables = 0;
+  for (std::size_t n = 1; n < interpolation.size(); ++n)
+    if (needed(static_cast<int>(n))) {
+      const auto [functions, nodes] = size_of(static_cast<int>(n));
+      fits += fitted_number * functions * functions * nodes;
+    }
+  gaussdrift::base::parallel_for({interpolation.size(), fits}, threads, [&](std::size_t n) {
     if (n > 0 && needed(static_cast<int>(n)))
       interpolation[n] = std::make_unique<Interpolation<d>>(static_cast<int>(n));
   });
@@ -91,7 +102,12 @@ Operators<d>::Operators(const Degrees<d>& degrees, bool couplings, int threads) 
   }
 
   if (couplings) coupling_.resize(octant_offsets<d>);
-  gaussdrift::base::parallel_for(octant_offsets<d> + 1, threads, [&](std::size_t task) {
+  for (std::size_t number = 0; couplings && number < octant_offsets<d>; ++number)
+    if (const int degree = degrees.at_offset[number]; degree > 0)
+      tables += table_entry * size_of(degree).second * size_of(degree).second;
+  const auto [functions, nodes] = size_of(degrees.highest);
+  tables += fitted_number * functions * functions * nodes;  // the transfer
+  gaussdrift::base::parallel_for({octant_offsets<d> + 1, tables}, threads, [&](std::size_t task) {
     if (task == octant_offsets<d>) return make_transfer(*interpolation[static_cast<std::size_t>(degrees.highest)]);
     const auto& between = interpolation[static_cast<std::size_t>(degrees.at_offset[task])];
     if (couplings && between) coupling_[task] = make_coupling<d>(*between, offset<d>(task).data());

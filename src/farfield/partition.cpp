@@ -17,13 +17,13 @@ double bytes_of(const Lists<Entry>& lists) {
   return static_cast<double>(lists.begin.size() * sizeof(std::size_t) + lists.entries.size() * sizeof(Entry));
 }
 
-/// Lists of the clusters begin .. end appended; make(i, list) fills that of cluster i.
+/// Lists of the clusters begin .. end appended; make(i, list) fills that of cluster i, in about 2 microseconds.
 template <class Entry, class Make>
 void append_lists(Lists<Entry>& lists, std::size_t begin, std::size_t end, int threads, const Make& make) {
   const std::size_t pieces = (end - begin + piece - 1) / piece;
   std::vector<std::vector<Entry>> entries(pieces);
   std::vector<std::size_t> count(end - begin);
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
+  gaussdrift::base::parallel_for({pieces, 2e-6 * static_cast<double>(end - begin)}, threads, [&](std::size_t p) {
     for (std::size_t i = begin + p * piece; i < std::min(end, begin + (p + 1) * piece); ++i) {
       const std::size_t before = entries[p].size();
       make(i, entries[p]);
@@ -120,44 +120,46 @@ class Maker {
     const std::size_t begin = tree_.level_begin(level), end = tree_.level_begin(level + 1);
     const std::size_t chunks = (end - begin + CouplingChunk::size - 1) / CouplingChunk::size;
     std::vector<CouplingChunk> made(chunks);
-    gaussdrift::base::parallel_for(chunks, options_.threads, [&](std::size_t c) {
-      constexpr int span = 7;  // offsets -3 .. 3 an axis
-      std::array<std::size_t, span * span * span + 1> first{};
-      struct Found {
-        std::size_t number;
-        CouplingChunk::Pair pair;
-      };
-      std::vector<Found> found;
-      for (std::size_t t = begin + c * CouplingChunk::size; t < std::min(end, begin + (c + 1) * CouplingChunk::size);
-           ++t) {
-        const Cluster& target = clusters_[t];
-        if (target.level == 0 || target.target_count() == 0) continue;
-        for_each_candidate(target, [&](Index s) {
-          if (touch<d>(target, clusters_[s])) return;
-          std::size_t number = 0;
-          for (std::size_t l = 0; l < d; ++l)
-            number = number * span + static_cast<std::size_t>(target.cell[l] - clusters_[s].cell[l] + 3);
-          found.push_back({number, {static_cast<Index>(t), s}});
-          ++first[number + 1];
-        });
-      }
-      CouplingChunk& chunk = made[c];
-      chunk.level = static_cast<int>(level);
-      for (std::size_t n = 0; n + 1 < first.size(); ++n) {
-        if (first[n + 1] > 0) {
-          CouplingChunk::Group group{{}, first[n] + first[n + 1]};
-          std::size_t rest = n;
-          for (std::size_t l = d; l-- > 0;) {
-            group.k[l] = static_cast<int>(rest % span) - 3;
-            rest /= span;
+    constexpr double a_cluster = d == 3 ? 3e-6 : 0.6e-6;
+    gaussdrift::base::parallel_for(
+        {chunks, a_cluster * static_cast<double>(end - begin)}, options_.threads, [&](std::size_t c) {
+          constexpr int span = 7;  // offsets -3 .. 3 an axis
+          std::array<std::size_t, span * span * span + 1> first{};
+          struct Found {
+            std::size_t number;
+            CouplingChunk::Pair pair;
+          };
+          std::vector<Found> found;
+          for (std::size_t t = begin + c * CouplingChunk::size;
+               t < std::min(end, begin + (c + 1) * CouplingChunk::size); ++t) {
+            const Cluster& target = clusters_[t];
+            if (target.level == 0 || target.target_count() == 0) continue;
+            for_each_candidate(target, [&](Index s) {
+              if (touch<d>(target, clusters_[s])) return;
+              std::size_t number = 0;
+              for (std::size_t l = 0; l < d; ++l)
+                number = number * span + static_cast<std::size_t>(target.cell[l] - clusters_[s].cell[l] + 3);
+              found.push_back({number, {static_cast<Index>(t), s}});
+              ++first[number + 1];
+            });
           }
-          chunk.groups.push_back(group);
-        }
-        first[n + 1] += first[n];
-      }
-      chunk.pairs.resize(found.size());
-      for (const Found& f : found) chunk.pairs[first[f.number]++] = f.pair;
-    });
+          CouplingChunk& chunk = made[c];
+          chunk.level = static_cast<int>(level);
+          for (std::size_t n = 0; n + 1 < first.size(); ++n) {
+            if (first[n + 1] > 0) {
+              CouplingChunk::Group group{{}, first[n] + first[n + 1]};
+              std::size_t rest = n;
+              for (std::size_t l = d; l-- > 0;) {
+                group.k[l] = static_cast<int>(rest % span) - 3;
+                rest /= span;
+              }
+              chunk.groups.push_back(group);
+            }
+            first[n + 1] += first[n];
+          }
+          chunk.pairs.resize(found.size());
+          for (const Found& f : found) chunk.pairs[first[f.number]++] = f.pair;
+        });
     for (CouplingChunk& chunk : made)
       if (!chunk.pairs.empty()) partition_.couplings.push_back(std::move(chunk));
   }

@@ -18,11 +18,25 @@ PerCluster zeros(const Tree<d>& tree, std::size_t functions) {
 
 /// Pieces of the clusters of one level: work(scratch, begin, end).
 template <class Scratch, class Work>
-void for_each_piece(std::size_t begin, std::size_t end, int threads, const Work& work) {
-  gaussdrift::base::parallel_for((end - begin + piece - 1) / piece, threads, [] { return Scratch{}; },
-                                 [&](Scratch& scratch, std::size_t p) {
-                                   work(scratch, begin + p * piece, std::min(end, begin + (p + 1) * piece));
-                                 });
+void for_each_piece(std::size_t begin, std::size_t end, double seconds, int threads, const Work& work) {
+  gaussdrift::base::parallel_for(
+      {(end - begin + piece - 1) / piece, seconds}, threads, [] { return Scratch{}; },
+      [&](Scratch& scratch, std::size_t p) {
+        work(scratch, begin + p * piece, std::min(end, begin + (p + 1) * piece));
+      });
+}
+
+/// Seconds of one level: clusters from or to their parents, and the points of its leaves.
+template <int d>
+double level_seconds(const Tree<d>& tree, std::size_t level, std::size_t functions, bool at_sources) {
+  const double numbers = static_cast<double>(functions), a_function = at_sources ? 0.9e-9 : 1.8e-9;
+  double points = 0;
+  for (std::size_t i = tree.level_begin(level); i < tree.level_begin(level + 1); ++i) {
+    const Cluster& cluster = tree.clusters()[i];
+    if (cluster.leaf()) points += static_cast<double>(at_sources ? cluster.source_count() : cluster.target_count());
+  }
+  const auto clusters = static_cast<double>(tree.level_begin(level + 1) - tree.level_begin(level));
+  return clusters * numbers * (numbers * 0.07e-9 + 3e-9) + points * numbers * a_function;
 }
 
 struct Rows {
@@ -83,34 +97,33 @@ PerCluster forward(const Tree<d>& tree, const Operators<d>& operators, const Buf
   const std::size_t count = operators.functions();
   PerCluster moments = zeros(tree, count);
   for (std::size_t level = tree.levels(); level-- > 0;) {
-    for_each_piece<Rows>(tree.level_begin(level), tree.level_begin(level + 1), threads,
-                         [&](Rows& rows, std::size_t begin, std::size_t end) {
-                           for (std::size_t i = begin; i < end; ++i) {
-                             const Cluster& cluster = tree.clusters()[i];
-                             if (!cluster.leaf() || cluster.source_count() == 0) continue;
-                             MomentsJob job{};
-                             set_cluster(tree, cluster, operators, tree.sources().position, job);
-                             rows.to.resize(count * max_lanes);
-                             rows.from.resize(count);
-                             job.charge = charges.data();
-                             job.range = cluster.sources;
-                             job.moments = rows.from.data();
-                             job.scratch = rows.to.data();
-                             fastest_kernels().moments(job);
-                             for (std::size_t k = 0; k < count; ++k)
-                               moments[i * count + operators.place(k)] = rows.from[k];
-                           }
-                           for (std::size_t octant = 0; octant < Operators<d>::octants; ++octant) {
-                             gather<d>(tree, begin, end, octant, false, true, moments, count, rows);
-                             if (rows.cluster.empty()) continue;
-                             multiply(rows, count, operators.transfer(octant));
-                             for (std::size_t row = 0; row < rows.cluster.size(); ++row) {
-                               double* const parent =
-                                   moments.data() + tree.clusters()[rows.cluster[row]].parent * count;
-                               for (std::size_t k = 0; k < count; ++k) parent[k] += rows.to[row * count + k];
-                             }
-                           }
-                         });
+    for_each_piece<Rows>(
+        tree.level_begin(level), tree.level_begin(level + 1), level_seconds<d>(tree, level, count, true), threads,
+        [&](Rows& rows, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const Cluster& cluster = tree.clusters()[i];
+            if (!cluster.leaf() || cluster.source_count() == 0) continue;
+            MomentsJob job{};
+            set_cluster(tree, cluster, operators, tree.sources().position, job);
+            rows.to.resize(count * max_lanes);
+            rows.from.resize(count);
+            job.charge = charges.data();
+            job.range = cluster.sources;
+            job.moments = rows.from.data();
+            job.scratch = rows.to.data();
+            fastest_kernels().moments(job);
+            for (std::size_t k = 0; k < count; ++k) moments[i * count + operators.place(k)] = rows.from[k];
+          }
+          for (std::size_t octant = 0; octant < Operators<d>::octants; ++octant) {
+            gather<d>(tree, begin, end, octant, false, true, moments, count, rows);
+            if (rows.cluster.empty()) continue;
+            multiply(rows, count, operators.transfer(octant));
+            for (std::size_t row = 0; row < rows.cluster.size(); ++row) {
+              double* const parent = moments.data() + tree.clusters()[rows.cluster[row]].parent * count;
+              for (std::size_t k = 0; k < count; ++k) parent[k] += rows.to[row * count + k];
+            }
+          }
+        });
   }
   return moments;
 }
@@ -120,7 +133,8 @@ void backward(const Tree<d>& tree, const Operators<d>& operators, PerCluster& co
               int threads, Sums& sums) {
   const std::size_t count = operators.functions();
   for (std::size_t level = 0; level < tree.levels(); ++level) {
-    for_each_piece<Rows>(tree.level_begin(level), tree.level_begin(level + 1), threads,
+    for_each_piece<Rows>(tree.level_begin(level), tree.level_begin(level + 1),
+                         level_seconds<d>(tree, level, count, false), threads,
                          [&](Rows& rows, std::size_t begin, std::size_t end) {
                            for (std::size_t octant = 0; octant < Operators<d>::octants; ++octant) {
                              gather<d>(tree, begin, end, octant, true, false, coefficients, count, rows);

@@ -120,7 +120,12 @@ Tree<d>::Tree(const Problem& problem, std::size_t leaf_size, double smallest_sid
     const std::size_t begin = level_begin_[static_cast<std::size_t>(level)], end = clusters_.size();
     const bool last = level == max_level || side(level + 1) < smallest_side;
     ends.assign(end - begin, {});
-    gaussdrift::base::parallel_for(end - begin, threads, [&](std::size_t i) {
+    double points = 0;  // to be sorted
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t sources = clusters_[i].source_count(), targets = clusters_[i].target_count();
+      if (std::max(sources, targets) > leaf_size) points += static_cast<double>(sources + targets);
+    }
+    gaussdrift::base::parallel_for({end - begin, 20e-9 * points}, threads, [&](std::size_t i) {
       Cluster& cluster = clusters_[begin + i];
       if (std::max(cluster.source_count(), cluster.target_count()) <= leaf_size) return;
       // Equal points cannot be divided; looked for where the last division divided nothing, and at the end.

@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "fgtd/cells_job.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
@@ -215,7 +216,12 @@ void CellsSum<d>::evaluate(const Request<d>& request, const double* targets, std
   const Kernels& kernel = kernels();
   constexpr std::size_t stride = piece_targets + target_padding;
 
-  gaussdrift::base::parallel_for((count + piece_targets - 1) / piece_targets, threads_, [&](std::size_t piece) {
+  const double sources = static_cast<double>(count_), occupied = static_cast<double>(cells_.index.size());
+  const double near = std::min(sources, sources / occupied * std::pow(2 * cells_.span + 1, d));  // of one target
+  const double seconds = static_cast<double>(count) *
+                         (cost::cells_target_sort + static_cast<double>(outputs) * near * cost::cells_pair[d - 1]);
+  const gaussdrift::base::Pieces pieces((count + piece_targets - 1) / piece_targets, seconds);
+  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
     const std::size_t begin = piece * piece_targets, end = std::min(count, begin + piece_targets);
     std::array<double, d * stride> target{};
     for (std::size_t i = begin; i < end; ++i)

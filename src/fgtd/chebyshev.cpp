@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "fgtd/chebyshev_jobs.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
@@ -167,7 +168,7 @@ BoundingBox<d> bounding_box(const double* points, std::size_t count, int threads
   constexpr std::size_t together = 4, piece_points = 1 << 15;
   const std::size_t pieces = (count + piece_points - 1) / piece_points;
   std::vector<BoundingBox<d>> part(pieces);
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
+  gaussdrift::base::parallel_for({pieces, 0.5e-9 * static_cast<double>(count * d)}, threads, [&](std::size_t piece) {
     const double* from = points + piece * piece_points * d;
     const std::size_t size = std::min(piece_points, count - piece * piece_points);
     double low[together * d], high[together * d];
@@ -386,7 +387,9 @@ void ChebyshevSum<d>::sum_moments(const double* weights) {
                                     sources_.first.begin()) -
            1;
   };
-  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
+  const double a_source = static_cast<double>(d * node_.size()) * cost::chebyshev_basis +
+                          static_cast<double>(numbers) * cost::chebyshev_step;
+  gaussdrift::base::parallel_for({pieces, static_cast<double>(count) * a_source}, threads_, [&](std::size_t piece) {
     std::vector<double> scratch(moments_scratch(d, plan_.nodes, columns)), weight(columns * moments_chunk);
     const std::size_t begin = piece * piece_points, end = std::min(count, begin + piece_points);
     std::size_t box = first_box(begin);
@@ -465,6 +468,13 @@ void ChebyshevSum<d>::evaluate(const Request<d>& request, const double* targets,
     evaluate_block(request, range, targets + begin * d, std::min(target_block, count - begin), values + begin, count);
 }
 
+/// Seconds of one axis for so many results: each is a sum over the nodes of the boxes in reach.
+template <int d>
+double ChebyshevSum<d>::sum_over_boxes(std::size_t results) const {
+  const auto boxes = static_cast<double>(std::min(plan_.lattice.boxes[0], 2 * neighbours(0) + 1));
+  return static_cast<double>(results * node_.size()) * boxes * cost::chebyshev_product;
+}
+
 template <int d>
 void ChebyshevSum<d>::evaluate_few(const Request<d>& request, const BoxRange<d>& range, const BoxIndex<d>& least,
                                    const BoxIndex<d>& most, const double* targets, std::size_t count,
@@ -494,7 +504,9 @@ void ChebyshevSum<d>::translate(const Request<d>& request, const std::array<Axis
     to[j] = static_cast<std::size_t>(std::lower_bound(first.begin(), first.end(), to[j + 1]) - first.begin());
   }
   const std::size_t slabs = to[0] - from[0], pieces = std::min<std::size_t>(slabs, 64);
-  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
+  const double a_box = static_cast<double>(request.derivatives.size() * columns_) *
+                       (cost::chebyshev_contraction + sum_over_boxes(box_numbers_));
+  gaussdrift::base::parallel_for({pieces, static_cast<double>(end - begin) * a_box}, threads_, [&](std::size_t piece) {
     Translation translation(*this, request, matrices);
     const std::size_t p = node_.size();
     for (std::size_t k = 0; k < columns_; ++k) {
@@ -549,8 +561,11 @@ void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const BoxRange<d
     translate(request, matrices, tree, begin, end, coefficients.data());
 
     const std::size_t first_point = sorted.first[begin], points = sorted.first[end] - first_point;
+    const double a_target = static_cast<double>(outputs) *
+                            (cost::chebyshev_value + static_cast<double>(box_numbers_) * cost::chebyshev_step);
     gaussdrift::base::parallel_for(
-        (points + interpolate_points - 1) / interpolate_points, threads_, [&](std::size_t piece) {
+        {(points + interpolate_points - 1) / interpolate_points, static_cast<double>(points) * a_target}, threads_,
+        [&](std::size_t piece) {
           std::vector<double> scratch(interpolate_scratch(d, plan_.nodes)), found(outputs * interpolate_run);
           std::size_t j = first_point + piece * interpolate_points;
           const std::size_t last = std::min(first_point + points, j + interpolate_points);
@@ -591,7 +606,14 @@ void ChebyshevSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid
     stride[l] = l == 0 ? 1 : stride[l - 1] * grid.axes[l - 1].size();
   }
   const std::size_t slabs = matrices[d - 1].group.size();
-  gaussdrift::base::parallel_for(slabs, threads_, [&](std::size_t slab) {
+  // Every node of the last axis meets the moments of the boxes near it, every node of the grid what is left of them.
+  const double near =
+      std::min(1.0, static_cast<double>(2 * neighbours(d - 1) + 1) / static_cast<double>(plan_.lattice.boxes[d - 1])) *
+      static_cast<double>(moments_.size() * grid.axes[d - 1].size()) * cost::chebyshev_product;
+  const double seconds =
+      static_cast<double>(request.derivatives.size()) *
+      (near + static_cast<double>(columns_) * (sum_over_boxes(count) + static_cast<double>(count) * cost::grid_value));
+  gaussdrift::base::parallel_for({slabs, seconds}, threads_, [&](std::size_t slab) {
     // the part of the result that is written here: whole slices of the last axis
     const AxisMatrices::Group& nodes = matrices[d - 1].group[slab];
     for (std::size_t q = 0; q < outputs; ++q)

@@ -53,6 +53,7 @@ class ChebyshevSum : public Summation<d> {
   /// All boxes of sources.
   BoxRange<d> source_range() const;
   void sum_moments(const double* weights);
+  double sum_over_boxes(std::size_t results) const;
   std::array<AxisMatrices, d> matrices_between_boxes(const Request<d>& request) const;
   /// Numbers at the nodes of the boxes begin .. end of a tree (first axis fastest; last axis slowest):
   /// coefficients[box - begin][outputs][P^d], overwritten.

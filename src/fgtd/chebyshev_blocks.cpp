@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "fgtd/chebyshev_jobs.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
@@ -20,6 +21,18 @@ constexpr std::size_t run_points = 256;  // handed to interpolation at a time
 std::size_t pieces_for(double all_numbers, std::size_t points) {
   const double fewest = std::max(static_cast<double>(piece_points), 2 * all_numbers);
   return std::clamp<std::size_t>(static_cast<std::size_t>(static_cast<double>(points) / fewest), 1, most_pieces);
+}
+
+/// Seconds at the points, with so many for each of the P^d numbers of a box.
+double at_points(int d, std::size_t p, std::size_t points, double a_number) {
+  return static_cast<double>(points) *
+         (cost::chebyshev_block_sort + static_cast<double>(p) * d * cost::chebyshev_block_basis +
+          static_cast<double>(to_power(p, d)) * a_number);
+}
+
+/// Seconds of transforming the numbers of so many boxes.
+double transforms(int d, std::size_t p, std::size_t boxes) {
+  return static_cast<double>(boxes * to_power(p, d) * p) * d * cost::chebyshev_product;
 }
 
 /// t_mk of the header as a matrix: [m][k], or [k][m].
@@ -189,30 +202,33 @@ void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int node
     return Scratch{Block<d>(lattice, range, columns, nullptr, nullptr),
                    Buffer<double>(moments_scratch(d, nodes, columns))};
   };
-  gaussdrift::base::parallel_for(pieces, threads, make_scratch, [&](Scratch& scratch, std::size_t piece) {
-    double* sum = parts.data() + piece * all;
-    std::fill_n(sum, all, 0.0);
-    Block<d>& block = scratch.block;
-    const std::size_t end = points.count * (piece + 1) / pieces;
-    for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block.points()) {
-      block.sort(points, begin, std::min(block.points(), end - begin), weights);
-      for (std::size_t box = 0; box < boxes; ++box)
-        for (std::size_t j = block.first(box); j < block.first(box + 1); j += moments_chunk)
-          kernels().moments({.dimension = d,
-                             .basis = {nodes, nullptr, nullptr},
-                             .count = std::min(moments_chunk, block.first(box + 1) - j),
-                             .local = block.local(j),
-                             .local_stride = record_numbers,
-                             .columns = columns,
-                             .weights = block.weight(j),
-                             .weight_stride = block.points(),
-                             .moments = sum + box * columns * box_numbers,
-                             .scratch = scratch.numbers.data()});
-    }
-  });
+  gaussdrift::base::parallel_for(
+      {pieces, at_points(d, p, points.count, static_cast<double>(columns) * cost::chebyshev_block_moment)}, threads,
+      make_scratch, [&](Scratch& scratch, std::size_t piece) {
+        double* sum = parts.data() + piece * all;
+        std::fill_n(sum, all, 0.0);
+        Block<d>& block = scratch.block;
+        const std::size_t end = points.count * (piece + 1) / pieces;
+        for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block.points()) {
+          block.sort(points, begin, std::min(block.points(), end - begin), weights);
+          for (std::size_t box = 0; box < boxes; ++box)
+            for (std::size_t j = block.first(box); j < block.first(box + 1); j += moments_chunk)
+              kernels().moments({.dimension = d,
+                                 .basis = {nodes, nullptr, nullptr},
+                                 .count = std::min(moments_chunk, block.first(box + 1) - j),
+                                 .local = block.local(j),
+                                 .local_stride = record_numbers,
+                                 .columns = columns,
+                                 .weights = block.weight(j),
+                                 .weight_stride = block.points(),
+                                 .moments = sum + box * columns * box_numbers,
+                                 .scratch = scratch.numbers.data()});
+        }
+      });
   const AxisTransform to_nodes(d, nodes, true);
-  gaussdrift::base::parallel_for(std::min<std::size_t>(boxes, 64), threads, [&](std::size_t part) {
-    const std::size_t share = std::min<std::size_t>(boxes, 64);
+  const std::size_t share = std::min<std::size_t>(boxes, 64);
+  const double adding = static_cast<double>(pieces * all) * 0.5e-9;
+  gaussdrift::base::parallel_for({share, transforms(d, p, boxes * columns) + adding}, threads, [&](std::size_t part) {
     std::vector<double> scratch(3 * (box_numbers + chain_padding));
     double* sum = scratch.data() + 2 * (box_numbers + chain_padding);
     for (std::size_t at = boxes * columns * part / share; at < boxes * columns * (part + 1) / share; ++at) {
@@ -233,7 +249,7 @@ void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const Box
   Buffer<double> coefficients(boxes * outputs * box_numbers + chain_padding);
   const AxisTransform to_polynomials(d, nodes, false);
   const std::size_t share = std::min<std::size_t>(boxes, 64);
-  gaussdrift::base::parallel_for(share, threads, [&](std::size_t part) {
+  gaussdrift::base::parallel_for({share, transforms(d, p, boxes * outputs)}, threads, [&](std::size_t part) {
     std::vector<double> scratch(2 * (box_numbers + chain_padding));
     for (std::size_t at = boxes * outputs * part / share; at < boxes * outputs * (part + 1) / share; ++at)
       to_polynomials(at_nodes + at * box_numbers, coefficients.data() + at * box_numbers, scratch.data());
@@ -249,34 +265,36 @@ void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const Box
     return Scratch{Block<d>(lattice, range, 0, &least, &most), Buffer<double>(interpolate_scratch(d, nodes)),
                    Buffer<double>(outputs * run_points)};
   };
-  gaussdrift::base::parallel_for(pieces, threads, make_scratch, [&](Scratch& scratch, std::size_t piece) {
-    Block<d>& block = scratch.block;
-    double* found = scratch.found.data();
-    const std::size_t end = points.count * (piece + 1) / pieces;
-    for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block.points()) {
-      const std::size_t size = std::min(block.points(), end - begin);
-      block.sort(points, begin, size, nullptr);
-      for (std::size_t box = 0; box < boxes; ++box)
-        for (std::size_t j = block.first(box); j < block.first(box + 1); j += run_points) {
-          const std::size_t run = std::min(run_points, block.first(box + 1) - j);
-          kernels().interpolate({.dimension = d,
-                                 .basis = {nodes, nullptr, nullptr},
-                                 .count = run,
-                                 .local = block.local(j),
-                                 .local_stride = record_numbers,
-                                 .outputs = outputs,
-                                 .coefficients = coefficients.data() + box * outputs * box_numbers,
-                                 .values = found,
-                                 .value_stride = run_points,
-                                 .scratch = scratch.numbers.data()});
-          for (std::size_t q = 0; q < outputs; ++q)
-            for (std::size_t i = 0; i < run; ++i)
-              values[q * stride + begin + block.order(j + i)] = found[q * run_points + i];
+  gaussdrift::base::parallel_for(
+      {pieces, at_points(d, p, points.count, static_cast<double>(outputs) * cost::chebyshev_block_value)}, threads,
+      make_scratch, [&](Scratch& scratch, std::size_t piece) {
+        Block<d>& block = scratch.block;
+        double* found = scratch.found.data();
+        const std::size_t end = points.count * (piece + 1) / pieces;
+        for (std::size_t begin = points.count * piece / pieces; begin < end; begin += block.points()) {
+          const std::size_t size = std::min(block.points(), end - begin);
+          block.sort(points, begin, size, nullptr);
+          for (std::size_t box = 0; box < boxes; ++box)
+            for (std::size_t j = block.first(box); j < block.first(box + 1); j += run_points) {
+              const std::size_t run = std::min(run_points, block.first(box + 1) - j);
+              kernels().interpolate({.dimension = d,
+                                     .basis = {nodes, nullptr, nullptr},
+                                     .count = run,
+                                     .local = block.local(j),
+                                     .local_stride = record_numbers,
+                                     .outputs = outputs,
+                                     .coefficients = coefficients.data() + box * outputs * box_numbers,
+                                     .values = found,
+                                     .value_stride = run_points,
+                                     .scratch = scratch.numbers.data()});
+              for (std::size_t q = 0; q < outputs; ++q)
+                for (std::size_t i = 0; i < run; ++i)
+                  values[q * stride + begin + block.order(j + i)] = found[q * run_points + i];
+            }
+          for (std::size_t j = block.first(boxes); j < size; ++j)
+            for (std::size_t q = 0; q < outputs; ++q) values[q * stride + begin + block.order(j)] = 0;
         }
-      for (std::size_t j = block.first(boxes); j < size; ++j)
-        for (std::size_t q = 0; q < outputs; ++q) values[q * stride + begin + block.order(j)] = 0;
-    }
-  });
+      });
 }
 
 namespace {

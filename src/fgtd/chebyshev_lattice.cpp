@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "fgtd/chebyshev_jobs.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
@@ -109,8 +110,9 @@ SortedPoints<d> sort_points(const Lattice<d>& lattice, const PointView& points, 
       step *= static_cast<double>(high[place(l)] - low[place(l)] + 1);
     }
     Buffer<std::uint32_t> key(points.count);
+    const gaussdrift::base::Pieces parts(pieces, 0.5 * cost::chebyshev_sort * static_cast<double>(points.count));
     std::vector<std::uint32_t> start(pieces * bins, 0);
-    gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
+    gaussdrift::base::parallel_for(parts, threads, [&](std::size_t piece) {
       std::uint32_t* counter = start.data() + piece * bins;
       locate_points<d>(lattice, points, low, high, false, begin_of(piece), begin_of(piece + 1),
                        [&](std::size_t j, const double* at, const double*) {
@@ -149,7 +151,7 @@ SortedPoints<d> sort_points(const Lattice<d>& lattice, const PointView& points, 
     sorted.first.push_back(total);
     sorted.order.resize(total);
     sorted.local.resize(d * static_cast<std::size_t>(total));
-    gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
+    gaussdrift::base::parallel_for(parts, threads, [&](std::size_t piece) {
       std::uint32_t* next = start.data() + piece * bins;
       locate_points<d>(lattice, points, low, high, true, begin_of(piece), begin_of(piece + 1),
                        [&](std::size_t j, const double*, const double* local) {

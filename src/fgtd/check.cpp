@@ -46,7 +46,9 @@ bool columns_are_finite(const double* data, std::size_t rows, std::size_t column
   const std::size_t pieces = (rows + piece - 1) / piece;                // of a column
   const std::size_t together = std::max<std::size_t>(1, piece / rows);  // columns
   std::atomic<bool> finite{true};
-  gaussdrift::base::parallel_for(pieces * ((columns + together - 1) / together), threads, [&](std::size_t i) {
+  const gaussdrift::base::Pieces parts(pieces * ((columns + together - 1) / together),
+                                       0.5e-9 * static_cast<double>(rows * columns));
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t i) {
     const std::size_t begin = i % pieces * piece, end = std::min(rows, begin + piece);
     for (std::size_t k = i / pieces * together; k < std::min(columns, (i / pieces + 1) * together); ++k)
       if (!row_is_finite(data + k * stride + begin, end - begin)) finite = false;

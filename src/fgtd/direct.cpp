@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
@@ -21,7 +22,10 @@ void evaluate(const Sources<d>& sources, double sigma, const Request<d>& request
   const std::size_t groups = (count + group_size - 1) / group_size;
   constexpr std::size_t groups_a_piece = 4;
 
-  gaussdrift::base::parallel_for((groups + groups_a_piece - 1) / groups_a_piece, threads, [&](std::size_t piece) {
+  const double pairs = static_cast<double>(count) * static_cast<double>(sources.count * sources.columns);
+  const gaussdrift::base::Pieces pieces((groups + groups_a_piece - 1) / groups_a_piece,
+                                        pairs * cost::direct_pair[d - 1]);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
     std::vector<double> out(outputs * group_size);
     double target[d * group_size];
     for (std::size_t group = piece * groups_a_piece; group < std::min(groups, (piece + 1) * groups_a_piece); ++group) {

@@ -23,10 +23,12 @@ template <int d>
 Buffer<double> by_axis(const double* points, std::size_t count, std::size_t point_stride, int threads) {
   constexpr std::size_t piece = 1 << 14;
   Buffer<double> position(d * count);
-  gaussdrift::base::parallel_for((count + piece - 1) / piece, threads, [&](std::size_t i) {
-    for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j)
-      for (std::size_t l = 0; l < d; ++l) position[l * count + j] = points[j * point_stride + l];
-  });
+  gaussdrift::base::parallel_for({(count + piece - 1) / piece, 1e-9 * static_cast<double>(d * count)}, threads,
+                                 [&](std::size_t i) {
+                                   for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j)
+                                     for (std::size_t l = 0; l < d; ++l)
+                                       position[l * count + j] = points[j * point_stride + l];
+                                 });
   return position;
 }
 

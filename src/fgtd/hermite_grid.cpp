@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/hermite.hpp"
 #include "fgtd/kernels.hpp"
 
@@ -203,7 +204,11 @@ void GridSum<d>::make_tables(std::size_t axis, int threads) {
   AxisTables& tables = axis_[axis];
   tables.table.resize(tables.column.size());
   const std::size_t orders = static_cast<std::size_t>(request_.highest[axis]) + 1;
-  gaussdrift::base::parallel_for(tables.column.size(), threads, [&](std::size_t c) {
+  std::size_t nodes = 0;
+  for (const Window& window : tables.window) nodes += padded(window.size());
+  const gaussdrift::base::Pieces pieces(tables.column.size(),
+                                        static_cast<double>(nodes * orders * p_) * cost::hermite_value);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t c) {
     const Window& window = tables.window[c];
     const std::size_t stride = padded(window.size());
     const std::vector<double> rows =
@@ -320,7 +325,12 @@ template <int d>
 void GridSum<d>::run_line(int threads, double* values) const {
   constexpr std::size_t piece_nodes = 512;
   const std::size_t nodes = grid_.axes[0].size();
-  gaussdrift::base::parallel_for((nodes + piece_nodes - 1) / piece_nodes, threads, [&](std::size_t piece) {
+  std::size_t reached = 0;  // by all boxes
+  for (const Window& window : axis_[0].window) reached += window.size();
+  const double a_node = static_cast<double>(request_.combinations.size() * p_) *
+                        (cost::hermite_value + static_cast<double>(columns_) * cost::moment_step);
+  const gaussdrift::base::Pieces pieces((nodes + piece_nodes - 1) / piece_nodes, static_cast<double>(reached) * a_node);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
     const Window mine{piece * piece_nodes, std::min(nodes, (piece + 1) * piece_nodes)};
     const auto begin = std::partition_point(axis_[0].window.begin(), axis_[0].window.end(),
                                             [&](const Window& w) { return w.end <= mine.begin; });
@@ -364,7 +374,8 @@ void GridSum<d>::run_slabs(int threads, double* values) {
   constexpr std::size_t piece_nodes = d == 2 ? 16 : 4;
 
   std::vector<double> slab_numbers(slabs);
-  gaussdrift::base::parallel_for(slabs, threads, [&](std::size_t slab) {
+  const double a_hull = 20e-9;  // of one box
+  gaussdrift::base::parallel_for({slabs, static_cast<double>(boxes_.count()) * a_hull}, threads, [&](std::size_t slab) {
     hull_[slab] = hull(d - 1, slab);
     double numbers = static_cast<double>(prefixes * p_ * padded(hull_[slab][0].size()));
     for (std::size_t l = 1; l + 1 < d; ++l) numbers *= static_cast<double>(hull_[slab][l].size());
@@ -379,7 +390,19 @@ void GridSum<d>::run_slabs(int threads, double* values) {
         numbers += slab_numbers[end];
 
       std::vector<Slab> batch(end - begin);
-      gaussdrift::base::parallel_for(batch.size(), threads, [&](std::size_t i) {
+      // Lines from boxes, then slabs from lines; and the grid from slabs.
+      double numbers = 0, updates = 0;
+      for (std::size_t slab = begin; slab < end; ++slab) {
+        numbers += slab_numbers[slab];
+        updates += slab_numbers[slab] * static_cast<double>(hull_[slab][d - 1].size() * request_.combinations.size());
+      }
+      const double boxes = static_cast<double>(boxes_.count() * batch.size()) / static_cast<double>(slabs),
+                   of_box = static_cast<double>(moments_.size()) / static_cast<double>(boxes_.count() * columns_) *
+                            cost::product_step;
+      const double width = static_cast<double>(padded(hull_[begin][0].size()) * prefixes);
+      const double seconds =
+          boxes * (cost::product_call + of_box * width) + numbers * static_cast<double>(p_) * cost::product_step;
+      gaussdrift::base::parallel_for({batch.size(), seconds}, threads, [&](std::size_t i) {
         Slab& slab = batch[i];
         slab.window = hull_[begin + i][d - 1];
         if (slab.window.size() == 0) return;
@@ -389,7 +412,8 @@ void GridSum<d>::run_slabs(int threads, double* values) {
             slab.table.push_back(last_table(column_of(d - 1, begin + i), slab.window, q, f));
       });
 
-      gaussdrift::base::parallel_for((last_nodes + piece_nodes - 1) / piece_nodes, threads, [&](std::size_t piece) {
+      const gaussdrift::base::Pieces pieces((last_nodes + piece_nodes - 1) / piece_nodes, updates * cost::product_step);
+      gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
         const Window mine{piece * piece_nodes, std::min(last_nodes, (piece + 1) * piece_nodes)};
         for (const Slab& slab : batch) {
           const Window window{std::max(mine.begin, slab.window.begin), std::min(mine.end, slab.window.end)};

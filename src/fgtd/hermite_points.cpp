@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/hermite.hpp"
 #include "fgtd/kernels.hpp"
 
@@ -101,51 +102,56 @@ void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, s
   const Neighbours<d> neighbours(boxes_, plan_.neighbours, plan_.reach / scaled_side + 1e-3);
 
   constexpr std::size_t groups_a_piece = 8;
-  gaussdrift::base::parallel_for(
-      (groups.size() + groups_a_piece - 1) / groups_a_piece, threads_, [&](std::size_t piece) {
-        std::vector<std::size_t> near;
-        std::vector<double> scratch(expansion_scratch(d, plan_.terms, highest));
-        std::vector<double> out(derivatives * columns_ * group_size);
-        double target[d * group_size];
-        const std::size_t first = piece * groups_a_piece;
-        for (std::size_t g = first; g < std::min(groups.size(), first + groups_a_piece); ++g) {
-          const Group group = groups[g];
-          const BoxIndex<d>& home = index[order[group.begin]];
-          if (g == first || home != index[order[groups[g - 1].begin]]) neighbours.find(home, near);
-          if (near.empty()) continue;
-          for (std::size_t i = 0; i < group_size; ++i) {
-            const double* from = targets + order[group.begin + std::min(i, group.size - 1)] * d;
-            for (std::size_t l = 0; l < d; ++l) target[l * group_size + i] = from[l];
+  const double around = plan_.neighbours < 0 ? HUGE_VAL : std::pow(2 * plan_.neighbours + 1, d);
+  const double a_group = std::min(around, static_cast<double>(boxes_.count())) *
+                         static_cast<double>(derivatives * columns_ * power(plan_.terms, d) * group_size) *
+                         cost::contract_step;
+  const gaussdrift::base::Pieces pieces((groups.size() + groups_a_piece - 1) / groups_a_piece,
+                                        static_cast<double>(groups.size()) * a_group);
+  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
+    std::vector<std::size_t> near;
+    std::vector<double> scratch(expansion_scratch(d, plan_.terms, highest));
+    std::vector<double> out(derivatives * columns_ * group_size);
+    double target[d * group_size];
+    const std::size_t first = piece * groups_a_piece;
+    for (std::size_t g = first; g < std::min(groups.size(), first + groups_a_piece); ++g) {
+      const Group group = groups[g];
+      const BoxIndex<d>& home = index[order[group.begin]];
+      if (g == first || home != index[order[groups[g - 1].begin]]) neighbours.find(home, near);
+      if (near.empty()) continue;
+      for (std::size_t i = 0; i < group_size; ++i) {
+        const double* from = targets + order[group.begin + std::min(i, group.size - 1)] * d;
+        for (std::size_t l = 0; l < d; ++l) target[l * group_size + i] = from[l];
+      }
+      std::fill(out.begin(), out.end(), 0.0);
+      kernels().expansion({.dimension = d,
+                           .terms = plan_.terms,
+                           .root_sigma = root_sigma,
+                           .half_side = 0.5 * scaled_side,
+                           .squared_reach = plan_.reach * plan_.reach,
+                           .targets = group.size,
+                           .target = target,
+                           .boxes = near.size(),
+                           .box = near.data(),
+                           .centre = boxes_.centre.data(),
+                           .moments = moments_.data(),
+                           .columns = columns_,
+                           .derivatives = derivatives,
+                           .order = alpha.data(),
+                           .highest = request.highest.data(),
+                           .binomial_root = roots.data(),
+                           .recurrence = recurrence.view(),
+                           .scratch = scratch.data(),
+                           .out = out.data()});
+      for (std::size_t q = 0; q < request.combinations.size(); ++q)
+        for (const auto& part : request.combinations[q])
+          for (std::size_t k = 0; k < columns_; ++k) {
+            double* column = values + (q * columns_ + k) * count;
+            const double* from = out.data() + (part.derivative * columns_ + k) * group_size;
+            for (std::size_t i = 0; i < group.size; ++i) column[order[group.begin + i]] += part.factor * from[i];
           }
-          std::fill(out.begin(), out.end(), 0.0);
-          kernels().expansion({.dimension = d,
-                               .terms = plan_.terms,
-                               .root_sigma = root_sigma,
-                               .half_side = 0.5 * scaled_side,
-                               .squared_reach = plan_.reach * plan_.reach,
-                               .targets = group.size,
-                               .target = target,
-                               .boxes = near.size(),
-                               .box = near.data(),
-                               .centre = boxes_.centre.data(),
-                               .moments = moments_.data(),
-                               .columns = columns_,
-                               .derivatives = derivatives,
-                               .order = alpha.data(),
-                               .highest = request.highest.data(),
-                               .binomial_root = roots.data(),
-                               .recurrence = recurrence.view(),
-                               .scratch = scratch.data(),
-                               .out = out.data()});
-          for (std::size_t q = 0; q < request.combinations.size(); ++q)
-            for (const auto& part : request.combinations[q])
-              for (std::size_t k = 0; k < columns_; ++k) {
-                double* column = values + (q * columns_ + k) * count;
-                const double* from = out.data() + (part.derivative * columns_ + k) * group_size;
-                for (std::size_t i = 0; i < group.size; ++i) column[order[group.begin + i]] += part.factor * from[i];
-              }
-        }
-      });
+    }
+  });
 }
 
 #define FGTD_INSTANTIATE(d)                                                         \

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/hermite.hpp"
 #include "fgtd/kernels.hpp"
 
@@ -77,7 +78,9 @@ void HermiteSum<d>::set_weights(const double* weights, std::size_t columns) {
 
   const std::vector<std::size_t>& first = boxes_.level[0].first;
   const std::vector<std::size_t> cuts = cut(first);
-  gaussdrift::base::parallel_for(cuts.size() - 1, threads_, [&](std::size_t piece) {
+  const double a_source = static_cast<double>(columns_ * rows * p) * cost::moment_step;
+  const gaussdrift::base::Pieces pieces(cuts.size() - 1, static_cast<double>(sources.count) * a_source);
+  gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
     std::vector<double> powers(p * chunk);  // of one axis: [b][j]
     std::vector<double> left(rows * chunk), right(chunk * padded), weighted(chunk * padded);
     for (std::size_t box = cuts[piece]; box < cuts[piece + 1]; ++box)

@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "fgtd/cells.hpp"
 #include "fgtd/cells_job.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/kernels.hpp"
 
 namespace fgtd::detail {
@@ -139,13 +140,22 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
   const std::vector<std::size_t> cuts =
       cut_slabs<d>(groups, grid.axes[d - 1].size(), threads > 1 ? slabs_a_thread * threads : 1);
   std::array<std::size_t, d> step, longest{};
-  for (const Group<d>& group : groups)
-    for (std::size_t l = 0; l < d; ++l)
-      longest[l] = std::min(outer_nodes, std::max(longest[l], group.window[l].end - group.window[l].begin));
+  double pairs = 0;  // of a source and a node
+  for (const Group<d>& group : groups) {
+    double of_group = static_cast<double>(group.count);
+    for (std::size_t l = 0; l < d; ++l) {
+      const std::size_t nodes = group.window[l].end - group.window[l].begin;
+      longest[l] = std::min(outer_nodes, std::max(longest[l], nodes));
+      of_group *= static_cast<double>(nodes);
+    }
+    pairs += of_group;
+  }
   const std::size_t scratch_size = outer_scratch(d, bundles.highest.data(), longest.data());
   for (std::size_t l = 0; l < d; ++l) step[l] = l == 0 ? 1 : step[l - 1] * grid.axes[l - 1].size();
 
-  gaussdrift::base::parallel_for(cuts.size() - 1, threads_, [&](std::size_t slab) {
+  const double seconds =
+      static_cast<double>(outputs) * (pairs * cost::outer_step + static_cast<double>(total) * cost::outer_value);
+  gaussdrift::base::parallel_for({cuts.size() - 1, seconds}, threads_, [&](std::size_t slab) {
     for (std::size_t output = 0; output < outputs; ++output)
       std::fill(values + output * total + cuts[slab] * step[d - 1],
                 values + output * total + cuts[slab + 1] * step[d - 1], 0.0);

@@ -29,7 +29,7 @@ std::pair<double, double> range_of(const double* x, std::size_t count, int threa
   constexpr std::size_t piece = 1 << 15, lanes = 8;
   const std::size_t pieces = (count + piece - 1) / piece;
   std::vector<std::pair<double, double>> range(pieces);
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+  gaussdrift::base::parallel_for({pieces, 0.5e-9 * static_cast<double>(count)}, threads, [&](std::size_t i) {
     const std::size_t begin = i * piece, end = std::min(count, begin + piece);
     double low[lanes], high[lanes];
     for (std::size_t k = 0; k < lanes; ++k) low[k] = high[k] = x[begin];

@@ -248,7 +248,7 @@ SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout
     return x;
   };
   place_.resize(count_);  // the cell first
-  in_pieces(count_, threads_, [&](std::size_t begin, std::size_t end) {
+  in_pieces(count_, 0.5 * cost::spread_sort, threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       const Brick<d>& brick = layout_.bricks[layout_.brick_of.empty() ? 0 : layout_.brick_of[j]];
       place_[j] = static_cast<std::uint32_t>(brick.first_tile * cells_in_tile<d>() +
@@ -300,16 +300,19 @@ template <int d>
 void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
   columns_ = columns;
   lattice_.resize(columns * layout_.nodes() + SpreadFilter::padded_window);
-  in_pieces(lattice_.size(), threads_, [&](std::size_t begin, std::size_t end) {
+  in_pieces(lattice_.size(), cost::spread_value, threads_, [&](std::size_t begin, std::size_t end) {
     std::fill(lattice_.data() + begin, lattice_.data() + end, 0.0);
   });
   Buffer<double> sorted(columns * count_);
-  in_pieces(count_, threads_, [&](std::size_t begin, std::size_t end) {
+  in_pieces(count_, 2e-9 * static_cast<double>(columns), threads_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = 0; k < columns; ++k)
       for (std::size_t j = begin; j < end; ++j) sorted[k * count_ + place_[j]] = weights[k * count_ + j];
   });
-  for (const auto& tiles : colour_)
-    gaussdrift::base::parallel_for(tiles.size(), threads_, [&](std::size_t i) {
+  for (const auto& tiles : colour_) {
+    std::size_t sources = 0;
+    for (const Tile& tile : tiles) sources += sources_of(tile.number + 1) - sources_of(tile.number);
+    const gaussdrift::base::Pieces pieces(tiles.size(), at_lattice(sources, columns, cost::spread_row));
+    gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
       const Brick<d>& brick = layout_.bricks[tiles[i].brick];
       SpreadJob job = job_for(brick);
       job.position = position_.data();
@@ -321,6 +324,14 @@ void SpreadSum<d>::set_weights(const double* weights, std::size_t columns) {
       job.lattice = lattice_.data() + columns * brick.offset;
       kernels().spread(job);
     });
+  }
+}
+
+template <int d>
+double SpreadSum<d>::at_lattice(std::size_t points, std::size_t columns, double vector) const {
+  const double width = layout_.frame.width, vectors = std::ceil(width / 8);
+  return static_cast<double>(points) * vectors *
+         (d * (width + 2) * cost::spread_place + static_cast<double>(columns) * std::pow(width, d - 1) * vector);
 }
 
 /// Sorted positions and places, the lattice, and while weights are set their sorted copy.
@@ -340,6 +351,7 @@ double SpreadSum<d>::plan_bytes(std::size_t columns) const {
                                                      const std::array<double, d>&, double, int);                       \
   template SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter>, SpreadLayout<d>, double, Buffer<double>, int); \
   template SpreadJob SpreadSum<d>::job_for(const Brick<d>&) const;                                                     \
+  template double SpreadSum<d>::at_lattice(std::size_t, std::size_t, double) const;                                    \
   template void SpreadSum<d>::set_weights(const double*, std::size_t);                                                 \
   template double SpreadSum<d>::plan_bytes(std::size_t) const;
 FGTD_INSTANTIATE(1)

@@ -19,6 +19,7 @@
 
 #include "base/parallel.hpp"
 #include "fgtd/buffer.hpp"
+#include "fgtd/cost.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/kernels.hpp"
 #include "fgtd/request.hpp"
@@ -131,6 +132,8 @@ class SpreadSum : public Summation<d> {
     std::size_t brick, number;
   };
   SpreadJob job_for(const Brick<d>& brick) const;
+  /// Seconds of so many points that meet the lattice, for a vector of it that takes `vector`.
+  double at_lattice(std::size_t points, std::size_t columns, double vector) const;
   /// The first of a tile.
   std::size_t sources_of(std::size_t tile) const { return cell_first_[tile * cells_in_tile<d>()]; }
 
@@ -188,7 +191,8 @@ void sort_into_cells(Buffer<std::uint32_t>& cell, std::size_t cells, int threads
   const std::size_t piece = std::max<std::size_t>(std::size_t{1} << 16, 4 * cells);
   const std::size_t pieces = (count + piece - 1) / piece;
   std::vector<std::uint32_t> start(pieces * cells, 0);  // [piece][cell]
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+  const gaussdrift::base::Pieces parts(pieces, 0.5 * cost::spread_sort * static_cast<double>(count));
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t i) {
     std::uint32_t* const counts = start.data() + i * cells;
     for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) ++counts[cell[j]];
   });
@@ -199,7 +203,7 @@ void sort_into_cells(Buffer<std::uint32_t>& cell, std::size_t cells, int threads
     for (std::size_t i = 0; i < pieces; ++i) sum += std::exchange(start[i * cells + c], sum);
   }
   first[cells] = sum;
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t i) {
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t i) {
     std::uint32_t* const to = start.data() + i * cells;
     for (std::size_t j = i * piece; j < std::min(count, (i + 1) * piece); ++j) {
       cell[j] = to[cell[j]]++;
@@ -208,11 +212,11 @@ void sort_into_cells(Buffer<std::uint32_t>& cell, std::size_t cells, int threads
   });
 }
 
-/// Calls body(begin, end) for pieces of 0 .. count.
+/// Calls body(begin, end) for pieces of 0 .. count, each of which takes so many seconds.
 template <class Body>
-void in_pieces(std::size_t count, int threads, const Body& body) {
+void in_pieces(std::size_t count, double seconds, int threads, const Body& body) {
   constexpr std::size_t piece = 1 << 14;
-  gaussdrift::base::parallel_for((count + piece - 1) / piece, threads,
+  gaussdrift::base::parallel_for({(count + piece - 1) / piece, static_cast<double>(count) * seconds}, threads,
                                  [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
 }
 

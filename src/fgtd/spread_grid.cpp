@@ -90,11 +90,12 @@ class Filter {
   void run() {
     const std::size_t nodes = targets_.size(d - 1);
     constexpr std::size_t piece = piece_nodes<d>();
-    gaussdrift::base::parallel_for((nodes + piece - 1) / piece, job_.threads,
+    gaussdrift::base::parallel_for({(nodes + piece - 1) / piece, seconds()}, job_.threads,
                                    [&](std::size_t i) { run_piece(i * piece, std::min(nodes, (i + 1) * piece)); });
   }
 
  private:
+  double seconds() const;
   void find_suffixes();
   void find_factors();
   AxisMatrix make_matrix(const Brick<d>& brick, std::size_t axis) const;
@@ -121,6 +122,24 @@ class Filter {
   /// One brick: every row is set to zero when it is written first, while it is in the cache; else beforehand.
   bool alone_;
 };
+
+/// Roughly; a sum over the nodes in reach for every target of the axes that are done and every node of the others.
+template <int d>
+double Filter<d>::seconds() const {
+  const double reach = job_.filter.reach() / job_.filter.spacing();
+  double all = 0;
+  for (const Brick<d>* brick : job_.bricks) {
+    double targets = 1, inner = static_cast<double>(brick->size());
+    for (std::size_t l = d; l-- > 0;) {
+      targets *= static_cast<double>(targets_.size(l));
+      inner /= static_cast<double>(brick->nodes[l]);
+      const std::size_t derivatives = l == 0 ? job_.request.derivatives.size() : suffix_[l].size();
+      all += targets * inner * static_cast<double>(derivatives) * 3 * reach * cost::spread_step;
+    }
+    all += targets * static_cast<double>(job_.request.combinations.size()) * cost::spread_value;
+  }
+  return all * static_cast<double>(job_.columns);
+}
 
 template <int d>
 void Filter<d>::find_suffixes() {

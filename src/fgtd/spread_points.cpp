@@ -50,7 +50,8 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
   };
   const std::size_t pieces = (count + piece - 1) / piece;
   std::vector<Found> found(pieces);
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
+  const gaussdrift::base::Pieces parts(pieces, 0.3 * cost::spread_sort * static_cast<double>(count));
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t p) {
     Found here;
     for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
       const std::array<double, d> y = from_anchor(i);
@@ -82,7 +83,7 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
     brick.tiles[l] = (span + tile_side<d>(l) - 1) / tile_side<d>(l);
   }
   Buffer<std::uint32_t> index(all.count), cell(all.count);
-  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t p) {
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t p) {
     std::size_t at = found[p].count;
     for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
       if (!is_near(from_anchor(i))) continue;
@@ -106,7 +107,7 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
 template <int d>
 void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const {
   const std::size_t outputs = request.combinations.size() * columns_;
-  in_pieces(outputs * count, threads_,
+  in_pieces(outputs * count, cost::spread_value, threads_,
             [&](std::size_t begin, std::size_t end) { std::fill(values + begin, values + end, 0.0); });
   if (outputs == 0 || count == 0) return;
   for (const auto& brick : layout_.bricks) {
@@ -131,7 +132,9 @@ void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, st
     std::fill_n(lattice.end() - SpreadFilter::padded_window, SpreadFilter::padded_window, 0.0);
     apply_filter<d>(job, nodes, near.brick.nodes[0], size, lattice.data());
 
-    gaussdrift::base::parallel_for((near_count + piece - 1) / piece, threads_, [&](std::size_t i) {
+    const gaussdrift::base::Pieces pieces((near_count + piece - 1) / piece,
+                                          at_lattice(near_count, outputs, cost::spread_gather));
+    gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
       SpreadJob gather = job_for(near.brick);
       gather.position = near.position.data();
       gather.begin = i * piece;

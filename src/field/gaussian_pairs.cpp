@@ -47,7 +47,9 @@ void sum_gaussian_pairs(const GaussianPairs& pairs, int threads) {
   const auto dimension = static_cast<std::size_t>(pairs.dimension);
   const std::size_t groups = (pairs.targets + target_group - 1) / target_group;
   constexpr std::size_t groups_a_piece = 4;
-  base::parallel_for((groups + groups_a_piece - 1) / groups_a_piece, threads, [&](std::size_t piece) {
+  const base::Pieces pieces((groups + groups_a_piece - 1) / groups_a_piece,
+                            2e-9 * static_cast<double>(pairs.targets) * static_cast<double>(pairs.sources));
+  base::parallel_for(pieces, threads, [&](std::size_t piece) {
     double target[max_dimension * target_group], values[max_dimension * target_group];
     for (std::size_t group = piece * groups_a_piece; group < std::min(groups, (piece + 1) * groups_a_piece); ++group) {
       const std::size_t begin = group * target_group, size = std::min(target_group, pairs.targets - begin);

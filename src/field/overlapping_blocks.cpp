@@ -108,7 +108,9 @@ OverlappingBlocks<d>::OverlappingBlocks(GaussianMatrix matrix, const fgtd::Point
         fmt::format("a fit to {} samples would take {:.1f} GB; at most {:.1f} GB are used: fit fewer samples", count_,
                     bytes / 1e9, static_cast<double>(memory_limit) / 1e9));
   blocks_.resize(parts.size());
-  base::parallel_for(parts.size(), threads, [&](std::size_t b) {
+  // A Cholesky factorisation each.
+  const base::Pieces pieces(parts.size(), 1e-10 * unknowns * unknowns * unknowns * static_cast<double>(parts.size()));
+  base::parallel_for(pieces, threads, [&](std::size_t b) {
     Block& block = blocks_[b];
     block.points = with_neighbours<d>(points, parts[b], wanted);
     for (const Index k : parts[b]) {
@@ -133,7 +135,9 @@ Eigen::VectorXd OverlappingBlocks<d>::gathered(const Block& block, const Eigen::
 template <int d>
 Eigen::VectorXd OverlappingBlocks<d>::solve(const Eigen::VectorXd& x) const {
   std::vector<Eigen::VectorXd> parts(blocks_.size());
-  base::parallel_for(blocks_.size(), threads_, [&](std::size_t b) {
+  const auto unknowns = static_cast<double>(blocks_.front().factors.rows());
+  const double seconds = 1e-9 * unknowns * unknowns * static_cast<double>(blocks_.size());
+  base::parallel_for({blocks_.size(), seconds}, threads_, [&](std::size_t b) {
     parts[b] = gathered(blocks_[b], x);
     blocks_[b].factors.solveInPlace(parts[b]);
   });
@@ -163,7 +167,9 @@ double OverlappingBlocks<d>::left_out_error(const Eigen::VectorXd& samples) cons
   const std::size_t looked_at = std::min(most, blocks_.size());
   std::vector<double> squares(looked_at);
   std::vector<std::size_t> numbers(looked_at);
-  base::parallel_for(looked_at, threads_, [&](std::size_t n) {
+  const auto unknowns = static_cast<double>(blocks_.front().factors.rows());
+  const double seconds = 3e-10 * unknowns * unknowns * unknowns * static_cast<double>(looked_at);
+  base::parallel_for({looked_at, seconds}, threads_, [&](std::size_t n) {
     const Block& block = blocks_[n * blocks_.size() / looked_at];
     const auto size = static_cast<Index>(block.points.size());
     const Eigen::VectorXd gamma = block.factors.solve(gathered(block, samples));

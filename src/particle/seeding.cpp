@@ -51,6 +51,11 @@ Line weigh_line(const Lattice& lattice, std::size_t number, const std::vector<Ca
   return line;
 }
 
+// Roughly, for a density with an exponential or two.
+double seeding_seconds(const Lattice& lattice, const std::vector<Carried>& carried) {
+  return 50e-9 * static_cast<double>(lattice.size() * carried.size());
+}
+
 // The particles of one line; lines are joined in their order.
 struct Part {
   Particles particles;
@@ -90,7 +95,7 @@ std::vector<double> least_weights(const Lattice& lattice, const std::vector<Carr
   std::vector<double> least(carried.size(), 0.0);
   if (!(threshold > 0)) return least;
   std::vector<std::vector<double>> largest(lines, least);
-  base::parallel_for(lines, threads, [&](std::size_t number) {
+  base::parallel_for({lines, seeding_seconds(lattice, carried)}, threads, [&](std::size_t number) {
     const Line line = weigh_line(lattice, number, carried);
     for (std::size_t q = 0; q < carried.size(); ++q)
       for (const double weight : line.weights[q]) largest[number][q] = std::max(largest[number][q], std::abs(weight));
@@ -112,7 +117,7 @@ Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, doub
   const std::size_t lines = lattice.points[1] * lattice.points[2];
   const std::vector<double> least = least_weights(lattice, carried, threshold, lines, threads);
   std::vector<Part> parts(lines);
-  base::parallel_for(lines, threads,
+  base::parallel_for({lines, seeding_seconds(lattice, carried)}, threads,
                      [&](std::size_t number) { parts[number] = seed_line(lattice, number, carried, least); });
   Particles all;
   all.dimension = lattice.dimension;

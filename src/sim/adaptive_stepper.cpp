@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "sim/lost_velocity.hpp"
 #include "sim/stepper.hpp"
+#include "sim/value_seconds.hpp"
 #include "time/runge_kutta.hpp"
 
 namespace gaussdrift {
@@ -35,7 +36,9 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
   const std::size_t blocks = results.size(), block_length = drifts_.empty() ? usual_block : particles.size();
   std::vector<Largest> largest(blocks);
-  base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
+  const base::Pieces pieces(
+      blocks, static_cast<double>(particles.size()) * static_cast<double>(tableau_.stages) * value_seconds(velocity_));
+  base::parallel_for(pieces, options_.threads, [&](std::size_t b) {
     const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
     std::vector<double>& state = results[b];
     state.resize(length * rows);

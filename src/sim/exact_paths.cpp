@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "sim/value_seconds.hpp"
 #include "time/adaptive.hpp"
 
 namespace gaussdrift {
@@ -24,7 +25,10 @@ ExactPaths carry_exactly(const VelocityField& velocity, const ScalarField* rate,
       dimension, {options.tolerance * options.length, 4 * std::numeric_limits<double>::epsilon(), options.length / 4});
   if (rate) bounds.components.push_back({options.tolerance, options.tolerance, 0});
   std::vector<ExactPaths> done(blocks);
-  base::parallel_for(blocks, options.threads, [&](std::size_t b) {
+  constexpr std::size_t stages = 12;
+  const double steps = 30;  // roughly, of one block
+  const base::Pieces pieces(blocks, static_cast<double>(particles.size() * stages) * steps * value_seconds(velocity));
+  base::parallel_for(pieces, options.threads, [&](std::size_t b) {
     const std::size_t begin = b * longest, count = std::min(longest, particles.size() - begin);
     std::vector<double> state(components * count, 0.0);
     for (std::size_t k = 0; k < dimension; ++k)
@@ -42,7 +46,6 @@ ExactPaths carry_exactly(const VelocityField& velocity, const ScalarField* rate,
       std::fill(state.begin(), state.end(), std::numeric_limits<double>::quiet_NaN());
       done[b].lost = count;
     }
-    constexpr std::size_t stages = 12;
     done[b].rates = stages * count * (result.steps + result.rejected);
     for (std::size_t k = 0; k < dimension; ++k)
       std::copy_n(state.data() + k * count, count, particles.position[k].data() + begin);

@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "sim/lost_velocity.hpp"
+#include "sim/value_seconds.hpp"
 #include "time/adaptive.hpp"
 #include "time/runge_kutta.hpp"
 #include "time/schedule.hpp"
@@ -85,7 +86,7 @@ class Characteristics : public Reference {
     rho.assign(points, 0.0);
     if (options_.steady && kept_.empty()) kept_.resize(blocks);
     std::vector<ReferenceReport> reports(blocks);
-    base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
+    base::parallel_for({blocks, seconds_of(points)}, options_.threads, [&](std::size_t b) {
       const std::size_t first = b * block_length_, count = std::min(block_length_, points - first);
       Block block = start(b, first, count);
       // In a steady flow X(0) of x at t is that of X(t_before - t) at t_before.
@@ -108,7 +109,7 @@ class Characteristics : public Reference {
     const std::size_t blocks = (points.size() + block_length_ - 1) / block_length_;
     rho.assign(points.size(), 0.0);
     std::vector<ReferenceReport> reports(blocks);
-    base::parallel_for(blocks, options_.threads, [&](std::size_t b) {
+    base::parallel_for({blocks, seconds_of(points.size())}, options_.threads, [&](std::size_t b) {
       const std::size_t first = b * block_length_, count = std::min(block_length_, points.size() - first);
       Block block;
       block.state.assign(components_ * count, 0.0);
@@ -128,6 +129,11 @@ class Characteristics : public Reference {
   struct Block {
     std::vector<double> state;  // [component][point]: the foot so far, and the exponent
   };
+
+  double seconds_of(std::size_t points) const {
+    const double steps = 30, stages = 12;  // roughly, of one block
+    return static_cast<double>(points) * steps * stages * value_seconds(velocity_);
+  }
 
   static ReferenceReport sum_of(const std::vector<ReferenceReport>& reports) {
     ReferenceReport all;

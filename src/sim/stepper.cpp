@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
+#include "sim/value_seconds.hpp"
 #include "time/runge_kutta.hpp"
 
 namespace gaussdrift {
@@ -100,7 +101,8 @@ void check_velocity(const VelocityField& field, const Particles& particles, cons
 double add_flow_and_drifts(const VelocityField& velocity, const std::vector<const Drift*>& drifts, double t,
                            const Particles& particles, const PointsView& x, const VectorsView& u, int threads) {
   const std::size_t longest = velocity.evaluates_in_blocks() ? block_length : std::max<std::size_t>(1, x.count);
-  base::parallel_for((x.count + longest - 1) / longest, threads, [&](std::size_t b) {
+  const base::Pieces pieces((x.count + longest - 1) / longest, static_cast<double>(x.count) * value_seconds(velocity));
+  base::parallel_for(pieces, threads, [&](std::size_t b) {
     const std::size_t begin = b * longest, length = std::min(longest, x.count - begin);
     PointsView some{x.dimension, length, {}};
     VectorsView there{x.dimension, length, {}};
@@ -126,7 +128,8 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
     return row < dimension ? particles.position[row].data() : particles.path[row - dimension].data();
   };
 
-  base::parallel_for(blocks, threads_, [&](std::size_t b) {
+  const double rates = static_cast<double>(particles.size() * count) * static_cast<double>(tableau_.stages);
+  base::parallel_for({blocks, rates * value_seconds(velocity_)}, threads_, [&](std::size_t b) {
     const std::size_t begin = b * longest, length = std::min(longest, particles.size() - begin);
     Block block{particles.dimension, length, std::vector<double>(length * rows)};
     const auto load = [&] {

@@ -81,7 +81,7 @@ void measure(const PairSumRequest& request, PairSums& result) {
       farfield::Plan<d>(request.kernel, points_of<d>(request.sources), farfield::Points<d>(sample.points), options)
           .evaluate(charges);
   std::vector<Unsigned> scale(count);
-  base::parallel_for(count, request.threads,
+  base::parallel_for({count, 10e-9 * static_cast<double>(count * request.sources.size())}, request.threads,
                      [&](std::size_t i) { scale[i] = unsigned_sums<d>(request, sample.points.data() + i * d); });
   double worst[2] = {}, error[2] = {}, size[2] = {};
   for (std::size_t i = 0; i < count; ++i) {

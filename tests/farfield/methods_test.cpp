@@ -4,6 +4,7 @@
 #include "farfield/clouds.hpp"
 #include "farfield/farfield.hpp"
 #include "farfield/naive.hpp"
+#include "share_from.hpp"
 
 namespace {
 
@@ -23,6 +24,17 @@ TEST(FarfieldMethods, SameBitsForAnyNumberOfThreads) {
         EXPECT_EQ(one.field, several.field) << to_string(method) << ", " << cloud.name;
       }
     }
+}
+
+TEST(FarfieldMethods, SmallSumsOpenNoRegionOfThreads) {
+  const auto sources = naive::cube<3>(60, 6);
+  const Eigen::VectorXd charges = naive::charges(60, 7);
+  for (const Method method : {Method::direct, Method::tree, Method::symmetric}) {
+    const farfield::Options options{.tolerance = 1e-2, .method = method, .threads = 8, .leaf_size = 20};
+    const farfield::Plan<3> keeps_the_tables(Kernel::coulomb, sources, options);
+    EXPECT_TRUE(stays_on_its_thread([&] { farfield::Plan<3>(Kernel::coulomb, sources, options).evaluate(charges); }))
+        << to_string(method);
+  }
 }
 
 TEST(FarfieldMethods, FewPointsAreSummedDirectlyAndManyAreNot) {

@@ -75,6 +75,36 @@ TEST_P(Threads, MayEvaluateOnePlanTogether) {
   for (const auto& values : nodes) EXPECT_EQ(values, on_grid);
 }
 
+// `outer` cuts the grid by the number of threads.
+template <int d>
+void expect_that_cuts_change_no_bit(std::size_t nodes, double sigma) {
+  const auto sources = naive::random_points<d>(700, 68);
+  const auto weights = naive::random_weights(700, 2, 69);
+  const auto grid = naive::cube_grid<d>(nodes, -0.13, 1.17);
+  auto combinations = naive::value_and_gradient<d>();
+  combinations.push_back(naive::laplacian<d>());
+  Eigen::MatrixXd alone;
+  for (const int threads : {1, 2, 3, 4, 5, 7, 16}) {
+    const fgtd::Plan<d> plan(sources, weights, sigma,
+                             {.tolerance = 1e-7,
+                              .derivative_order = 2,
+                              .method = fgtd::Method::outer,
+                              .threads = threads,
+                              .expected_grid = grid});
+    const Eigen::MatrixXd values = plan.evaluate_combinations(grid, combinations);
+    if (threads == 1) alone = values;
+    EXPECT_EQ(values, alone) << threads << " threads, d = " << d << ", sigma = " << sigma;
+  }
+}
+
+TEST(Outer, CutsTheGridForAnyNumberOfThreadsWithoutChangingABit) {
+  for (const double sigma : {30.0, 3000.0, 1e6}) {
+    expect_that_cuts_change_no_bit<1>(3001, sigma);
+    expect_that_cuts_change_no_bit<2>(83, sigma);
+    expect_that_cuts_change_no_bit<3>(19, sigma);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Parallel, Threads, testing::ValuesIn(fgtd::methods()), naive::MethodName());
 
 }  // namespace
