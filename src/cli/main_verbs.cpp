@@ -125,7 +125,7 @@ ExitCode dispatch(int argc, char** argv) {
       ->allow_extra_args(false);
   study_verb
       ->add_option("--repeats", study_options.repeats,
-                   "how often a cheap run is timed. The median counts; 3 by default")
+                   "how often a cheap run is timed. The fastest counts; 3 by default")
       ->check(CLI::Range(1, 100))
       ->type_name("N");
   study_verb

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -18,6 +17,7 @@
 #include "sim/outside.hpp"
 #include "sim/simulation.hpp"
 #include "study/accuracy.hpp"
+#include "study/accuracy_table.hpp"
 #include "study/budget.hpp"
 #include "study/describe.hpp"
 #include "study/footprint.hpp"
@@ -245,52 +245,6 @@ std::string provenance_of(const Case& scene, const fs::path& folder, const RunOp
                                 base::resolve_threads(options.scene.threads));
 }
 
-/// The last output summed again at several tolerances, each timed a few times; or why not: that is a luxury, for which
-/// a tenth of the run, or half a second, is spent.
-void add_accuracy_table(const Case& scene, const RunSummary& summary, const study::LastFrame::Kept& last,
-                        nlohmann::ordered_json& more, int threads) {
-  if (!last.any || last.particles.size() == 0) {
-    more["accuracy_table_left_out"] = "no particles are left at the end";
-    return;
-  }
-  if (last.density.rho.empty() ||
-      *std::max_element(last.density.rho.begin(), last.density.rho.end(),
-                        [](double a, double b) { return std::abs(a) < std::abs(b); }) == 0) {
-    more["accuracy_table_left_out"] = "the last output is 0 on the whole grid";
-    return;
-  }
-  constexpr std::array tolerances{1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  const double most = std::max(0.5, 0.1 * summary.seconds), once = summary.frames.back().second.evaluate_seconds,
-               row = most / tolerances.size();
-  if (once > row) {
-    more["accuracy_table_left_out"] = fmt::format(
-        "a Gauss transform of this size takes {:.2g} s, and {} of them would be more than a tenth of the run", once,
-        tolerances.size());
-    return;
-  }
-  const Scene parts = make_scene(scene, threads);
-  const Cutoff blob = last.particles.spread > 0
-                          ? spread_cutoff(parts.cutoff, last.particles.dimension, last.particles.spread)
-                          : parts.cutoff;
-  nlohmann::ordered_json table = nlohmann::ordered_json::array();
-  for (const double tolerance : tolerances) {
-    constexpr int repeats = 5;
-    double fastest = INFINITY, spent = 0, error = 0;
-    for (int i = 0; i < repeats && (i < 2 || spent < row / 2); ++i) {  // the first one also warms up
-      if (i == 1 && spent > row) break;
-      DensityReport report;
-      evaluate_density(last.particles, blob, parts.evaluation,
-                       {.tolerance = tolerance, .method = scene.evaluate.method, .threads = threads, .measure = i == 0},
-                       &report);
-      if (i == 0) error = report.measured_error;
-      fastest = std::min(fastest, report.evaluate_seconds);
-      spent += report.evaluate_seconds;
-    }
-    table.push_back({{"tolerance", tolerance}, {"error", error}, {"milliseconds", 1e3 * fastest}});
-  }
-  more["accuracy_table"] = table;
-}
-
 /// Warnings: facts that the results do not show by themselves. For the terminal, the page and the log.
 std::vector<std::string> warnings_of(const Case& scene, const RunSummary& summary) {
   std::vector<std::string> warnings;
@@ -357,7 +311,8 @@ std::optional<study::Budget> look_back(const Case& scene, RunSummary& summary, c
                       {"predicted", study::to_json(*predicted)},
                       {"measured", study::to_json(*measured)},
                       {"advice", measured->advice}};
-  if (scene.output.report) stage("accuracy table", [&] { add_accuracy_table(scene, summary, last, more, threads); });
+  if (scene.output.report)
+    stage("accuracy table", [&] { more.update(study::accuracy_table(scene, summary, last, threads)); });
   return measured;
 }
 

@@ -9,23 +9,24 @@
 
 #include "base/stopwatch.hpp"
 #include "fgtd/fgtd.hpp"
+#include "study/repeated_time.hpp"
 
 namespace gaussdrift::study {
 
-/// Work is repeated until 0.02 s have passed, at most ten times. The fastest run counts, because other programs slow
-/// down the rest. The thesis averages ten runs.
+/// Work is repeated until 0.02 s have passed and two runs agree, at most ten times and for at most 0.2 s. The fastest run
+/// counts, because other programs slow down the rest. The thesis averages ten runs.
 template <class Work>
 double fastest_seconds(const Work& work) {
-  constexpr double repeated_seconds = 0.02;
-  constexpr int most_repetitions = 10;
+  constexpr double least_seconds = 0.02, most_seconds = 0.2;
+  constexpr std::size_t most_runs = 10;
   const base::Stopwatch total;
-  double fastest = std::numeric_limits<double>::infinity();
-  for (int run = 0; run == 0 || (run < most_repetitions && total.seconds() < repeated_seconds); ++run) {
+  RepeatedTime time;
+  do {
     const base::Stopwatch watch;
     work();
-    fastest = std::min(fastest, watch.seconds());
-  }
-  return fastest;
+    time.add(watch.seconds());
+  } while (time.count() < most_runs && total.seconds() < (time.repeatable() ? least_seconds : most_seconds));
+  return time.fastest();
 }
 
 /// `wanted` of the points, evenly spaced, or all of them.

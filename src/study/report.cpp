@@ -485,6 +485,8 @@ ReportFiles write_page(const fs::path& folder, const json& summary, bool picture
       page += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}", number(row.at("tolerance"), "{:.0e}"),
                           number(row.at("error"), "{:.1e}"), number(row.at("milliseconds"), "{:.3g}"));
     page += "</table>\n";
+    if (const json note = get(summary, "accuracy_table_note"); note.is_string())
+      page += "<p class=quiet>" + escaped(note.get<std::string>()) + "</p>\n";
   } else if (const json why = get(summary, "accuracy_table_left_out"); why.is_string()) {
     by_choice.push_back("what digits of the sum cost: " + why.get<std::string>());
   }

@@ -10,6 +10,7 @@
 #include "base/stopwatch.hpp"
 #include "farfield/block_matrix.hpp"
 #include "render/chart.hpp"
+#include "study/repeated_time.hpp"
 #include "write/atomic_file.hpp"
 #include "write/provenance.hpp"
 
@@ -32,17 +33,22 @@ Eigen::VectorXd first_column(const Eigen::VectorXd& points) {
   return column;
 }
 
-/// Seconds of one call, from enough of them to fill a twentieth of a second.
+/// Seconds of one call: the fastest of some lots of calls that fill five milliseconds each.
 template <class Work>
 double seconds_of(const Work& work) {
   work();
-  const base::Stopwatch watch;
-  int calls = 0;
+  const base::Stopwatch total;
+  RepeatedTime time;
   do {
-    work();
-    ++calls;
-  } while (watch.seconds() < 0.05);
-  return watch.seconds() / calls;
+    const base::Stopwatch watch;
+    int calls = 0;
+    do {
+      work();
+      ++calls;
+    } while (watch.seconds() < 0.005);
+    time.add(watch.seconds() / calls);
+  } while (total.seconds() < (time.repeatable() ? 0.05 : 0.2));
+  return time.fastest();
 }
 
 LogKernelTimes time_products(std::size_t count, bool dense) {

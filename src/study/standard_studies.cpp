@@ -13,6 +13,7 @@
 #include "sim/exact_paths.hpp"
 #include "sim/simulation.hpp"
 #include "study/accuracy.hpp"
+#include "study/repeated_time.hpp"
 #include "study/study.hpp"
 #include "study/would_run.hpp"
 #include "time/tableau.hpp"
@@ -76,29 +77,35 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
     // 10^9 pairs a second and core.
     bool too_dear = method == fgtd::Method::direct &&
                     static_cast<double>(particles.size()) * static_cast<double>(parts.evaluation.size()) > 3e9;
+    const EnoughTimes enough{.long_enough = 0.3, .most = 12};
+    std::vector<RepeatedTime> times;  // of those that have some
+    std::vector<double> tolerances;
+    std::vector<std::size_t> place;  // of their samples
+    const auto measure_again = [&](std::size_t i) {
+      DensityReport report;
+      evaluate_density(particles, blob, parts.evaluation,
+                       {.tolerance = tolerances[i], .method = fgtd::to_string(method), .threads = threads}, &report);
+      times[i].add(report.evaluate_seconds);
+    };
     for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
       Sample sample{.values = {fgtd::to_string(method), fmt::format("{:.0e}", tolerance)}};
       if (too_dear || (watch.seconds() > seconds && method != fgtd::Method::automatic)) {
         sample.failure = "left out: too dear";
       } else {
         try {
-          std::vector<double> times;
           DensityReport report;
-          for (int repeat = 0; repeat < 4; ++repeat) {
-            evaluate_density(
-                particles, blob, parts.evaluation,
-                {.tolerance = tolerance, .method = fgtd::to_string(method), .threads = threads, .measure = repeat == 0},
-                &report);
-            if (repeat == 0) sample.error = std::max(report.measured_error, 1e-16);
-            if (repeat > 0 || report.evaluate_seconds > 0.3) times.push_back(report.evaluate_seconds);
-            if (report.evaluate_seconds > 0.3) break;
-          }
-          std::sort(times.begin(), times.end());
-          sample.seconds = times[times.size() / 2];
-          too_dear = sample.seconds > 1;
-          if (method == fgtd::Method::automatic && std::isnan(cheapest_auto)) cheapest_auto = sample.seconds;
-          if (method == fgtd::Method::automatic) dearest_auto = sample.seconds;
-          if (method == fgtd::Method::direct) direct = sample.seconds, too_dear = true;  // the same at all tolerances
+          evaluate_density(
+              particles, blob, parts.evaluation,
+              {.tolerance = tolerance, .method = fgtd::to_string(method), .threads = threads, .measure = true},
+              &report);
+          sample.error = std::max(report.measured_error, 1e-16);
+          times.emplace_back();
+          tolerances.push_back(tolerance);
+          place.push_back(experiment.samples.size());
+          if (report.evaluate_seconds >= enough.long_enough) times.back().add(report.evaluate_seconds);
+          for (int repeat = 0; repeat < 3 && report.evaluate_seconds < enough.long_enough; ++repeat)
+            measure_again(times.size() - 1);                                        // the one before has warmed up
+          too_dear = times.back().fastest() > 1 || method == fgtd::Method::direct;  // which takes the same for all
         } catch (const Error& error) {
           sample.failure = error.what();
         } catch (const fgtd::Error& error) {
@@ -107,6 +114,19 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
       }
       if (sample.failure != "left out: too dear" || !too_dear) experiment.samples.push_back(std::move(sample));
     }
+    std::vector<std::size_t> doubtful = to_measure_again(times, enough);
+    for (int round = 0; round < 9 && !doubtful.empty() && watch.seconds() < seconds; ++round) {
+      for (const std::size_t i : doubtful) measure_again(i);
+      doubtful = to_measure_again(times, enough);
+    }
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      experiment.samples[place[i]].seconds = times[i].fastest();
+      experiment.samples[place[i]].confirmed = std::find(doubtful.begin(), doubtful.end(), i) == doubtful.end();
+    }
+    if (times.empty()) continue;
+    if (method == fgtd::Method::automatic)
+      cheapest_auto = times.front().fastest(), dearest_auto = times.back().fastest();
+    if (method == fgtd::Method::direct) direct = times.front().fastest();
   }
   finish(experiment, scene);
   experiment.conclusion = fmt::format(
@@ -289,21 +309,23 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
         base::StageTimes ignored;
         const base::Stopwatch work;
         sample.steps = carrier.carry(moved, 0, time, 0, ignored, [](double, std::size_t) {});
-        std::vector<double> times{work.seconds()};
+        RepeatedTime times;
+        const double first = work.seconds();
         if (each_other)
-          each_rate = times[0] / static_cast<double>(std::max<std::size_t>(1, sample.steps)) / tableau.stages;
-        if (times[0] < 0.03) {  // that one warmed up
-          times.clear();
-          for (int repeat = 0; repeat < 3; ++repeat) {
+          each_rate = first / static_cast<double>(std::max<std::size_t>(1, sample.steps)) / tableau.stages;
+        if (first < 0.03) {  // that one warmed up
+          for (int repeat = 0; repeat < 3 || (repeat < 9 && !times.repeatable()); ++repeat) {
             Particles again = paths.start;
             if (each_other) carrier.begin(again);
             const base::Stopwatch once;
             carrier.carry(again, 0, time, 0, ignored, [](double, std::size_t) {});
-            times.push_back(once.seconds());
+            times.add(once.seconds());
           }
-          std::sort(times.begin(), times.end());
+        } else {
+          times.add(first);
         }
-        sample.seconds = times[times.size() / 2] * paths.scale;
+        sample.seconds = times.fastest() * paths.scale;
+        sample.confirmed = times.count() < 2 || times.repeatable();
         sample.particles = all.size();
         sample.error =
             std::max({largest_distance(moved, paths.exact) / parts.core_radius, each_other ? paths.known : 0.0, 1e-16});

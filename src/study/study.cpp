@@ -14,6 +14,7 @@
 #include "particle/cutoff.hpp"
 #include "sim/simulation.hpp"
 #include "study/footprint.hpp"
+#include "study/repeated_time.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -40,12 +41,6 @@ double seconds_of_run(const RunSummary& summary) {
     if (stage == "seed" || stage == "density" || stage == "transport" || stage.rfind("effect ", 0) == 0)
       total += seconds;
   return total;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
 std::string value_or_quoted(const std::string& value) {
@@ -111,9 +106,14 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
   bare.checks.clear();
   try {
     refuse_what_does_not_fit(bare, options.threads);
-    std::vector<double> seconds;
+    RepeatedTime seconds;
     std::string left_out;  // why there is no error
-    for (int repeat = 0; repeat <= options.repeats; ++repeat) {
+    // Where no two agree the machine is busy with other work: some more, to meet a quiet moment.
+    const auto wanted = [&](int repeat) {
+      return repeat <= options.repeats ||
+             (options.repeats > 1 && !seconds.repeatable() && repeat <= 3 * options.repeats);
+    };
+    for (int repeat = 0; wanted(repeat); ++repeat) {
       Simulation simulation(bare, options.threads);
       const RunSummary summary = simulation.run();
       if (repeat == 0) {
@@ -130,11 +130,12 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
         if (last.untraced > 0) sample.failure = "the exact density is not known at some grid points";
         bare.reference = {};  // repeats are for the time alone
       }
-      seconds.push_back(seconds_of_run(summary));
-      if (seconds.back() > 1) break;  // long runs need no warm-up
-      if (repeat == 0 && options.repeats > 0) seconds.clear();
+      const double now = seconds_of_run(summary);
+      if (repeat > 0 || options.repeats == 0 || now > 1) seconds.add(now);
+      if (now > 1) break;  // long runs need no warm-up
     }
-    sample.seconds = median(seconds);
+    sample.seconds = seconds.fastest();
+    sample.confirmed = seconds.count() < 2 || seconds.repeatable();
     if (sample.failure.empty() && !std::isfinite(sample.error))
       sample.failure = left_out.empty() ? "the case has no exact density" : left_out;
   } catch (const Error& error) {
@@ -152,6 +153,13 @@ std::optional<double> expected_order(const std::string& key, const Case& scene) 
 
 void finish(Experiment& experiment, const Case& scene) {
   auto& samples = experiment.samples;
+  if (const auto doubtful =
+          std::count_if(samples.begin(), samples.end(), [](const Sample& each) { return !each.confirmed; }))
+    experiment.notes.push_back(
+        fmt::format("{} of the {} times are doubtful, and so is what follows from them: measurements differ by more "
+                    "than a fifth, or "
+                    "more digits took less time; the machine was busy with other work",
+                    doubtful, samples.size()));
   for (Sample& sample : samples) {
     sample.on_front = sample.failure.empty();
     for (const Sample& other : samples)

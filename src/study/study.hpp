@@ -27,6 +27,7 @@ Variation parse_variation(const std::string& text);
 struct Sample {
   std::vector<std::string> values;  // one a key of the experiment
   double seconds = std::numeric_limits<double>::quiet_NaN();
+  bool confirmed = true;  // false: measurements of the seconds do not agree
   double error = std::numeric_limits<double>::quiet_NaN();
   double l1 = std::numeric_limits<double>::quiet_NaN(), l2 = l1;  // of whole runs: beside Linf, which `error` is there
   std::size_t particles = 0, steps = 0;
@@ -52,7 +53,7 @@ struct StudyOptions {
   std::filesystem::path file;
   std::vector<std::string> overrides;
   std::vector<Variation> vary;  // empty: the standard studies
-  int repeats = 3;              // of cheap runs, after one to warm up; the median counts
+  int repeats = 3;              // of cheap runs, after one to warm up; the fastest counts
   double seconds = 90;          // about what the standard studies may take
   int threads = 0;
   std::function<void(const std::string&)> progress{};
@@ -95,7 +96,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds);
 Experiment study_lattice(const Case& scene, const StudyOptions& options, double seconds);
 Experiment study_whole(const Case& scene, const StudyOptions& options, double seconds);
 
-/// Runs the case without files and pictures: error at the last output, median of seconds.
+/// Runs the case without files and pictures: error at the last output, the fastest of its times.
 Sample measure_run(const Case& scene, const StudyOptions& options);
 
 }  // namespace gaussdrift::study
