@@ -40,7 +40,7 @@ set(public_input effect_rules examples explain foreign_keys points_table read_ca
 set(public_blockmatrix block_matrix)
 set(public_accuracy budget footprint forecast target would_run)
 set(public_report page)
-set(public_study accuracy budget describe footprint report reproduce_claims reproduce_cone reproduce_coulomb
+set(public_study accuracy accuracy_table budget describe footprint report reproduce_claims reproduce_cone reproduce_coulomb
   reproduce_fgtd reproduce_figures reproduce_logkernel study sum_pairs sum_points would_run written_densities)
 set(public_reproduce claims cone coulomb fgtd figures logkernel)
 set(public_sum pairs points)
