@@ -17,7 +17,7 @@ if(CMAKE_BUILD_TYPE STREQUAL "Debug")
 endif()
 
 # gaussdrift_module(name SOURCES a.cpp ... DEPENDS target ... PRIVATE_DEPENDS target ...)
-# Includes are written from src/ ("field/velocity.hpp") and from include/ ("fgtd/fgtd.hpp").
+# Includes are written from src/ ("field/velocity/velocity.hpp") and from include/ ("fgtd/fgtd.hpp").
 function(gaussdrift_module name)
   cmake_parse_arguments(MODULE "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   add_library(gaussdrift_${name} STATIC ${MODULE_SOURCES})

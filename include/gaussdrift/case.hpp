@@ -16,8 +16,8 @@
 /// text, because every thread compiles its own. docs/cases.md explains every key.
 namespace gaussdrift {
 
-struct GridData;       // field/grid_data.hpp
-struct GaussianModel;  // field/gaussian_velocity.hpp
+struct GridData;       // field/gridded/grid_data.hpp
+struct GaussianModel;  // field/gaussians/gaussian_velocity.hpp
 
 /// Named constants of `[params]`, in file order.
 using Params = std::vector<std::pair<std::string, double>>;

@@ -11,7 +11,7 @@
 #include "base/parallel.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "fgtd/kernels.hpp"
+#include "fgtd/kernels/kernels.hpp"
 #include "read/grid_file.hpp"
 #include "render/picture.hpp"
 #include "write/vtk_files.hpp"

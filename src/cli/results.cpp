@@ -14,10 +14,10 @@
 #include "base/suggest.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "read/written_run.hpp"
+#include "reference/reference.hpp"
 #include "render/picture.hpp"
-#include "sim/reference.hpp"
-#include "study/report.hpp"
-#include "study/written_densities.hpp"
+#include "report/page.hpp"
 
 namespace gaussdrift::cli {
 
@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::vector<study::WrittenOutput> outputs_of(const fs::path& place) {
-  auto outputs = study::written_outputs(place);
+std::vector<read::WrittenOutput> outputs_of(const fs::path& place) {
+  auto outputs = read::written_outputs(place);
   if (outputs.empty())
     throw FileError(fmt::format(
         "{} holds no densities: name the folder of a run that wrote vtk = [\"density\"], or a .vti", place.string()));
@@ -34,7 +34,7 @@ std::vector<study::WrittenOutput> outputs_of(const fs::path& place) {
 }
 
 /// The one at a time that was typed, maybe with few digits: the nearest within a thousandth.
-std::size_t output_at(double wanted, const std::vector<study::WrittenOutput>& outputs, const fs::path& folder) {
+std::size_t output_at(double wanted, const std::vector<read::WrittenOutput>& outputs, const fs::path& folder) {
   std::optional<std::size_t> nearest;
   std::vector<double> times;
   for (std::size_t i = 0; i < outputs.size(); ++i) {
@@ -80,7 +80,7 @@ struct Partners {
 
 /// Two single outputs belong together whatever their times; others if their times agree, or if neither has one, in
 /// their order.
-Partners partners_of(const std::vector<study::WrittenOutput>& a, const std::vector<study::WrittenOutput>& b) {
+Partners partners_of(const std::vector<read::WrittenOutput>& a, const std::vector<read::WrittenOutput>& b) {
   if (a.size() == 1 && b.size() == 1) return {.pairs = {{0, 0}}, .first_alone = {}, .second_alone = {}};
   Partners partners;
   std::vector<bool> taken(b.size(), false);
@@ -102,7 +102,7 @@ Partners partners_of(const std::vector<study::WrittenOutput>& a, const std::vect
 }
 
 /// "t = 0, 0.5 and 1", at most the first and the last where they are many.
-std::string times_text(const std::vector<study::WrittenOutput>& outputs) {
+std::string times_text(const std::vector<read::WrittenOutput>& outputs) {
   std::vector<std::string> times;
   for (const auto& output : outputs) times.push_back(output.time ? fmt::format("{:g}", *output.time) : "none");
   if (times.size() > 8) return fmt::format("{} from t = {} to {}", times.size(), times.front(), times.back());
@@ -112,7 +112,7 @@ std::string times_text(const std::vector<study::WrittenOutput>& outputs) {
 }  // namespace
 
 ExitCode report(const ReportOptions& options) {
-  const study::ReportFiles files = study::write_report(options.folder, true);
+  const report::ReportFiles files = report::write_report(options.folder, true);
   if (options.json) {
     nlohmann::ordered_json written = nlohmann::ordered_json::array();
     for (const fs::path& file : files.written) written.push_back(file.string());
@@ -155,7 +155,7 @@ ExitCode render(const RenderOptions& options) {
   double low = 0, high = 0;
   int dimension = 2;
   for (const std::size_t i : wanted) {
-    const DensityGrid density = study::read_density(outputs[i].file, options.field);
+    const DensityGrid density = read::read_density(outputs[i].file, options.field);
     dimension = density.lattice.dimension;
     for (const double value : density.rho) low = std::min(low, value), high = std::max(high, value);  // not of NaN
   }
@@ -173,7 +173,7 @@ ExitCode render(const RenderOptions& options) {
   for (const std::size_t i : wanted) {
     const fs::path png = out / fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_",
                                            render::to_string(*style), outputs[i].number);
-    draw(*style, study::read_density(outputs[i].file, options.field),
+    draw(*style, read::read_density(outputs[i].file, options.field),
          {.title = named.stem().string(),
           .quantity = options.field == "rho" ? "density" : options.field,
           .time = outputs[i].time,
@@ -197,7 +197,7 @@ ExitCode compare(const CompareOptions& options) {
                     options.first.string(), options.second.string(), times_text(a), times_text(b)));
   nlohmann::ordered_json rows = nlohmann::ordered_json::array(), alone = nlohmann::ordered_json::array();
   const auto number = [](std::optional<double> t) { return t ? nlohmann::ordered_json(*t) : nullptr; };
-  const auto tell_alone = [&](const std::vector<study::WrittenOutput>& outputs, const std::vector<std::size_t>& which,
+  const auto tell_alone = [&](const std::vector<read::WrittenOutput>& outputs, const std::vector<std::size_t>& which,
                               const fs::path& other) {
     for (const std::size_t i : which) {
       note("warning: {} ({}) is not compared: {} has no output at that time\n", outputs[i].file.string(),
@@ -214,7 +214,7 @@ ExitCode compare(const CompareOptions& options) {
     if (at_other_time)  // has it come back?
       note("warning: the times differ: {} is at t = {}, {} at t = {}\n", a[i].file.string(),
            base::told_apart(*time, *other), b[j].file.string(), base::told_apart(*other, *time));
-    const DensityGrid x = study::read_density(a[i].file, "rho"), y = study::read_density(b[j].file, "rho");
+    const DensityGrid x = read::read_density(a[i].file, "rho"), y = read::read_density(b[j].file, "rho");
     const auto apart_by = [&](int k) {
       return std::abs(x.lattice.origin[static_cast<std::size_t>(k)] - y.lattice.origin[static_cast<std::size_t>(k)]);
     };

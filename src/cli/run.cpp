@@ -6,6 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "accuracy/accuracy_table.hpp"
+#include "accuracy/budget.hpp"
+#include "accuracy/footprint.hpp"
+#include "accuracy/forecast.hpp"
+#include "accuracy/target.hpp"
+#include "accuracy/would_run.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "cli/owed_files.hpp"
@@ -14,21 +20,15 @@
 #include "cli/verbs.hpp"
 #include "input/read_case.hpp"
 #include "render/picture_series.hpp"
+#include "report/page.hpp"
+#include "reproduce/claims.hpp"
+#include "reproduce/cone.hpp"
+#include "reproduce/coulomb.hpp"
+#include "reproduce/fgtd.hpp"
+#include "reproduce/figures.hpp"
+#include "reproduce/logkernel.hpp"
 #include "sim/outside.hpp"
 #include "sim/simulation.hpp"
-#include "study/accuracy.hpp"
-#include "study/accuracy_table.hpp"
-#include "study/budget.hpp"
-#include "study/describe.hpp"
-#include "study/footprint.hpp"
-#include "study/report.hpp"
-#include "study/reproduce_claims.hpp"
-#include "study/reproduce_cone.hpp"
-#include "study/reproduce_coulomb.hpp"
-#include "study/reproduce_fgtd.hpp"
-#include "study/reproduce_figures.hpp"
-#include "study/reproduce_logkernel.hpp"
-#include "study/would_run.hpp"
 #include "write/atomic_file.hpp"
 #include "write/observers.hpp"
 #include "write/provenance.hpp"
@@ -52,18 +52,18 @@ Case read(const CaseOptions& options) {
 /// The case as it is, or with settings for its accuracy.target, which the user is told.
 Case settled(Case scene, const CaseOptions& options) {
   if (!scene.accuracy.target) return scene;
-  study::AccuracyChoice choice;
+  accuracy::AccuracyChoice choice;
   {
     ProgressLine line(1);
-    choice = study::choose_for_accuracy(scene, *scene.accuracy.target, options.threads,
-                                        [&](const std::string& what) { line.show(what); });
+    choice = accuracy::choose_for_accuracy(scene, *scene.accuracy.target, options.threads,
+                                           [&](const std::string& what) { line.show(what); });
   }
-  put(options.json ? stderr : stdout, study::to_text(choice));
+  put(options.json ? stderr : stdout, accuracy::to_text(choice));
   return std::move(choice.scene);
 }
 
 /// "smoothing 0.024 dominates, quadrature 4e-07, ..."
-std::string one_line(const study::Budget& budget) {
+std::string one_line(const accuracy::Budget& budget) {
   std::vector<std::pair<double, std::string>> causes{{budget.time_stepping, "time stepping"},
                                                      {budget.smoothing, "smoothing"},
                                                      {budget.quadrature, "quadrature"},
@@ -157,7 +157,7 @@ std::string left_out_text(const Case& scene, const SeedReport& seeding) {
                      seeding.left_out, scene.particles.threshold, parts);
 }
 
-std::string ending_text(const Case& scene, const RunSummary& summary, const study::Budget* budget,
+std::string ending_text(const Case& scene, const RunSummary& summary, const accuracy::Budget* budget,
                         std::optional<double> target, const fs::path& folder) {
   std::string text;
   double worst = 0;
@@ -220,7 +220,7 @@ std::string ending_text(const Case& scene, const RunSummary& summary, const stud
 std::string write_page(const fs::path& folder, const Case& scene, OwedFiles& owed) {
   std::string without;
   try {
-    const study::ReportFiles page = study::write_report(folder, !scene.output.images.empty());
+    const report::ReportFiles page = report::write_report(folder, !scene.output.images.empty());
     for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
     const bool there =
         std::find(page.written.begin(), page.written.end(), folder / "report.html") != page.written.end();
@@ -261,7 +261,7 @@ std::vector<std::string> warnings_of(const Case& scene, const RunSummary& summar
           "at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart. Blobs {:g} spacings wide "
           "no longer overlap there, so the density has false gaps and peaks. Use {}more overlap on a finer lattice.",
           time, numbers.stretch, scene.particles.overlap,
-          study::why_not_read(remeshed).empty() ? "[effects.remesh], or " : ""));
+          accuracy::why_not_read(remeshed).empty() ? "[effects.remesh], or " : ""));
       break;
     }
   warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());
@@ -284,8 +284,9 @@ bool budgeted(const Case& scene) {
 
 /// Finds out more about a finished run: where its error comes from, and what digits cost. The run does not depend on
 /// it, so a failure is a warning.
-std::optional<study::Budget> look_back(const Case& scene, RunSummary& summary, const study::LastFrame::Kept& last,
-                                       nlohmann::ordered_json& more, std::vector<std::string>& warnings, int threads) {
+std::optional<accuracy::Budget> look_back(const Case& scene, RunSummary& summary, const accuracy::LastFrame::Kept& last,
+                                          nlohmann::ordered_json& more, std::vector<std::string>& warnings,
+                                          int threads) {
   const auto stage = [&](const char* name, const auto& work) {
     const base::Stopwatch watch;
     try {
@@ -297,22 +298,22 @@ std::optional<study::Budget> look_back(const Case& scene, RunSummary& summary, c
     summary.stages.add(name, seconds);
     summary.seconds += seconds;
   };
-  std::optional<study::Budget> measured, predicted;
+  std::optional<accuracy::Budget> measured, predicted;
   if (budgeted(scene)) {
-    const auto effort =
-        scene.accuracy.budget == AccuracySpec::Budget::measured ? study::Effort::whatever : study::Effort::share_of_run;
+    const auto effort = scene.accuracy.budget == AccuracySpec::Budget::measured ? accuracy::Effort::whatever
+                                                                                : accuracy::Effort::share_of_run;
     stage("error budget",
-          [&] { measured = study::measure_budget(scene, make_scene(scene, threads), last, effort, threads); });
+          [&] { measured = accuracy::measure_budget(scene, make_scene(scene, threads), last, effort, threads); });
     stage("predicted error budget",
-          [&] { predicted = study::predict_budget(scene, make_scene(scene, threads), effort, threads); });
+          [&] { predicted = accuracy::predict_budget(scene, make_scene(scene, threads), effort, threads); });
   }
   if (measured && predicted)
     more["budget"] = {{"norm", "largest error at the last output, relative to the largest exact density there"},
-                      {"predicted", study::to_json(*predicted)},
-                      {"measured", study::to_json(*measured)},
+                      {"predicted", accuracy::to_json(*predicted)},
+                      {"measured", accuracy::to_json(*measured)},
                       {"advice", measured->advice}};
   if (scene.output.report)
-    stage("accuracy table", [&] { more.update(study::accuracy_table(scene, summary, last, threads)); });
+    stage("accuracy table", [&] { more.update(accuracy::accuracy_table(scene, summary, last, threads)); });
   return measured;
 }
 
@@ -321,7 +322,7 @@ std::optional<study::Budget> look_back(const Case& scene, RunSummary& summary, c
 ExitCode run(const RunOptions& options) {
   const Case asked = read(options.scene), scene = settled(asked, options.scene);
   const fs::path folder = options.folder.empty() ? fs::path("output") / scene.name : options.folder;
-  study::refuse_what_does_not_fit(scene, options.scene.threads);
+  accuracy::refuse_what_does_not_fit(scene, options.scene.threads);
   Simulation simulation(scene, options.scene.threads);
   simulation.prepare();  // what cannot begin must not cost an earlier run
   const std::string provenance = provenance_of(scene, folder, options);
@@ -329,9 +330,9 @@ ExitCode run(const RunOptions& options) {
   write::write_run_inputs(folder, scene, input::resolved_toml(scene, folder));
   write::write_text(folder / "provenance.json", provenance);
   add_observers(simulation, scene, folder);
-  study::LastFrame::Kept last;
-  if ((budgeted(scene) && study::budget_not_covered(scene).empty()) || scene.output.report)
-    simulation.observe(std::make_unique<study::LastFrame>(last, scene.output.times.back()));
+  accuracy::LastFrame::Kept last;
+  if ((budgeted(scene) && accuracy::budget_not_covered(scene).empty()) || scene.output.report)
+    simulation.observe(std::make_unique<accuracy::LastFrame>(last, scene.output.times.back()));
 
   RunSummary summary;
   {
@@ -341,7 +342,8 @@ ExitCode run(const RunOptions& options) {
   }
   std::vector<std::string> warnings = warnings_of(scene, summary);
   nlohmann::ordered_json more;
-  const std::optional<study::Budget> measured = look_back(scene, summary, last, more, warnings, options.scene.threads);
+  const std::optional<accuracy::Budget> measured =
+      look_back(scene, summary, last, more, warnings, options.scene.threads);
   if (const auto target = asked.accuracy.target; target && !summary.frames.empty()) {
     const auto& error = summary.frames.back().second.error;
     const bool known = error && std::isfinite(error->linf);
@@ -380,13 +382,13 @@ ExitCode run(const RunOptions& options) {
 
 ExitCode check(const CaseOptions& options) {
   const Case scene = settled(read(options), options);
-  study::Description description;
+  accuracy::Description description;
   {
     ProgressLine line(1);
     description =
-        study::describe(scene, options.threads, [&](const std::string& what) { line.show("check: " + what); });
+        accuracy::describe(scene, options.threads, [&](const std::string& what) { line.show("check: " + what); });
   }
-  say("{}", options.json ? study::to_json(scene, description) : study::to_text(scene, description));
+  say("{}", options.json ? accuracy::to_json(scene, description) : accuracy::to_text(scene, description));
   return ExitCode::ok;
 }
 
@@ -396,90 +398,90 @@ ExitCode reproduce_cone(const ReproduceOptions& options) {
   if (!options.table.empty() || options.full)
     throw CommandLineError(
         "the cone has no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
-  study::ConeReproduction result;
+  reproduce::ConeReproduction result;
   {
     ProgressLine line;
-    result = study::reproduce_cone(options.threads, [&](std::size_t done, std::size_t total) {
+    result = reproduce::reproduce_cone(options.threads, [&](std::size_t done, std::size_t total) {
       line.show(fmt::format("{} of {} heights", done, total));
     });
   }
-  say("{}", options.json ? study::to_json(result) : study::to_text(result));
-  return result.worst_difference <= study::cone_agreement ? ExitCode::ok : ExitCode::check;
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return result.worst_difference <= reproduce::cone_agreement ? ExitCode::ok : ExitCode::check;
 }
 
 ExitCode reproduce_claims(const ReproduceOptions& options) {
   if (!options.table.empty() || options.full)
     throw CommandLineError(
         "the claims have no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
-  study::ClaimsOptions claims;
+  reproduce::ClaimsOptions claims;
   if (options.threads > 0) claims.threads = options.threads;
-  study::ClaimsReproduction result;
+  reproduce::ClaimsReproduction result;
   {
     ProgressLine line;
-    result = study::reproduce_claims(claims, [&](const std::string& what) { line.show(what); });
+    result = reproduce::reproduce_claims(claims, [&](const std::string& what) { line.show(what); });
   }
-  say("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
   return ExitCode::ok;
 }
 
 ExitCode reproduce_coulomb(const ReproduceOptions& options) {
   if (!options.table.empty()) throw CommandLineError("coulomb is one table; leave the number away");
-  study::CoulombOptions coulomb;
+  reproduce::CoulombOptions coulomb;
   if (options.threads > 0) coulomb.threads = options.threads;
   if (options.full) {
     coulomb.most_particles = 6'400'000;
     coulomb.most_by_pairs = 100'000;
   }
-  study::CoulombReproduction result;
+  reproduce::CoulombReproduction result;
   {
     ProgressLine line;
-    result = study::reproduce_coulomb(
+    result = reproduce::reproduce_coulomb(
         coulomb, [&](std::size_t particles) { line.show(fmt::format("{} particles", particles)); });
   }
-  say("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
   return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
 }
 
 ExitCode reproduce_logkernel(const ReproduceOptions& options) {
   if (!options.table.empty()) throw CommandLineError("logkernel has no tables to choose from; leave the number away");
-  study::LogKernelOptions logkernel;
+  reproduce::LogKernelOptions logkernel;
   logkernel.folder = options.folder.empty() ? fs::path("output") / "logkernel" : options.folder;
   if (options.full) logkernel.largest_dense = 14;
-  study::LogKernelReproduction result;
+  reproduce::LogKernelReproduction result;
   {
     ProgressLine line;
-    result = study::reproduce_logkernel(logkernel, [&](const std::string& what) { line.show(what); });
+    result = reproduce::reproduce_logkernel(logkernel, [&](const std::string& what) { line.show(what); });
   }
-  say("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
   return ExitCode::ok;
 }
 
-ExitCode reproduce_tables(study::TableSet set, const ReproduceOptions& options) {
-  study::FgtdOptions fgtd = options.full ? study::FgtdOptions::everything() : study::FgtdOptions{};
+ExitCode reproduce_tables(reproduce::TableSet set, const ReproduceOptions& options) {
+  reproduce::FgtdOptions fgtd = options.full ? reproduce::FgtdOptions::everything() : reproduce::FgtdOptions{};
   fgtd.set = set;
   fgtd.table = options.table;
   fgtd.threads = options.threads;
-  study::FgtdReproduction result;
+  reproduce::FgtdReproduction result;
   {
     ProgressLine line;
-    result = study::reproduce_fgtd(fgtd, [&](const std::string& table) { line.show(table); });
+    result = reproduce::reproduce_fgtd(fgtd, [&](const std::string& table) { line.show(table); });
   }
-  say("{}", options.json ? study::to_json(result) : study::to_text(result));
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
   return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
 }
 
 ExitCode reproduce_figures(const ReproduceOptions& options) {
-  const study::FiguresOptions figures{
+  const reproduce::FiguresOptions figures{
       .figure = options.table,
       .folder = options.folder.empty() ? fs::path("output") / "figures" : options.folder,
       .full = options.full,
       .threads = options.threads};
-  std::vector<study::Figure> made;
+  std::vector<reproduce::Figure> made;
   {
     ProgressLine line;
-    made = study::reproduce_figures(figures, [&](const std::string& figure) { line.show(figure); });
+    made = reproduce::reproduce_figures(figures, [&](const std::string& figure) { line.show(figure); });
   }
-  say("{}", options.json ? study::to_json(made) : study::to_text(made));
+  say("{}", options.json ? reproduce::to_json(made) : reproduce::to_text(made));
   return ExitCode::ok;
 }
 
@@ -493,8 +495,8 @@ ExitCode reproduce(const ReproduceOptions& options) {
   if (options.what == "logkernel") return reproduce_logkernel(options);
   if (options.what == "claims") return reproduce_claims(options);
   if (options.what == "cone") return reproduce_cone(options);
-  if (options.what == "fgtd") return reproduce_tables(study::TableSet::fgtd, options);
-  if (options.what == "divergence") return reproduce_tables(study::TableSet::divergence, options);
+  if (options.what == "fgtd") return reproduce_tables(reproduce::TableSet::fgtd, options);
+  if (options.what == "divergence") return reproduce_tables(reproduce::TableSet::divergence, options);
   if (!options.what.empty())
     throw CommandLineError(
         fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, claims, "
@@ -508,8 +510,9 @@ ExitCode reproduce(const ReproduceOptions& options) {
       "  claims      what the text of Schroeder 2006 claims outside its tables, and whether it holds\n"
       "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n"
       "  logkernel   ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project 6\n",
-      fmt::join(study::table_numbers(study::TableSet::fgtd), ", "),
-      fmt::join(study::table_numbers(study::TableSet::divergence), " and "), fmt::join(study::figure_numbers(), ", "));
+      fmt::join(reproduce::table_numbers(reproduce::TableSet::fgtd), ", "),
+      fmt::join(reproduce::table_numbers(reproduce::TableSet::divergence), " and "),
+      fmt::join(reproduce::figure_numbers(), ", "));
   return ExitCode::ok;
 }
 

@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/footprint.hpp"
 #include "base/stopwatch.hpp"
 #include "base/suggest.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
-#include "study/footprint.hpp"
-#include "study/sum_pairs.hpp"
-#include "study/sum_points.hpp"
+#include "sum/pairs.hpp"
+#include "sum/points.hpp"
 #include "write/atomic_file.hpp"
 
 namespace gaussdrift::cli {
@@ -105,7 +105,7 @@ class Output {
 
 void write_file(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, const fs::path& file) {
   Output out(file);
-  study::write_table(columns, values, out.stream());
+  sum::write_table(columns, values, out.stream());
   out.close();
 }
 
@@ -114,7 +114,7 @@ void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd
   const bool special = fs::exists(options.out, ignored) && !fs::is_regular_file(options.out, ignored);
   try {
     if (to_standard_output(options))
-      study::write_table(columns, values, stdout);
+      sum::write_table(columns, values, stdout);
     else if (special)  // a pipe or a device is written to; a rename would replace it
       write_file(columns, values, options.out);
     else
@@ -128,7 +128,7 @@ void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd
 }
 
 /// Reads what every kernel needs; returns the seconds that it took.
-double read_points(const SumOptions& options, study::PointsRequest& request) {
+double read_points(const SumOptions& options, sum::PointsRequest& request) {
   request.tolerance = options.tolerance;
   request.threads = options.threads;
   constexpr double most_if_named = 300;
@@ -137,11 +137,11 @@ double read_points(const SumOptions& options, study::PointsRequest& request) {
   else if (options.method != "auto")
     request.most_seconds = most_if_named;
   request.tell = [](const std::string& what) { note("{}\n", what); };
-  if (!options.grid.empty()) request.grid = study::parse_grid(options.grid);
-  const input::CoordinateNames coordinates = study::parse_columns(options.columns);
+  if (!options.grid.empty()) request.grid = sum::parse_grid(options.grid);
+  const input::CoordinateNames coordinates = sum::parse_columns(options.columns);
   // Nearly all of the memory of the machine or of a limit; the rest is for the program.
   request.memory_limit = static_cast<std::size_t>(
-      std::min(static_cast<double>(request.memory_limit), 0.9 * study::memory_of_this_machine()));
+      std::min(static_cast<double>(request.memory_limit), 0.9 * accuracy::memory_of_this_machine()));
   const base::Stopwatch reading;
   const auto read = [&](const fs::path& file, input::PointsRole role) {
     input::PointsTable table = input::read_points_table(file, role, request.memory_limit, coordinates);
@@ -163,31 +163,31 @@ ExitCode write(Sums& sums, const SumOptions& options) {
   write_values(sums.columns, sums.values, options);
   sums.write_seconds = writing.seconds();
   if (options.json)
-    say("{}", study::to_json(sums));
+    say("{}", sum::to_json(sums));
   else if (!to_standard_output(options))
-    say("{}open   {}\n", study::to_text(sums), options.out.string());
-  const std::vector<std::string> broken = study::broken_promises(sums.measured, sums.compared);
+    say("{}open   {}\n", sum::to_text(sums), options.out.string());
+  const std::vector<std::string> broken = sum::broken_promises(sums.measured, sums.compared);
   for (const std::string& sentence : broken) note("warning: {}\n", sentence);
   return broken.empty() ? ExitCode::ok : ExitCode::numerical;
 }
 
 ExitCode sum_gaussians(const SumOptions& options) {
-  study::SumRequest request;
+  sum::SumRequest request;
   request.sigma = *options.sigma;
   request.method = named("--method", options.method, fgtd::methods());
-  for (const std::string& text : options.derivatives) request.derivatives.push_back(study::parse_derivative(text));
+  for (const std::string& text : options.derivatives) request.derivatives.push_back(sum::parse_derivative(text));
   const double read_seconds = read_points(options, request);
-  study::PointSums sums = study::sum_points(request);
+  sum::PointSums sums = sum::sum_points(request);
   sums.read_seconds = read_seconds;
   return write(sums, options);
 }
 
 ExitCode sum_pairs(const SumOptions& options) {
-  study::PairSumRequest request;
+  sum::PairSumRequest request;
   request.kernel = named("--kernel", options.kernel, farfield::kernels());
   request.method = named("--method", options.method, farfield::methods());
   const double read_seconds = read_points(options, request);
-  study::PairSums sums = study::sum_pairs(request);
+  sum::PairSums sums = sum::sum_pairs(request);
   sums.read_seconds = read_seconds;
   return write(sums, options);
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "field/differences.hpp"
+#include "field/velocity/differences.hpp"
 
 namespace gaussdrift {
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "effect/effect.hpp"
-#include "field/velocity.hpp"
+#include "field/velocity/velocity.hpp"
 
 namespace gaussdrift {
 

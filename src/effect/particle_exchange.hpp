@@ -10,7 +10,7 @@
 
 #include "effect/effect.hpp"
 #include "effect/nodes.hpp"
-#include "field/velocity.hpp"
+#include "field/velocity/velocity.hpp"
 
 namespace gaussdrift {
 

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "farfield/check.hpp"
-#include "farfield/clustered.hpp"
 #include "farfield/cost.hpp"
-#include "farfield/direct.hpp"
+#include "farfield/near/direct.hpp"
+#include "farfield/tree/clustered.hpp"
 
 namespace farfield::detail {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "farfield/near_field.hpp"
-#include "farfield/operators.hpp"
-#include "farfield/tree.hpp"
+#include "farfield/interpolation/operators.hpp"
+#include "farfield/near/near_field.hpp"
+#include "farfield/tree/tree.hpp"
 
 namespace farfield::detail {
 

@@ -8,7 +8,7 @@
 
 #include "farfield/buffer.hpp"
 #include "farfield/farfield.hpp"
-#include "farfield/kernels.hpp"
+#include "farfield/kernels/kernels.hpp"
 
 namespace farfield::detail {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "fgtd/kernels.hpp"
+#include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {
 

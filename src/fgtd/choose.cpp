@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "fgtd/cost.hpp"
-#include "fgtd/direct.hpp"
+#include "fgtd/direct/sum.hpp"
 
 namespace fgtd::detail {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fgtd/fgtd.hpp"
-#include "fgtd/kernels.hpp"
+#include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {
 

@@ -8,8 +8,8 @@
 
 #include "base/suggest.hpp"
 #include "expression/expression.hpp"
-#include "field/named_fields.hpp"
-#include "field/shapes.hpp"
+#include "field/density/shapes.hpp"
+#include "field/named/named_fields.hpp"
 #include "input/effect_rules.hpp"
 #include "input/registry.hpp"
 

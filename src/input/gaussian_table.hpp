@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "field/gaussian_velocity.hpp"
+#include "field/gaussians/gaussian_velocity.hpp"
 
 namespace gaussdrift::input {
 

@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "expression/expression.hpp"
-#include "field/gaussian_velocity.hpp"
-#include "field/grid_data.hpp"
-#include "field/named_fields.hpp"
-#include "field/shapes.hpp"
+#include "field/density/shapes.hpp"
+#include "field/gaussians/gaussian_velocity.hpp"
+#include "field/gridded/grid_data.hpp"
+#include "field/named/named_fields.hpp"
 #include "read/missing_data.hpp"
 
 namespace gaussdrift::input {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "expression/expression.hpp"
-#include "field/gaussian_velocity.hpp"
+#include "field/gaussians/gaussian_velocity.hpp"
 #include "input/read_case.hpp"
 #include "input/registry.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "field/grid_data.hpp"
+#include "field/gridded/grid_data.hpp"
 #include "read/grid_file_error.hpp"
 #include "read/missing_data.hpp"
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "field/grid_data.hpp"
+#include "field/gridded/grid_data.hpp"
 
 namespace gaussdrift::read {
 

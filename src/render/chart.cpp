@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "render/furniture.hpp"
+#include "render/axes.hpp"
 #include "render/on_canvas.hpp"
 
 namespace gaussdrift::render {

@@ -19,7 +19,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "render/furniture.hpp"
+#include "render/axes.hpp"
 #include "render/scene.hpp"
 #include "render/solid.hpp"
 #include "render/styles.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/axes.hpp"
 #include "render/contour_lines.hpp"
-#include "render/furniture.hpp"
 #include "render/styles.hpp"
 
 namespace gaussdrift::render {

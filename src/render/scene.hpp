@@ -7,8 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "render/axes.hpp"
 #include "render/canvas.hpp"
-#include "render/furniture.hpp"
 
 class vtkActor;
 class vtkCamera;

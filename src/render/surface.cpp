@@ -17,8 +17,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/axes.hpp"
 #include "render/contour_lines.hpp"
-#include "render/furniture.hpp"
 #include "render/scene.hpp"
 #include "render/styles.hpp"
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "render/furniture.hpp"
+#include "render/axes.hpp"
 #include "render/solid.hpp"
 #include "render/styles.hpp"
 

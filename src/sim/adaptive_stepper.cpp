@@ -9,9 +9,9 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "sim/lost_velocity.hpp"
+#include "field/velocity/value_seconds.hpp"
+#include "reference/lost_velocity.hpp"
 #include "sim/stepper.hpp"
-#include "sim/value_seconds.hpp"
 #include "time/runge_kutta.hpp"
 
 namespace gaussdrift {

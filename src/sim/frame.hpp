@@ -6,22 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "base/lattice.hpp"
+#include "base/density_grid.hpp"
 #include "base/points.hpp"
 #include "particle/particles.hpp"
+#include "reference/norms.hpp"
 
 namespace gaussdrift {
-
-/// rho_eps^h on the evaluation lattice, first axis fastest.
-struct DensityGrid {
-  Lattice lattice;
-  std::vector<double> rho;
-};
-
-/// Norms of rho_eps^h - rho on the grid, each divided by that of the exact rho at the same time; NaN where that is 0.
-struct ErrorNorms {
-  double l1 = 0, l2 = 0, linf = 0;
-};
 
 /// Numbers of one output, a row of series.csv.
 struct FrameNumbers {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/lattice.hpp"
-#include "field/gaussian_velocity.hpp"
-#include "field/gridded.hpp"
-#include "field/named_fields.hpp"
-#include "field/shapes.hpp"
+#include "field/density/shapes.hpp"
+#include "field/gaussians/gaussian_velocity.hpp"
+#include "field/gridded/gridded.hpp"
+#include "field/named/named_fields.hpp"
 
 namespace gaussdrift {
 

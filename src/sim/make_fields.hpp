@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "field/density.hpp"
-#include "field/velocity.hpp"
+#include "field/density/density.hpp"
+#include "field/velocity/velocity.hpp"
 #include "gaussdrift/case.hpp"
 
 namespace gaussdrift {

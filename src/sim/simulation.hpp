@@ -10,17 +10,17 @@
 
 #include "base/lattice.hpp"
 #include "base/stopwatch.hpp"
-#include "field/density.hpp"
+#include "field/density/density.hpp"
 #include "field/scalar.hpp"
-#include "field/velocity.hpp"
+#include "field/velocity/velocity.hpp"
 #include "gaussdrift/case.hpp"
 #include "particle/cutoff.hpp"
 #include "particle/seeding.hpp"
+#include "reference/reference.hpp"
 #include "sim/carrier.hpp"
 #include "sim/checks.hpp"
 #include "sim/density.hpp"
 #include "sim/frame.hpp"
-#include "sim/reference.hpp"
 
 namespace gaussdrift {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "field/differences.hpp"
-#include "field/velocity.hpp"
+#include "field/velocity/differences.hpp"
+#include "field/velocity/velocity.hpp"
 #include "particle/particles.hpp"
 #include "time/tableau.hpp"
 

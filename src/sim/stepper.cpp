@@ -13,7 +13,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
-#include "sim/value_seconds.hpp"
+#include "field/velocity/value_seconds.hpp"
 #include "time/runge_kutta.hpp"
 
 namespace gaussdrift {

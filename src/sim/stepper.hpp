@@ -7,7 +7,7 @@
 
 #include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
-#include "field/velocity.hpp"
+#include "field/velocity/velocity.hpp"
 #include "particle/particles.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"

@@ -6,16 +6,16 @@
 #include <cmath>
 #include <map>
 
+#include "base/repeated_time.hpp"
+#include "accuracy/target.hpp"
+#include "accuracy/would_run.hpp"
 #include "base/error.hpp"
 #include "base/number.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
-#include "sim/exact_paths.hpp"
+#include "reference/exact_paths.hpp"
 #include "sim/simulation.hpp"
-#include "study/accuracy.hpp"
-#include "study/repeated_time.hpp"
 #include "study/study.hpp"
-#include "study/would_run.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -77,8 +77,8 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
     // 10^9 pairs a second and core.
     bool too_dear = method == fgtd::Method::direct &&
                     static_cast<double>(particles.size()) * static_cast<double>(parts.evaluation.size()) > 3e9;
-    const EnoughTimes enough{.long_enough = 0.3, .most = 12};
-    std::vector<RepeatedTime> times;  // of those that have some
+    const base::EnoughTimes enough{.long_enough = 0.3, .most = 12};
+    std::vector<base::RepeatedTime> times;  // of those that have some
     std::vector<double> tolerances;
     std::vector<std::size_t> place;  // of their samples
     const auto measure_again = [&](std::size_t i) {
@@ -114,10 +114,10 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
       }
       if (sample.failure != "left out: too dear" || !too_dear) experiment.samples.push_back(std::move(sample));
     }
-    std::vector<std::size_t> doubtful = to_measure_again(times, enough);
+    std::vector<std::size_t> doubtful = base::to_measure_again(times, enough);
     for (int round = 0; round < 9 && !doubtful.empty() && watch.seconds() < seconds; ++round) {
       for (const std::size_t i : doubtful) measure_again(i);
-      doubtful = to_measure_again(times, enough);
+      doubtful = base::to_measure_again(times, enough);
     }
     for (std::size_t i = 0; i < times.size(); ++i) {
       experiment.samples[place[i]].seconds = times[i].fastest();
@@ -287,7 +287,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
   bool left_out = false;
   for (const time::Tableau& tableau : time::tableaux()) {
     const bool adaptive = time::is_adaptive(tableau);
-    if (adaptive && !why_not_read(with_steps(scene, tableau, 0, 1e-4)).empty()) continue;
+    if (adaptive && !accuracy::why_not_read(with_steps(scene, tableau, 0, 1e-4)).empty()) continue;
     for (int k = 0; k < 12; ++k) {
       const double step = adaptive ? 0 : base::rounded_down(time / (8 << k), 4), tolerance = std::pow(10, -2 - k);
       if (adaptive && (tolerance < 1e-13 || (each_other && tolerance < 1e-5))) break;  // sums are right to 1e-6
@@ -309,7 +309,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
         base::StageTimes ignored;
         const base::Stopwatch work;
         sample.steps = carrier.carry(moved, 0, time, 0, ignored, [](double, std::size_t) {});
-        RepeatedTime times;
+        base::RepeatedTime times;
         const double first = work.seconds();
         if (each_other)
           each_rate = first / static_cast<double>(std::max<std::size_t>(1, sample.steps)) / tableau.stages;
@@ -363,7 +363,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
         with_steps(scene, time::find_tableau(enough->values[0]),
                    adaptive ? scene.time.step : *base::read_number<double>(enough->values[1]),
                    adaptive ? *base::read_number<double>(enough->values[1].substr(10)) : scene.time.tolerance);
-    std::string reason = why_refused(recommended, threads);
+    std::string reason = accuracy::why_refused(recommended, threads);
     if (reason.empty() && tried) reason = why_it_does_not_finish(recommended, threads);
     if (reason.empty()) break;
     enough->failure = reason;
@@ -396,7 +396,7 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   for (const std::string cutoff : {"gauss2", "gauss4", "gauss6", "gauss8"}) {
     Case varied = scene;
     varied.particles.cutoff = cutoff;
-    if (const std::string reason = why_not_read(varied); reason.empty())
+    if (const std::string reason = accuracy::why_not_read(varied); reason.empty())
       cutoffs.push_back(cutoff);
     else
       experiment.notes.push_back(fmt::format("{} is not for this case: {}", cutoff, reason));
@@ -465,7 +465,7 @@ Experiment study_whole(const Case& scene, const StudyOptions& options, double se
   Sample as_it_is = measure_run(scene, options);
   as_it_is.values = {"as it is"};
   experiment.samples.push_back(as_it_is);
-  if (const std::string reason = budget_not_covered(scene); !reason.empty()) {
+  if (const std::string reason = accuracy::budget_not_covered(scene); !reason.empty()) {
     experiment.notes.push_back("no settings are chosen: " + reason);
   } else {
     for (const double target : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
@@ -475,7 +475,7 @@ Experiment study_whole(const Case& scene, const StudyOptions& options, double se
         break;
       }
       try {
-        const AccuracyChoice choice = choose_for_accuracy(scene, target, options.threads);
+        const accuracy::AccuracyChoice choice = accuracy::choose_for_accuracy(scene, target, options.threads);
         sample = measure_run(choice.scene, options);
         sample.values = {fmt::format("{:g}", target)};
         experiment.notes.push_back(fmt::format("{:g}: {}", target, to_text(choice).substr(7)));

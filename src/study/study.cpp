@@ -7,14 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "accuracy/footprint.hpp"
+#include "base/repeated_time.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "input/read_case.hpp"
 #include "particle/cutoff.hpp"
 #include "sim/simulation.hpp"
-#include "study/footprint.hpp"
-#include "study/repeated_time.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -105,8 +105,8 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
   bare.checks.clear();
   try {
-    refuse_what_does_not_fit(bare, options.threads);
-    RepeatedTime seconds;
+    accuracy::refuse_what_does_not_fit(bare, options.threads);
+    base::RepeatedTime seconds;
     std::string left_out;  // why there is no error
     // Where no two agree the machine is busy with other work: some more, to meet a quiet moment.
     const auto wanted = [&](int repeat) {
@@ -193,7 +193,7 @@ Study run_study(const StudyOptions& options) {
       study.experiments.push_back(std::move(experiment));
       if (options.table_grew) options.table_grew(study.experiments.back());
     };
-    refuse_what_does_not_fit(scene, options.threads);
+    accuracy::refuse_what_does_not_fit(scene, options.threads);
     tell("the Gauss transform");
     add(study_transform(scene, options.threads, 0.1 * options.seconds));
     tell("steps");

@@ -1,5 +1,5 @@
 // The error budget against what is known: formulas for one cause alone, and the error that a run really has.
-#include "study/budget.hpp"
+#include "accuracy/budget.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/target.hpp"
 #include "base/error.hpp"
 #include "input/read_case.hpp"
-#include "study/accuracy.hpp"
 
-namespace gaussdrift::study {
+namespace gaussdrift::accuracy {
 namespace {
 
 using std::numbers::pi;
@@ -337,4 +337,4 @@ TEST(Accuracy, IsRefusedWhereItCannotBeMet) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::accuracy

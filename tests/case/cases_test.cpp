@@ -8,8 +8,8 @@
 
 #include "fgtd/fgtd.hpp"
 #include "input/read_case.hpp"
+#include "reproduce/published.hpp"
 #include "sim/simulation.hpp"
-#include "study/published.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -248,7 +248,7 @@ TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
   Simulation simulation(scene);
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.particles, 4384u);  // two of 4386 lattice points have 3e-18 of the largest weight
-  const study::PublishedTable heights("schroeder-table-5.1");
+  const reproduce::PublishedTable heights("schroeder-table-5.1");
   ASSERT_EQ(heights.row_name(1), "2");                                                    // c
   EXPECT_NEAR(summary.frames.front().second.maximum, *heights.number(1, "ng300"), 6e-7);  // rounded to 1e-6
   EXPECT_NEAR(summary.frames.back().second.maximum, summary.frames.front().second.maximum,

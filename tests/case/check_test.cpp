@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/forecast.hpp"
+#include "accuracy/picture_seconds.hpp"
+#include "accuracy/target.hpp"
+#include "accuracy/trial.hpp"
 #include "base/error.hpp"
 #include "input/read_case.hpp"
-#include "study/accuracy.hpp"
-#include "study/describe.hpp"
-#include "study/picture_seconds.hpp"
-#include "study/trial.hpp"
 
 namespace gaussdrift::study {
 namespace {

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <regex>
 
+#include "accuracy/budget.hpp"
+#include "accuracy/target.hpp"
+#include "accuracy/would_run.hpp"
 #include "base/error.hpp"
 #include "input/read_case.hpp"
-#include "study/accuracy.hpp"
-#include "study/budget.hpp"
 #include "study/study.hpp"
-#include "study/would_run.hpp"
 
 namespace gaussdrift::study {
 namespace {
@@ -69,14 +69,15 @@ TEST_P(Gallery, RunsWithWhatIsRecommended) {
   constexpr double long_run = 4e6;  // a tenth of a second
   // The hints of check, and those of a run.
   if (work < long_run) {
-    const Budget predicted = predict_budget(scene, parts, Effort::whatever, 0);
+    const accuracy::Budget predicted = accuracy::predict_budget(scene, parts, accuracy::Effort::whatever, 0);
     for (const std::string& advice : predicted.advice) expect_to_run(small, advice);
     if (predicted.known()) {
-      LastFrame::Kept last;
+      accuracy::LastFrame::Kept last;
       Simulation simulation(scene);
-      simulation.observe(std::make_unique<LastFrame>(last, scene.output.times.back()));
+      simulation.observe(std::make_unique<accuracy::LastFrame>(last, scene.output.times.back()));
       simulation.run();
-      for (const std::string& advice : measure_budget(scene, parts, last, Effort::share_of_run, 0).advice)
+      for (const std::string& advice :
+           accuracy::measure_budget(scene, parts, last, accuracy::Effort::share_of_run, 0).advice)
         expect_to_run(small, advice);
     }
   }
@@ -103,7 +104,7 @@ TEST_P(Gallery, RunsWithWhatIsRecommended) {
 TEST(Accuracy, ChoosesWhatRuns) {
   for (const char* name : {"decay", "divergent_flow"}) {
     const Reduced small = reduced(name);
-    expect_to_run(small, to_text(choose_for_accuracy(small.scene(), 0.3, 0)));
+    expect_to_run(small, to_text(accuracy::choose_for_accuracy(small.scene(), 0.3, 0)));
   }
 }
 
@@ -144,18 +145,20 @@ TEST(StepStudy, KnowsTheRulesOfTheEffects) {
 
 TEST(WouldRun, SaysWhatRunSays) {
   Case scene = reduced("kirchhoff").scene();
-  EXPECT_EQ(why_refused(scene, 0), "");
+  EXPECT_EQ(accuracy::why_refused(scene, 0), "");
   scene.time.step = 0.44;
-  EXPECT_NE(why_refused(scene, 0).find("[effects.vortex]"), std::string::npos) << why_refused(scene, 0);
+  EXPECT_NE(accuracy::why_refused(scene, 0).find("[effects.vortex]"), std::string::npos)
+      << accuracy::why_refused(scene, 0);
   scene = reduced("kirchhoff").scene();
   scene.particles.cutoff = "gauss4";
-  EXPECT_NE(why_refused(scene, 0).find("needs particles.cutoff = \"gauss2\""), std::string::npos)
-      << why_refused(scene, 0);
+  EXPECT_NE(accuracy::why_refused(scene, 0).find("needs particles.cutoff = \"gauss2\""), std::string::npos)
+      << accuracy::why_refused(scene, 0);
   scene = reduced("scattered_samples").scene();  // data are not read again: not even there
   std::get<GaussianVelocitySpec>(scene.velocity[0]).file = "/nowhere/samples.csv";
-  EXPECT_EQ(why_refused(scene, 0), "");
+  EXPECT_EQ(accuracy::why_refused(scene, 0), "");
   scene.evaluate.tolerance = 2;
-  EXPECT_NE(why_refused(scene, 0).find("evaluate.tolerance must be"), std::string::npos) << why_refused(scene, 0);
+  EXPECT_NE(accuracy::why_refused(scene, 0).find("evaluate.tolerance must be"), std::string::npos)
+      << accuracy::why_refused(scene, 0);
 }
 
 }  // namespace

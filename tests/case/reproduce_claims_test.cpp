@@ -1,5 +1,5 @@
 // What the thesis claims in its text: which claims hold, which do not, and the numbers beside them.
-#include "study/reproduce_claims.hpp"
+#include "reproduce/claims.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace gaussdrift::study {
+namespace gaussdrift::reproduce {
 namespace {
 
 // Printed numbers by claim.
@@ -71,4 +71,4 @@ TEST(ReproduceClaims, SaysWhichHold) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::reproduce

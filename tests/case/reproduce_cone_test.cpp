@@ -1,5 +1,5 @@
 // The published heights of the rotating cone, all 120 of them, against the tables as printed.
-#include "study/reproduce_cone.hpp"
+#include "reproduce/cone.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace gaussdrift::study {
+namespace gaussdrift::reproduce {
 namespace {
 
 // A table as printed: row name -> column name -> number.
@@ -46,4 +46,4 @@ TEST(ReproduceCone, AgreesWithAllPublishedHeights) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::reproduce

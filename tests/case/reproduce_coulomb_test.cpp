@@ -1,6 +1,6 @@
 // The smallest row of the table of Coulomb forces; the others take seconds each and are for `gaussdrift reproduce
 // coulomb`. What an evaluation costs is counted in tests/farfield/work_test.cpp.
-#include "study/reproduce_coulomb.hpp"
+#include "reproduce/coulomb.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "study/published.hpp"
+#include "reproduce/published.hpp"
 
-namespace gaussdrift::study {
+namespace gaussdrift::reproduce {
 namespace {
 
 // The first row as printed: column -> number.
@@ -94,4 +94,4 @@ TEST(Published, ReadsNumbersWholeAndKnowsTheirLastDigit) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::reproduce

@@ -1,7 +1,7 @@
 // Tables 3.2 to 3.5, 4.1 to 4.9, 6.1 and 6.2 of the thesis: every printed number stands in the cell where it is
 // printed, the computed one beside it agrees as its comparison says, and automatic keeps its promise. Rows are limited
 // to 20 000 points; `gaussdrift reproduce fgtd --full` takes them all.
-#include "study/reproduce_fgtd.hpp"
+#include "reproduce/fgtd.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,9 +19,9 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "study/point_sets.hpp"
+#include "reproduce/point_sets.hpp"
 
-namespace gaussdrift::study {
+namespace gaussdrift::reproduce {
 namespace {
 
 // A table as printed: its columns, then row by row its cells.
@@ -292,4 +292,4 @@ TEST(PointSets, AreInTheUnitCubeAndAsDefined) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::reproduce

@@ -1,5 +1,5 @@
 // The tables of the logarithmic kernel, for few points.
-#include "study/reproduce_logkernel.hpp"
+#include "reproduce/logkernel.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace gaussdrift::study {
+namespace gaussdrift::reproduce {
 namespace {
 
 TEST(ReproduceLogkernel, WritesItsTablesAndPlots) {
@@ -37,4 +37,4 @@ TEST(ReproduceLogkernel, WritesItsTablesAndPlots) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::reproduce

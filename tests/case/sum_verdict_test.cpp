@@ -1,5 +1,5 @@
 // A sum is compared with all pairs, and an error beyond the promise is never told as if it were none.
-#include "study/sum_verdict.hpp"
+#include "sum/verdict.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "study/sum_pairs.hpp"
-#include "study/sum_points.hpp"
+#include "sum/pairs.hpp"
+#include "sum/points.hpp"
 
-namespace gaussdrift::study {
+namespace gaussdrift::sum {
 namespace {
 
 input::PointsTable cloud(std::size_t count, int dimension) {
@@ -129,4 +129,4 @@ TEST(SumVerdict, RefusesWhatIsPredictedToTakeTooLongAndTellsTheRest) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::sum

@@ -1,6 +1,6 @@
 // Fields fitted to scattered samples: they take the values of the samples, approach the true field with more of them,
 // and what cannot be fitted is refused.
-#include "field/divergence_free_fit.hpp"
+#include "field/gaussians/divergence_free_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "field/divergence_free.hpp"
+#include "field/gaussians/divergence_free.hpp"
 
 namespace gaussdrift {
 namespace {

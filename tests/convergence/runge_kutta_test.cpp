@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "field/named_fields.hpp"
+#include "field/named/named_fields.hpp"
 #include "sim/stepper.hpp"
 #include "time/stability.hpp"
 

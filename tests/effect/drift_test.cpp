@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "effect/charge.hpp"
 #include "effect/vortex.hpp"
-#include "field/velocity.hpp"
+#include "field/velocity/velocity.hpp"
 #include "scene.hpp"
 #include "sim/stepper.hpp"
 #include "time/tableau.hpp"

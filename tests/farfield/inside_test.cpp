@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "farfield/clouds.hpp"
-#include "farfield/measured_error.hpp"
+#include "farfield/interpolation/measured_error.hpp"
+#include "farfield/interpolation/operators.hpp"
 #include "farfield/naive.hpp"
-#include "farfield/near_field.hpp"
-#include "farfield/operators.hpp"
-#include "farfield/partition.hpp"
+#include "farfield/near/near_field.hpp"
+#include "farfield/tree/partition.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "base/error.hpp"
-#include "field/grid_data.hpp"
+#include "field/gridded/grid_data.hpp"
 #include "scenes.hpp"
 
 namespace gaussdrift {

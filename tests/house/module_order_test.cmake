@@ -17,7 +17,7 @@ endfunction()
 check(passes "the tree")
 foreach(pair
     "src/base/lattice.cpp|cli/verbs.hpp" "src/sim/simulation.cpp|cli/verbs.hpp" "src/fgtd/plan.cpp|sim/frame.hpp"
-    "src/particle/seeding.cpp|field/velocity.hpp" "src/write/summary.cpp|input/read_case.hpp"
+    "src/particle/seeding.cpp|field/velocity/velocity.hpp" "src/write/summary.cpp|input/read_case.hpp"
     "src/fgtd/plan.cpp|base/error.hpp" "include/fgtd/fgtd.hpp|gaussdrift/case.hpp" "src/time/schedule.cpp|../sim/frame.hpp")
   string(REPLACE "|" ";" pair "${pair}")
   list(GET pair 0 file)

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "field/gridded.hpp"
+#include "field/gridded/gridded.hpp"
 #include "grid_files.hpp"
 #include "sim/simulation.hpp"
 

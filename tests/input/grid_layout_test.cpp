@@ -2,7 +2,7 @@
 // descend, coordinates in single precision.
 #include <cmath>
 
-#include "field/gridded.hpp"
+#include "field/gridded/gridded.hpp"
 #include "grid_files.hpp"
 #include "sim/simulation.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "field/gridded.hpp"
+#include "field/gridded/gridded.hpp"
 #include "grid_files.hpp"
 
 namespace gaussdrift::input {

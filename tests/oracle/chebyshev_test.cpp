@@ -1,7 +1,7 @@
 // `chebyshev` against `direct`, and its promise term by term.
 #include <gtest/gtest.h>
 
-#include "fgtd/chebyshev_error.hpp"
+#include "fgtd/chebyshev/error.hpp"
 #include "oracle/naive.hpp"
 
 namespace {

@@ -1,10 +1,10 @@
 // Every instruction set computes the same numbers up to rounding. Internal to fgtd; the other tests see the fastest set
 // only.
-#include "fgtd/kernels.hpp"
+#include "fgtd/kernels/kernels.hpp"
 
 #include <gtest/gtest.h>
 
-#include "fgtd/cells_job.hpp"
+#include "fgtd/cells/job.hpp"
 #include "fgtd/request.hpp"
 #include "oracle/naive.hpp"
 

@@ -1,7 +1,7 @@
 // `spread` against `direct`: everything it does must be the same sum; and its promise, term by term.
 #include <gtest/gtest.h>
 
-#include "fgtd/spread_filter.hpp"
+#include "fgtd/spread/filter.hpp"
 #include "oracle/naive.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/weight_within.hpp"
-#include "field/density.hpp"
+#include "field/density/density.hpp"
 #include "particle/seeding.hpp"
 
 namespace gaussdrift {

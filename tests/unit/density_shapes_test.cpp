@@ -1,4 +1,4 @@
-#include "field/density.hpp"
+#include "field/density/density.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Slopes by differences: those of smooth fields and of corners are kept, a jump is told and is none.
-#include "field/differences.hpp"
+#include "field/velocity/differences.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "field/gridded.hpp"
+#include "field/gridded/gridded.hpp"
 
 namespace gaussdrift {
 namespace {

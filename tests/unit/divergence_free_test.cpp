@@ -1,6 +1,6 @@
 // Divergence-free Gaussian fields: the collapsed pair formulas against the definition of Phi [Sch06, 6.3], fgtd against
 // the pairs, and the laws of section 6.4.
-#include "field/divergence_free.hpp"
+#include "field/gaussians/divergence_free.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "expression/expression.hpp"
-#include "field/velocity.hpp"
+#include "field/velocity/velocity.hpp"
 
 namespace gaussdrift {
 namespace {

@@ -1,5 +1,5 @@
 // Interpolation of data on grids: exact where it should be, its order, its divergence, and what stands outside.
-#include "field/grid_data.hpp"
+#include "field/gridded/grid_data.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "field/gridded.hpp"
+#include "field/gridded/gridded.hpp"
 
 namespace gaussdrift {
 namespace {

@@ -1,6 +1,6 @@
 // Laws that every named velocity field keeps: its stated divergence, its exact flow, finite values where formulas
 // divide.
-#include "field/named_fields.hpp"
+#include "field/named/named_fields.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "field/gradient.hpp"
+#include "field/velocity/gradient.hpp"
 #include "time/adaptive.hpp"
 
 namespace gaussdrift {

@@ -1,5 +1,7 @@
 // The exact density by characteristics, against closed forms.
-#include "sim/reference.hpp"
+#include "reference/characteristics.hpp"
+#include "reference/formula.hpp"
+#include "reference/norms.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "study/repeated_time.hpp"
+#include "base/repeated_time.hpp"
 
 #include <gtest/gtest.h>
 
-namespace gaussdrift::study {
+namespace gaussdrift::base {
 namespace {
 
 RepeatedTime of(std::initializer_list<double> seconds) {
@@ -39,4 +39,4 @@ TEST(RepeatedTime, OfLongWorkIsMeasuredAgainOnlyOutOfOrder) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::base

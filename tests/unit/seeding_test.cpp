@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "field/density.hpp"
+#include "field/density/density.hpp"
 
 namespace gaussdrift {
 namespace {

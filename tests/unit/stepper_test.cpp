@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "field/named_fields.hpp"
+#include "field/named/named_fields.hpp"
 
 namespace gaussdrift {
 namespace {

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <cstddef>
 
-#include "field/divergence_free.hpp"
-#include "study/point_sets.hpp"
+#include "field/gaussians/divergence_free.hpp"
+#include "reproduce/point_sets.hpp"
 
 namespace {
 
@@ -22,11 +22,11 @@ struct Problem {
 };
 
 Problem problem(std::size_t count) {
-  Problem result{gaussdrift::study::halton_points<3>(count), Eigen::MatrixXd(static_cast<Index>(count), 3)};
+  Problem result{gaussdrift::reproduce::halton_points<3>(count), Eigen::MatrixXd(static_cast<Index>(count), 3)};
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t l = 0; l < 3; ++l)
       result.gamma(static_cast<Index>(k), static_cast<Index>(l)) =
-          gaussdrift::study::halton(k, std::array<int, 3>{7, 11, 13}[l]);
+          gaussdrift::reproduce::halton(k, std::array<int, 3>{7, 11, 13}[l]);
   return result;
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "farfield/block_matrix.hpp"
 #include "farfield/farfield.hpp"
 
 namespace {
@@ -97,30 +96,6 @@ void in_plane(benchmark::State& state, Kernel kernel, Method method, double tole
           .potential = potential});
 }
 
-/// ln|x - y| at equidistant points: products with the same vector.
-enum class Product { dense, blocks, shared_blocks, fourier };
-void line(benchmark::State& state, Product product) {
-  const Eigen::Index count = state.range(0);
-  const Eigen::VectorXd points = Eigen::VectorXd::LinSpaced(count, 0, 1), x = Eigen::VectorXd::Random(count);
-  Eigen::VectorXd column(count), y;
-  for (Eigen::Index k = 0; k < count; ++k) column[k] = k == 0 ? 0 : farfield::log_kernel(points[k], 0);
-  const auto run = [&](const auto& matrix) {
-    for (auto _ : state) {
-      y = matrix * x;
-      benchmark::DoNotOptimize(y.data());
-    }
-  };
-  if (product == Product::fourier) return run(farfield::ToeplitzMatrix(column, column));
-  if (product == Product::blocks) return run(farfield::BlockMatrix(farfield::log_kernel, points, {.degree = 3}));
-  if (product == Product::shared_blocks)
-    return run(farfield::BlockMatrix(farfield::log_kernel, points,
-                                     {.degree = 3, .leaf_size = 16, .bases = farfield::Bases::shared}));
-  Eigen::MatrixXd dense(count, count);
-  for (Eigen::Index j = 0; j < count; ++j)
-    for (Eigen::Index i = 0; i < count; ++i) dense(i, j) = column[std::abs(i - j)];
-  run(dense);
-}
-
 void large(benchmark::internal::Benchmark* row) {
   row->Unit(benchmark::kMillisecond)->Iterations(1)->MeasureProcessCPUTime();
 }
@@ -152,23 +127,6 @@ BENCHMARK_CAPTURE(in_space, symmetric_1e_9, Method::symmetric, for_1e_9, 1, fals
 BENCHMARK_CAPTURE(in_space, tree_5e_6, Method::tree, for_5e_6, 1, false, true)->Apply(small_sizes);
 BENCHMARK_CAPTURE(in_space, plummer_5e_6, Method::symmetric, for_5e_6, 1, true, true)->Apply(space_sizes);
 BENCHMARK_CAPTURE(in_space, two_threads_5e_6, Method::symmetric, for_5e_6, 2, false, true)->Arg(400000)->Apply(large);
-
-BENCHMARK_CAPTURE(line, dense, Product::dense)->Arg(1 << 13)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(line, blocks, Product::blocks)
-    ->Arg(1 << 13)
-    ->Arg(1 << 14)
-    ->Arg(1 << 15)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(line, shared_blocks, Product::shared_blocks)
-    ->Arg(1 << 13)
-    ->Arg(1 << 14)
-    ->Arg(1 << 15)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(line, fourier, Product::fourier)
-    ->Arg(1 << 13)
-    ->Arg(1 << 14)
-    ->Arg(1 << 15)
-    ->Unit(benchmark::kMillisecond);
 
 BENCHMARK_CAPTURE(in_plane, log_direct, Kernel::log, Method::direct, 1e-6, true)->Arg(25000)->Apply(large);
 BENCHMARK_CAPTURE(in_plane, log_symmetric, Kernel::log, Method::symmetric, 1e-6, true)->Apply(space_sizes);

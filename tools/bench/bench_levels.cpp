@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fgtd/buffer.hpp"
-#include "fgtd/hermite.hpp"
+#include "fgtd/hermite/hermite.hpp"
 #include "workloads.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "field/named_fields.hpp"
+#include "field/named/named_fields.hpp"
 #include "sim/stepper.hpp"
 
 namespace gaussdrift {

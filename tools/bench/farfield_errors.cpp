@@ -1,4 +1,4 @@
-// Measures what the degrees of farfield's interpolation are worth, and prints src/farfield/error_table.inc: for every
+// Measures what the degrees of farfield's interpolation are worth, and prints src/farfield/interpolation/error_table.inc: for every
 // offset k of two clusters (k_1 >= k_2 >= ...; the last row: one of them alone, the other point anywhere at a distance of
 // a side or more) and every degree the largest error of potential and field of one charge at one target, both anywhere
 // in their clusters, relative to what the promise is relative to.
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "farfield/measured_error.hpp"
+#include "farfield/interpolation/measured_error.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "field/named_fields.hpp"
+#include "field/named/named_fields.hpp"
 
 namespace gaussdrift::named {
 

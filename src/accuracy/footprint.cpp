@@ -1,0 +1,149 @@
+#include "accuracy/footprint.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/sysinfo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "accuracy/budget.hpp"
+#include "accuracy/trial.hpp"
+#include "base/error.hpp"
+#include "sim/simulation.hpp"
+
+namespace gaussdrift::accuracy {
+
+namespace {
+
+constexpr double number = 8, base64 = 4. / 3;  // bytes; four letters for three bytes
+constexpr std::size_t trial_particles = 100'000;
+
+bool wants(const Case& spec, OutputSpec::Vtk kind) {
+  return std::find(spec.output.vtk.begin(), spec.output.vtk.end(), kind) != spec.output.vtk.end();
+}
+
+bool in_space(const Case& spec) { return spec.domain.dimension == 3; }
+
+double limit_of(int resource) {
+  rlimit limit{};
+  if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<double>::infinity();
+  return static_cast<double>(limit.rlim_cur);
+}
+
+/// Of the group of processes that this one is put into (a container); nothing is limited where it says "max".
+double limit_of_group() {
+  double bytes = 0;
+  for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
+    if (std::ifstream(file) >> bytes && bytes > 0) return bytes;
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double bytes_of_density_file(const Extent& extent) {
+  return base64 * number * extent.grid_points * (extent.compared_everywhere ? 3 : 1) + 1500;
+}
+
+// Three coordinates, three components of the velocity, weight, id, and two numbers that make each a cell.
+double bytes_of_particle_file(const Extent& extent) { return base64 * number * 10 * extent.particles + 2500; }
+
+double disk_of_run(const Case& spec, const Extent& extent) {
+  const auto frames = static_cast<double>(spec.output.times.size());
+  const double pictures = frames * static_cast<double>(spec.output.images.size());
+  double bytes = 1e4 + 250 * frames + 8e4 * pictures;
+  if (wants(spec, OutputSpec::Vtk::density)) bytes += frames * bytes_of_density_file(extent);
+  if (wants(spec, OutputSpec::Vtk::particles)) bytes += frames * bytes_of_particle_file(extent);
+  if (spec.output.report) bytes += 5e4 + (pictures > 0 ? 5e5 : 0);  // the page and its picture
+  return bytes;
+}
+
+double memory_of_run(const Case& spec, const Extent& extent) {
+  const double n = extent.particles, m = extent.grid_points, d = spec.domain.dimension,
+               frames = static_cast<double>(spec.output.times.size());
+  const EffectsSpec& effects = spec.effects;
+  const bool exchanges = effects.diffusion && effects.diffusion->method == DiffusionSpec::Method::particle_exchange;
+  const bool pictures = !spec.output.images.empty();
+  const double integrals = (effects.reaction ? 1 : 0) + (exchanges ? 1 : 0);
+
+  // What stays: positions, weights, ids, integrals, volumes; a halo's and a remeshing's tables of nodes.
+  double particle = number * (d + 2 + integrals + (exchanges ? 1 : 0));
+  double stays = n * particle;
+  if (exchanges) stays += n * 60;
+  if (effects.remesh) stays += n * 16 * d;
+  // The last output is kept for the error budget and the page.
+  const bool kept = spec.output.report || (spec.reference.kind != ReferenceSpec::Kind::none &&
+                                           spec.accuracy.budget != AccuracySpec::Budget::none);
+  const double copy = kept ? n * particle + m * number * (extent.compared_everywhere ? 2 : 1) : 0;
+  if (pictures) stays += frames * std::min(m, in_space(spec) ? 2.1e6 : m) * 4;
+
+  // Lines of the lattice are seeded one by one and joined.
+  const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));
+  const double seed = 2 * n * particle + 450 * lines;
+  double step = stays + 2 * n * number * (d + integrals);
+  if (effects.drifts()) step += n * (in_space(spec) ? 300 : 200);
+  if (exchanges) step += n * number * 26;
+  if (effects.remesh) step += n * (in_space(spec) ? 150 : 100);
+
+  // The transform holds the points sorted, with its boxes; in space boxes have more neighbours.
+  const double density = stays + n * number * (in_space(spec) ? 20 : 11) + m * number * (in_space(spec) ? 4.5 : 3);
+  // An output: density, velocity at the particles, exact density with the feet of its paths.
+  const bool traced = spec.reference.kind == ReferenceSpec::Kind::characteristics && extent.compared_everywhere;
+  const double shown =
+      stays + m * number + n * number * d + (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0);
+  double output = shown + n * number * d;
+  // A file is made in memory, as arrays and twice as text.
+  if (wants(spec, OutputSpec::Vtk::density)) output = std::max(output, shown + 2 * bytes_of_density_file(extent));
+  if (wants(spec, OutputSpec::Vtk::particles))
+    output = std::max(output, shown + n * number * 8 + 2.2 * bytes_of_particle_file(extent));
+  if (pictures) output = std::max(output, shown) + m * number;
+  // The drawing library stays once it has drawn.
+  const double drawing = pictures ? 1.4e8 : 0;
+  return drawing + std::max({seed, step, density + copy, output + copy});
+}
+
+double memory_of_this_process() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+double memory_of_this_machine() {
+  struct sysinfo machine {};
+  double bytes = std::numeric_limits<double>::infinity();
+  if (sysinfo(&machine) == 0)
+    bytes = (static_cast<double>(machine.totalram) + static_cast<double>(machine.totalswap)) * machine.mem_unit;
+  return std::min({bytes, limit_of(RLIMIT_AS), limit_of(RLIMIT_DATA), limit_of_group()});
+}
+
+void refuse_what_does_not_fit(const Case& spec, int threads) {
+  const Domain& domain = spec.domain;
+  const auto lattice =
+      static_cast<double>(make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis).size());
+  const Lattice grid = spec.evaluate.spacing > 0
+                           ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
+                           : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
+  Extent extent{.lattice_points = lattice,
+                .particles = lattice,
+                .grid_points = static_cast<double>(grid.size()),
+                .compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none};
+  const double there = memory_of_this_machine(), before = memory_of_this_process();
+  if (before + memory_of_run(spec, extent) < there) return;
+  try {
+    extent.particles = make_trial(spec, trial_particles, threads).carried;
+  } catch (const InputError&) {
+    return;  // a density that a sample does not meet has few particles
+  }
+  const double needed = before + memory_of_run(spec, extent);
+  if (needed < there) return;
+  throw InputError(fmt::format(
+      "the run would take about {:.3g} GB of memory for {:.3g} particles and {:.3g} grid points, and there are {:.3g} "
+      "GB; lower {}",
+      needed / 1e9, extent.particles, extent.grid_points, there / 1e9,
+      extent.particles > extent.grid_points ? "particles.per_axis" : "evaluate.per_axis"));
+}
+
+}  // namespace gaussdrift::accuracy

@@ -1,0 +1,53 @@
+#include "accuracy/would_run.hpp"
+
+#include <algorithm>
+#include <variant>
+
+#include "base/error.hpp"
+#include "input/read_case.hpp"
+#include "sim/simulation.hpp"
+
+namespace gaussdrift::accuracy {
+
+namespace {
+
+/// The case without grids and tables: rules of the file are about its keys.
+Case without_data(Case scene) {
+  const auto dimension = static_cast<std::size_t>(scene.domain.dimension);
+  for (VelocitySpec& part : scene.velocity)
+    if (std::holds_alternative<FileVelocity>(part) || std::holds_alternative<GaussianVelocitySpec>(part))
+      part = ExpressionVelocity{std::vector<std::string>(dimension, "0")};
+  for (DensitySpec& part : scene.density)
+    if (std::holds_alternative<FileDensity>(part)) part = ExpressionDensity{"1"};
+  return scene;
+}
+
+std::string first_line(const std::string& text) {
+  const std::string line = text.substr(0, text.find('\n')), mark = "error: ";
+  return line.rfind(mark, 0) == 0 ? line.substr(mark.size()) : line;
+}
+
+}  // namespace
+
+std::string why_not_read(const Case& scene) {
+  try {
+    input::parse_case(input::resolved_toml(without_data(scene)), "run.toml");
+  } catch (const Error& error) {
+    return first_line(error.what());
+  }
+  return "";
+}
+
+std::string why_refused(const Case& scene, int threads) {
+  if (std::string reason = why_not_read(scene); !reason.empty()) return reason;
+  Case bare = scene;
+  bare.reference = {};  // has no part in it
+  try {
+    Simulation(bare, threads).prepare();
+  } catch (const Error& error) {
+    return first_line(error.what());
+  }
+  return "";
+}
+
+}  // namespace gaussdrift::accuracy

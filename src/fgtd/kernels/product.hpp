@@ -1,0 +1,66 @@
+// Small products of matrices in registers: the inner loop of `hermite`, `outer` and the filters of `spread`. Included
+// in the way of fgtd/kernels/vector.hpp.
+#pragma once
+
+#include "fgtd/kernels/vector.hpp"
+
+namespace fgtd::detail::FGTD_ISA {
+namespace {
+
+/// A block of `rows` rows and `vectors` vectors of C, the last vector of which holds `valid` numbers.
+template <int rows, int vectors>
+FGTD_INLINE void product_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d,
+                               std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
+  Vector sum[rows][vectors] = {};
+  for (std::size_t k = 0; k < depth; ++k) {
+    Vector right[vectors];
+    for (int v = 0; v < vectors; ++v) right[v] = load(d + k * d_stride + static_cast<std::size_t>(v) * lanes);
+    for (int i = 0; i < rows; ++i) {
+      const double left = b[static_cast<std::size_t>(i) * b_stride + k];
+      for (int v = 0; v < vectors; ++v) sum[i][v] += right[v] * left;
+    }
+  }
+  for (int i = 0; i < rows; ++i) {
+    double* row = c + static_cast<std::size_t>(i) * c_stride;
+    for (int v = 0; v < vectors; ++v) {
+      double* at = row + static_cast<std::size_t>(v) * lanes;
+      if (v + 1 < vectors || valid == lanes) {
+        store(at, load(at) + sum[i][v]);
+      } else {
+        for (std::size_t x = 0; x < valid; ++x) at[x] += sum[i][v][x];
+      }
+    }
+  }
+}
+
+template <int vectors>
+FGTD_INLINE void product_columns(std::size_t rows, std::size_t depth, const double* b, std::size_t b_stride,
+                                 const double* d, std::size_t d_stride, double* c, std::size_t c_stride,
+                                 std::size_t valid) {
+  std::size_t i = 0;
+  for (; i + 4 <= rows; i += 4)
+    product_block<4, vectors>(depth, b + i * b_stride, b_stride, d, d_stride, c + i * c_stride, c_stride, valid);
+  b += i * b_stride;
+  c += i * c_stride;
+  if (rows - i == 3) product_block<3, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
+  if (rows - i == 2) product_block<2, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
+  if (rows - i == 1) product_block<1, vectors>(depth, b, b_stride, d, d_stride, c, c_stride, valid);
+}
+
+/// C(rows x width) += B(rows x depth) D(depth x width), all row-major; see ProductJob for what must be readable.
+FGTD_INLINE void multiply_add(std::size_t rows, std::size_t depth, std::size_t width, const double* b,
+                              std::size_t b_stride, const double* d, std::size_t d_stride, double* c,
+                              std::size_t c_stride) {
+  std::size_t x = 0;
+  for (; x + 3 * lanes <= width; x += 3 * lanes)
+    product_columns<3>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, lanes);
+  const std::size_t rest = width - x;
+  if (rest == 0) return;
+  const std::size_t vectors = (rest + lanes - 1) / lanes, valid = rest - (vectors - 1) * lanes;
+  if (vectors == 1) product_columns<1>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
+  if (vectors == 2) product_columns<2>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
+  if (vectors == 3) product_columns<3>(rows, depth, b, b_stride, d + x, d_stride, c + x, c_stride, valid);
+}
+
+}  // namespace
+}  // namespace fgtd::detail::FGTD_ISA

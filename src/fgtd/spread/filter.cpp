@@ -1,0 +1,332 @@
+// Window, filter and their errors; see fgtd/spread/filter.hpp.
+#include "fgtd/spread/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+namespace fgtd::detail {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// b / w: the widest lattice over all tolerances and derivatives, flat within 0.15; larger for windows with less than
+// two nodes more than digits, whose jump 1/I_0(b) at the ends would show.
+constexpr double wide_shape = 2.35, narrow_shape = 2.5, windows_digits = 1.9;
+constexpr std::size_t filter_terms = 14;  // of f on a panel of width H: interpolation error below 1e-15
+constexpr int mesh_sources = 9;           // offsets of a source in a cell of the lattice at which errors are measured
+constexpr int mesh_targets = 5;           // offsets of a target
+constexpr double mesh_safety = 1.4;       // the largest error is at most so much larger than on that mesh (measured)
+
+/// I_0(x) by its series; all terms are positive.
+double bessel_i0(double x) {
+  double term = 1, sum = 1;
+  for (int n = 1; term > 1e-18 * sum; ++n) {
+    term *= (0.5 * x / n) * (0.5 * x / n);
+    sum += term;
+  }
+  return sum;
+}
+
+/// Values at the Chebyshev points of [-1, 1] to coefficients of Chebyshev polynomials to those of powers; in that
+/// order, because the one matrix for both has large entries of both signs.
+class Interpolation {
+ public:
+  explicit Interpolation(std::size_t terms) : terms_(terms), cosine_(terms * terms), power_(terms * terms, 0.0) {
+    for (std::size_t n = 0; n < terms; ++n)
+      for (std::size_t i = 0; i < terms; ++i)
+        cosine_[n * terms + i] =
+            (n == 0 ? 1.0 : 2.0) / static_cast<double>(terms) *
+            std::cos(pi * static_cast<double>((n * (2 * i + 1)) % (4 * terms)) / static_cast<double>(2 * terms));
+    power_[0] = 1;  // T_0 = 1, T_{n+1} = 2 x T_n - T_{n-1}
+    for (std::size_t n = 0; n + 1 < terms; ++n)
+      for (std::size_t i = 0; i < terms; ++i)
+        power_[(n + 1) * terms + i] =
+            (i > 0 ? (n == 0 ? 1 : 2) * power_[n * terms + i - 1] : 0.0) - (n > 0 ? power_[(n - 1) * terms + i] : 0.0);
+  }
+  void operator()(const double* value, double* power) const {
+    std::fill_n(power, terms_, 0.0);
+    for (std::size_t n = 0; n < terms_; ++n) {
+      double c = 0;
+      for (std::size_t i = 0; i < terms_; ++i) c += cosine_[n * terms_ + i] * value[i];
+      for (std::size_t i = 0; i <= n; ++i) power[i] += c * power_[n * terms_ + i];
+    }
+  }
+
+ private:
+  std::size_t terms_;
+  std::vector<double> cosine_, power_;  // [n][i]
+};
+
+double chebyshev_point(std::size_t i, std::size_t terms) {
+  return std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(terms));
+}
+
+/// h~_a(t), a = 0 .. order.
+void hermite_functions(int order, double t, double* value) {
+  double before = 0;
+  value[0] = std::exp(-t * t);
+  for (int n = 0; n < order; ++n) {
+    const double now = value[n];
+    value[n + 1] = std::sqrt(2.0 / (n + 1)) * t * now - std::sqrt(static_cast<double>(n) / (n + 1)) * before;
+    before = now;
+  }
+}
+
+}  // namespace
+
+SpreadFilter::SpreadFilter(int width, double spacing, double shape, int derivative_order, double tolerance)
+    : width_(width), spacing_(spacing), shape_(shape), tolerance_(tolerance), order_(derivative_order) {
+  make_window();
+  make_filters();
+  grid_axis_ = measure_grid();
+  point_axis_ = measure_points();
+}
+
+void SpreadFilter::make_window() {
+  degree_ = width_ + (tolerance_ < 1e-10 ? 3 : tolerance_ < 1e-5 ? 2 : 1);
+  const std::size_t terms = static_cast<std::size_t>(degree_) + 1, w = static_cast<std::size_t>(width_);
+  coefficients_.assign(terms * padded_window, 0.0);
+  const double top = bessel_i0(shape_);
+  const Interpolation interpolation(terms);
+  std::vector<double> value(terms), power(terms);
+  for (std::size_t j = 0; j < w; ++j) {
+    for (std::size_t i = 0; i < terms; ++i) {
+      const double s = static_cast<double>(j) - 0.5 * width_ + 0.5 * (chebyshev_point(i, terms) + 1);
+      value[i] = bessel_i0(shape_ * std::sqrt(std::max(0.0, 1 - 4 * s * s / (width_ * width_)))) / top;
+    }
+    interpolation(value.data(), power.data());
+    for (std::size_t i = 0; i < terms; ++i) coefficients_[i * padded_window + j] = power[i];
+  }
+}
+
+void SpreadFilter::window_at(double theta, double* values) const {
+  for (int j = 0; j < width_; ++j) {
+    double sum = 0;
+    for (int i = degree_; i >= 0; --i)
+      sum = sum * (2 * theta - 1) +
+            coefficients_[static_cast<std::size_t>(i) * padded_window + static_cast<std::size_t>(j)];
+    values[j] = sum;
+  }
+}
+
+/// Integrates by the trapezoidal rule. It is exact to rounding, because the integrands are smooth and the images of f
+/// that the rule adds lie outside the range where f is used.
+void SpreadFilter::make_filters() {
+  const double top = bessel_i0(shape_), h = spacing_;
+  const auto transform = [&](double q) {
+    const double squared = shape_ * shape_ - 0.25 * q * q * width_ * width_, root = std::sqrt(std::abs(squared));
+    const double value = root < 1e-4 ? 1 + squared / 6 : (squared > 0 ? std::sinh(root) : std::sin(root)) / root;
+    return width_ * value / top;
+  };
+  const double allowed = 0.15 * tolerance_;
+  const double farthest = 1.3 * std::sqrt(std::log(1 / tolerance_) + 2.0 * order_) + 4 * h + 2;
+  const double step = pi / (farthest + 0.5 * width_ * h + 2);
+  const std::size_t panels = static_cast<std::size_t>(std::ceil(farthest / h));
+  const std::size_t orders = static_cast<std::size_t>(order_) + 1;
+  std::vector<std::vector<double>> at(orders, std::vector<double>(panels * filter_terms, 0.0));
+  lattice_.assign(orders, std::vector<double>(panels, 0.0));
+  std::vector<double> root(orders);  // q^{a+1} / sqrt(2^{a+1} (a+1)!) from that of a
+  for (std::size_t a = 0; a < orders; ++a) root[a] = 1 / std::sqrt(2.0 * static_cast<double>(a + 1));
+  for (int n = 0;; ++n) {
+    const double q = n * step, gaussian = std::sqrt(pi) * std::exp(-0.25 * q * q);
+    double sum = 0;
+    for (int m = -3; m <= 3; ++m) {
+      const double image = transform(q * h + 2 * pi * m);
+      sum += image * image;
+    }
+    const double quotient = transform(q * h) / sum;
+    double factor = (n == 0 ? 0.5 : 1.0) * step / pi * gaussian * quotient;
+    double largest = 0;
+    const double turn_c = std::cos(q * h), turn_s = std::sin(q * h);
+    for (std::size_t i = 0; i < filter_terms; ++i) {
+      // e^{i q t} along the panels by turning
+      const double start = q * 0.5 * h * (chebyshev_point(i, filter_terms) + 1);
+      double c = std::cos(start), s = std::sin(start);
+      for (std::size_t p = 0; p < panels; ++p) {
+        double power = factor;
+        for (std::size_t a = 0; a < orders; ++a) {
+          // cos(q t - a pi/2)
+          const double wave = a % 4 == 0 ? c : a % 4 == 1 ? s : a % 4 == 2 ? -c : -s;
+          at[a][p * filter_terms + i] += power * wave;
+          power *= q * root[a];
+          largest = std::max(largest, std::abs(power));
+        }
+        const double next = c * turn_c - s * turn_s;
+        s = s * turn_c + c * turn_s;
+        c = next;
+      }
+    }
+    double c = 1, s = 0;
+    for (std::size_t j = 0; j < panels; ++j) {
+      double power = factor * quotient;
+      for (std::size_t a = 0; a < orders; ++a) {
+        lattice_[a][j] += power * (a % 4 == 0 ? c : a % 4 == 1 ? s : a % 4 == 2 ? -c : -s);
+        power *= q * root[a];
+      }
+      const double next = c * turn_c - s * turn_s;
+      s = s * turn_c + c * turn_s;
+      c = next;
+    }
+    if (q > 8 && largest < 1e-19) break;
+  }
+  // Beyond the reach everything is below `allowed`.
+  std::size_t used = 1;
+  double last = 0;
+  for (std::size_t p = 0; p < panels; ++p)
+    for (std::size_t i = 0; i < filter_terms; ++i)
+      for (std::size_t a = 0; a < orders; ++a)
+        if (std::abs(at[a][p * filter_terms + i]) > allowed) {
+          used = p + 1;
+          last = std::max(last, (static_cast<double>(p) + 0.5 * (chebyshev_point(i, filter_terms) + 1)) * h);
+        }
+  reach_ = std::min(last + 0.1 * h, static_cast<double>(used) * h);
+  std::size_t kept = 1;
+  for (std::size_t j = 0; j < panels; ++j)
+    for (std::size_t a = 0; a < orders; ++a)
+      if (std::abs(lattice_[a][j]) > allowed) kept = j + 1;
+  const Interpolation interpolation(filter_terms);
+  filter_.assign(orders, std::vector<double>(used * filter_terms));
+  for (std::size_t a = 0; a < orders; ++a) {
+    lattice_[a].resize(kept);
+    for (std::size_t p = 0; p < used; ++p)
+      interpolation(at[a].data() + p * filter_terms, filter_[a].data() + p * filter_terms);
+  }
+}
+
+double SpreadFilter::filter(int a, double t) const {
+  const double distance = std::abs(t);
+  if (!(distance <= reach_)) return 0;
+  const auto& table = filter_[static_cast<std::size_t>(a)];
+  const std::size_t panel = std::min(static_cast<std::size_t>(distance / spacing_), table.size() / filter_terms - 1);
+  const double x = 2 * (distance / spacing_ - static_cast<double>(panel)) - 1;
+  const double* power = table.data() + panel * filter_terms;
+  double sum = 0;
+  for (std::size_t i = filter_terms; i-- > 0;) sum = sum * x + power[i];
+  return t < 0 && a % 2 == 1 ? -sum : sum;
+}
+
+double SpreadFilter::lattice_filter(int a, int j) const {
+  const std::size_t distance = static_cast<std::size_t>(std::abs(j));
+  const auto& row = lattice_[static_cast<std::size_t>(a)];
+  if (distance >= row.size()) return 0;
+  return j < 0 && a % 2 == 1 ? -row[distance] : row[distance];
+}
+
+/// The error depends on the source's place in its cell and on the distance; targets at or right of the source suffice,
+/// since phi is even and f_a has the parity of h~_a.
+SpreadFilter::AxisError SpreadFilter::measure_grid() const {
+  const std::size_t orders = static_cast<std::size_t>(order_) + 1;
+  AxisError axis{std::vector<double>(orders, 0.0), -std::numeric_limits<double>::infinity()};
+  const int beyond = static_cast<int>(std::ceil(reach_ / spacing_)) + width_ + 1;
+  double window[mesh_sources][padded_window];
+  for (int i = 0; i < mesh_sources; ++i) window_at((i + 0.01) / (mesh_sources - 0.98), window[i]);
+  std::vector<double> f(static_cast<std::size_t>(2 * beyond + 1)), exact(orders);
+  for (int m = 0; m < mesh_targets; ++m) {
+    const double offset = (m + 0.37) / mesh_targets;
+    for (std::size_t a = 0; a < orders; ++a) {
+      for (int k = -beyond; k <= beyond; ++k)
+        f[static_cast<std::size_t>(k + beyond)] = filter(static_cast<int>(a), (offset + k) * spacing_);
+      for (int i = 0; i < mesh_sources; ++i) {
+        const double theta = (i + 0.01) / (mesh_sources - 0.98);  // node j is at j, the source at w/2 - theta
+        const double source = 0.5 * width_ - theta;
+        for (int k = 0; k + width_ <= 2 * beyond; ++k) {
+          // the target is at y = k + w - 1 - beyond + offset, so that node j is k + w - 1 - j in f
+          const double t = (k + width_ - 1 - beyond + offset - source) * spacing_;
+          if (t < -spacing_) continue;
+          double sum = 0;
+          for (int j = 0; j < width_; ++j) sum += window[i][j] * f[static_cast<std::size_t>(k + width_ - 1 - j)];
+          hermite_functions(static_cast<int>(a), t, exact.data());
+          axis.error[a] = std::max(axis.error[a], std::abs(sum - exact[a]));
+          if (sum != 0) axis.excess = std::max(axis.excess, std::log(std::abs(sum)) + t * t);
+        }
+      }
+    }
+  }
+  return axis;
+}
+
+SpreadFilter::AxisError SpreadFilter::measure_points() const {
+  const std::size_t orders = static_cast<std::size_t>(order_) + 1;
+  AxisError axis{std::vector<double>(orders, 0.0), -std::numeric_limits<double>::infinity()};
+  double window[mesh_sources][padded_window];
+  for (int i = 0; i < mesh_sources; ++i) window_at((i + 0.01) / (mesh_sources - 0.98), window[i]);
+  const int beyond = lattice_reach() + width_;
+  std::vector<double> column(static_cast<std::size_t>(2 * beyond + 1 + width_)), exact(orders);
+  for (std::size_t a = 0; a < orders; ++a)
+    for (int i = 0; i < mesh_sources; ++i) {
+      // column[m] = sum_k phi_k F(m - k): the source's share of node m - beyond
+      std::fill(column.begin(), column.end(), 0.0);
+      for (std::size_t m = 0; m < column.size(); ++m)
+        for (int k = 0; k < width_; ++k)
+          column[m] += window[i][k] * lattice_filter(static_cast<int>(a), static_cast<int>(m) - beyond - k);
+      for (int o = 0; o < mesh_sources; ++o) {
+        for (std::size_t first = 0; first + static_cast<std::size_t>(width_) <= column.size(); ++first) {
+          const double t = (static_cast<double>(first) - beyond + (i - o) / (mesh_sources - 0.98)) * spacing_;
+          if (t < -spacing_) continue;
+          double sum = 0;
+          for (int j = 0; j < width_; ++j) sum += window[o][j] * column[first + static_cast<std::size_t>(j)];
+          hermite_functions(static_cast<int>(a), t, exact.data());
+          axis.error[a] = std::max(axis.error[a], std::abs(sum - exact[a]));
+          if (sum != 0) axis.excess = std::max(axis.excess, std::log(std::abs(sum)) + t * t);
+        }
+      }
+    }
+  return axis;
+}
+
+/// The promise beyond rho^2 = L, tolerance e^{L - rho^2}, allows half for the sum itself: with |sum| <= e^{excess -
+/// t^2} on each axis that is d excess <= ln(tolerance/2) + L.
+double SpreadFilter::product_error(const AxisError& axis, int d) const {
+  const double limit = 2 * std::log(1 / tolerance_) + 40;
+  if (d * axis.excess > std::log(0.5 * tolerance_) + limit) return std::numeric_limits<double>::infinity();
+  // largest[k] = max over |alpha| <= k of prod (1 + E_a)
+  std::vector<double> largest(axis.error.size(), 1.0);
+  for (int l = 0; l < d; ++l) {
+    std::vector<double> next(largest.size(), 0.0);
+    for (std::size_t k = 0; k < largest.size(); ++k)
+      for (std::size_t a = 0; a <= k; ++a)
+        next[k] = std::max(next[k], (1 + mesh_safety * axis.error[a]) * largest[k - a]);
+    largest.swap(next);
+  }
+  return largest.back() - 1;
+}
+
+double expected_spacing(int width, int derivative_order, double tolerance) {
+  // where the transform of h~_a falls below the tolerance: q^2/4 = ln(1/tolerance) + a ln q - ln(2^a a!)/2
+  const double a = derivative_order;
+  double q = 6;
+  for (int step = 0; step < 30; ++step)
+    q = 2 * std::sqrt(std::max(
+                1.0, -std::log(tolerance) + a * std::log(q) - 0.5 * (a * std::numbers::ln2 + std::lgamma(a + 1))));
+  const bool narrow = width < windows_digits - std::log10(tolerance);
+  return (narrow ? 0.78 : 0.88) * pi / q;
+}
+
+std::shared_ptr<const SpreadFilter> find_filter(int d, int width, int derivative_order, double tolerance) {
+  using Key = std::tuple<int, int, int, double>;
+  constexpr std::size_t remembered = 256;
+  static std::mutex mutex;
+  static std::map<Key, std::shared_ptr<const SpreadFilter>> known;
+  const Key key(d, width, derivative_order, tolerance);
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (const auto place = known.find(key); place != known.end()) return place->second;
+  }
+  std::shared_ptr<const SpreadFilter> found;
+  const double shape = width < windows_digits - std::log10(tolerance) ? narrow_shape : wide_shape;
+  const double widest = expected_spacing(width, derivative_order, tolerance);
+  for (double spacing = widest; spacing > 0.5 * widest && !found; spacing *= 0.96) {
+    auto filter = std::make_shared<const SpreadFilter>(width, spacing, shape * width, derivative_order, tolerance);
+    if (std::max(filter->grid_error(d), filter->point_error(d)) <= tolerance) found = std::move(filter);
+  }
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (known.size() >= remembered) known.clear();
+  return known.emplace(key, std::move(found)).first->second;
+}
+
+}  // namespace fgtd::detail

@@ -1,0 +1,184 @@
+// Scattered targets of `spread`: the filter from the lattice around the sources to the lattice around the targets, and
+// phi from there to each target. Targets that a brick does not reach are left out; they add exactly nothing.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "fgtd/spread/sum.hpp"
+
+namespace fgtd::detail {
+namespace {
+
+constexpr std::size_t piece = 4096;  // targets at a time
+
+/// The targets near one brick: sorted by cell, from the anchor, and the lattice around them.
+template <int d>
+struct NearTargets {
+  Buffer<std::uint32_t> index;  // the caller's numbers, sorted
+  Buffer<double> position;      // [index.size()][d]
+  Brick<d> brick;
+};
+
+template <int d>
+NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, int reach, const double* targets,
+                         std::size_t count, int threads) {
+  std::array<double, d> from, to;  // first nodes within reach
+  for (std::size_t l = 0; l < d; ++l) {
+    const double first = static_cast<double>(source.first[l]), nodes = static_cast<double>(source.nodes[l]);
+    from[l] = (first - reach - frame.width) * frame.spacing;
+    to[l] = (first + nodes + reach + frame.width) * frame.spacing;
+  }
+  const auto from_anchor = [&](std::size_t i) {
+    std::array<double, d> y;
+    for (std::size_t l = 0; l < d; ++l) y[l] = targets[i * d + l] - frame.anchor[l];
+    return y;
+  };
+  const auto is_near = [&](const std::array<double, d>& y) {
+    bool inside = true;
+    for (std::size_t l = 0; l < d; ++l) inside = inside && from[l] <= y[l] && y[l] <= to[l];
+    return inside;
+  };
+  struct Found {
+    std::size_t count = 0;
+    std::array<double, d> low, high;
+    Found() {
+      low.fill(std::numeric_limits<double>::infinity());
+      high.fill(-std::numeric_limits<double>::infinity());
+    }
+  };
+  const std::size_t pieces = (count + piece - 1) / piece;
+  std::vector<Found> found(pieces);
+  const gaussdrift::base::Pieces parts(pieces, 0.3 * cost::spread_sort * static_cast<double>(count));
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t p) {
+    Found here;
+    for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
+      const std::array<double, d> y = from_anchor(i);
+      if (!is_near(y)) continue;
+      ++here.count;
+      for (std::size_t l = 0; l < d; ++l) {
+        here.low[l] = std::min(here.low[l], y[l]);
+        here.high[l] = std::max(here.high[l], y[l]);
+      }
+    }
+    found[p] = here;
+  });
+  Found all;
+  for (Found& part : found) {
+    for (std::size_t l = 0; l < d; ++l) {
+      all.low[l] = std::min(all.low[l], part.low[l]);
+      all.high[l] = std::max(all.high[l], part.high[l]);
+    }
+    all.count += std::exchange(part.count, all.count);  // from now on those before it
+  }
+  NearTargets<d> near;
+  if (all.count == 0) return near;
+  Brick<d>& brick = near.brick;
+  for (std::size_t l = 0; l < d; ++l) {
+    const std::int64_t low = frame.first_node(all.low[l]);
+    const std::size_t span = static_cast<std::size_t>(frame.first_node(all.high[l]) - low) + 1;
+    brick.first[l] = low - 1;
+    brick.nodes[l] = span + (l == 0 ? SpreadFilter::padded_window : static_cast<std::size_t>(frame.width)) + 1;
+    brick.tiles[l] = (span + tile_side<d>(l) - 1) / tile_side<d>(l);
+  }
+  Buffer<std::uint32_t> index(all.count), cell(all.count);
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t p) {
+    std::size_t at = found[p].count;
+    for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
+      if (!is_near(from_anchor(i))) continue;
+      index[at] = static_cast<std::uint32_t>(i);
+      cell[at++] = static_cast<std::uint32_t>(brick.cell_of(frame, from_anchor(i)));
+    }
+  });
+  near.index.resize(all.count);
+  near.position.resize(d * all.count);
+  std::vector<std::uint32_t> first;
+  sort_into_cells(cell, brick.cell_count(), threads, first, [&](std::size_t j, std::size_t place) {
+    near.index[place] = index[j];
+    const std::array<double, d> y = from_anchor(index[j]);
+    std::copy_n(y.begin(), d, near.position.begin() + static_cast<std::ptrdiff_t>(place * d));
+  });
+  return near;
+}
+
+}  // namespace
+
+template <int d>
+void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const {
+  const std::size_t outputs = request.combinations.size() * columns_;
+  in_pieces(outputs * count, cost::spread_value, threads_,
+            [&](std::size_t begin, std::size_t end) { std::fill(values + begin, values + end, 0.0); });
+  if (outputs == 0 || count == 0) return;
+  for (const auto& brick : layout_.bricks) {
+    const NearTargets<d> near = find_near<d>(layout_.frame, brick, filter_->lattice_reach(), targets, count, threads_);
+    const std::size_t near_count = near.index.size();
+    if (near_count == 0) continue;
+
+    const FilterJob<d> job{
+        *filter_, layout_.frame, sigma_, request, columns_, {&brick}, {lattice_.data() + columns_ * brick.offset},
+        threads_};
+    FilterTargets<d> nodes;
+    nodes.on_lattice = true;
+    for (std::size_t l = 0; l < d; ++l) {
+      // the padding of axis 0 stays zero
+      const std::size_t used =
+          near.brick.nodes[l] - (l == 0 ? SpreadFilter::padded_window - static_cast<std::size_t>(filter_->width()) : 0);
+      for (std::size_t i = 0; i < used; ++i)
+        nodes.node[l].push_back(near.brick.first[l] + static_cast<std::int64_t>(i));
+    }
+    const std::size_t size = near.brick.size();
+    Buffer<double> lattice(outputs * size + SpreadFilter::padded_window);
+    std::fill_n(lattice.end() - SpreadFilter::padded_window, SpreadFilter::padded_window, 0.0);
+    apply_filter<d>(job, nodes, near.brick.nodes[0], size, lattice.data());
+
+    const gaussdrift::base::Pieces pieces((near_count + piece - 1) / piece,
+                                          at_lattice(near_count, outputs, cost::spread_gather));
+    gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
+      SpreadJob gather = job_for(near.brick);
+      gather.position = near.position.data();
+      gather.begin = i * piece;
+      gather.end = std::min(near_count, (i + 1) * piece);
+      gather.columns = outputs;
+      gather.lattice = lattice.data();
+      std::vector<double> out(outputs * piece);
+      gather.out = out.data();
+      gather.out_stride = piece;
+      kernels().spread(gather);
+      for (std::size_t output = 0; output < outputs; ++output)
+        for (std::size_t j = gather.begin; j < gather.end; ++j)
+          values[output * count + near.index[j]] += out[output * piece + j - gather.begin];
+    });
+  }
+}
+
+/// The lattice around the targets is no larger than what the brick reaches.
+template <int d>
+double SpreadSum<d>::point_bytes(const Request<d>& request, std::size_t count) const {
+  const double outputs = static_cast<double>(request.combinations.size() * columns_);
+  double largest = 0;
+  for (const auto& brick : layout_.bricks) {
+    double nodes = 1;
+    std::array<double, d> sizes;
+    for (std::size_t l = 0; l < d; ++l) {
+      sizes[l] = static_cast<double>(brick.nodes[l]) + 2 * (filter_->lattice_reach() + filter_->width()) +
+                 SpreadFilter::padded_window + 2;
+      nodes *= sizes[l];
+    }
+    const FilterJob<d> job{*filter_, layout_.frame, sigma_, request, columns_, {&brick}, {nullptr}, threads_};
+    largest = std::max(largest, 8 * outputs * nodes + filter_bytes<d>(job, sizes, true));
+  }
+  return largest + static_cast<double>(count) * (8 * d + 16) +
+         8 * outputs * static_cast<double>(piece) * gaussdrift::base::resolve_threads(threads_);
+}
+
+#define FGTD_INSTANTIATE(d)                                                                           \
+  template void SpreadSum<d>::evaluate(const Request<d>&, const double*, std::size_t, double*) const; \
+  template double SpreadSum<d>::point_bytes(const Request<d>&, std::size_t) const;
+FGTD_INSTANTIATE(1)
+FGTD_INSTANTIATE(2)
+FGTD_INSTANTIATE(3)
+FGTD_INSTANTIATE(4)
+#undef FGTD_INSTANTIATE
+
+}  // namespace fgtd::detail

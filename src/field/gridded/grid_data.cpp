@@ -1,0 +1,233 @@
+#include "field/gridded/grid_data.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/number.hpp"
+
+namespace gaussdrift {
+
+std::size_t GridData::points() const {
+  std::size_t count = 1;
+  for (int k = 0; k < dimension; ++k) count *= axis[k].size();
+  return count;
+}
+
+/// Weights of neighbouring points along one axis, and their derivatives.
+struct GridInterpolator::Stencil {
+  std::size_t first = 0;
+  int length = 0;  // 0: outside, nothing is added
+  std::array<double, 4> weight{}, slope{};
+  bool lost = false;  // outside, and that is an error
+};
+
+struct GridInterpolator::TimeWeights {
+  std::size_t first = 0;
+  double second_weight = 0;  // of first + 1
+};
+
+namespace {
+
+std::vector<std::array<double, 3>> parabolas(const std::vector<double>& axis) {
+  std::vector<std::array<double, 3>> derivatives(axis.size());
+  for (std::size_t point = 0; point < axis.size(); ++point) {
+    const std::size_t middle = std::clamp<std::size_t>(point, 1, axis.size() - 2);
+    const double x0 = axis[middle - 1], x1 = axis[middle], x2 = axis[middle + 1], at = axis[point];
+    derivatives[point] = {((at - x1) + (at - x2)) / ((x0 - x1) * (x0 - x2)),
+                          ((at - x0) + (at - x2)) / ((x1 - x0) * (x1 - x2)),
+                          ((at - x0) + (at - x1)) / ((x2 - x0) * (x2 - x1))};
+  }
+  return derivatives;
+}
+
+}  // namespace
+
+GridInterpolator::GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside)
+    : data_(std::move(data)), interpolation_(interpolation), outside_(outside) {
+  if (data_->times.empty() || data_->values.size() != data_->times.size())
+    throw std::invalid_argument("grid data without times");
+  for (const auto& values : data_->values)
+    if (values.size() != data_->points() * data_->components)
+      throw std::invalid_argument("grid data with missing values");
+  for (int k = 0; k < data_->dimension; ++k) {
+    const auto& axis = data_->axis[k];
+    if (axis.size() < 2) throw std::invalid_argument("grid data on fewer than 2 points an axis");
+    const double spacing = (axis.back() - axis.front()) / static_cast<double>(axis.size() - 1);
+    bool even = true;
+    for (std::size_t i = 0; i < axis.size(); ++i)
+      even = even && std::abs(axis[i] - (axis.front() + spacing * static_cast<double>(i))) < 1e-9 * spacing;
+    if (even) inverse_spacing_[k] = 1 / spacing;
+    if (interpolation_ == Interpolation::cubic && axis.size() > 2) parabola_[k] = parabolas(axis);
+  }
+}
+
+GridInterpolator::Stencil GridInterpolator::stencil(int k, double x) const {
+  const auto& axis = data_->axis[k];
+  const std::size_t cells = axis.size() - 1;
+  Stencil result;
+  bool flat = false;  // clamped: no slope along this axis
+  // A point on the surface is inside, also where the coordinates are rounded.
+  const double rounding = std::max(1e-12 * (axis.back() - axis.front()), data_->rounding[k]);
+  if (!(x >= axis.front() - rounding && x <= axis.back() + rounding)) {
+    result.lost = outside_ == Outside::error || std::isnan(x);
+    if (result.lost || outside_ == Outside::zero) return result;
+    flat = true;
+  }
+  x = std::clamp(x, axis.front(), axis.back());
+  std::size_t cell = 0;
+  if (inverse_spacing_[k] > 0)
+    cell = static_cast<std::size_t>((x - axis.front()) * inverse_spacing_[k]);
+  else
+    cell = static_cast<std::size_t>(std::upper_bound(axis.begin(), axis.end(), x) - axis.begin()) - 1;
+  cell = std::min(cell, cells - 1);
+
+  const double h = axis[cell + 1] - axis[cell], s = (x - axis[cell]) / h;
+  if (interpolation_ == Interpolation::linear || cells < 2) {
+    result.first = cell;
+    result.length = 2;
+    result.weight = {1 - s, s};
+    result.slope = {-1 / h, 1 / h};
+  } else {
+    // f = h00 f_0 + h10 h f_0' + h01 f_1 + h11 h f_1', f' of the parabola through three points.
+    const double s2 = s * s, s3 = s2 * s;
+    const double h00 = 2 * s3 - 3 * s2 + 1, h10 = s3 - 2 * s2 + s, h01 = 3 * s2 - 2 * s3, h11 = s3 - s2;
+    const double d00 = 6 * (s2 - s) / h, d10 = 3 * s2 - 4 * s + 1, d01 = -d00, d11 = 3 * s2 - 2 * s;
+    result.first = cell == 0 ? 0 : cell - 1;
+    const std::size_t last = std::min(cell + 2, cells);
+    result.length = static_cast<int>(last - result.first) + 1;
+    const auto place = [&](std::size_t point) { return point - result.first; };
+    const auto add_slope = [&](std::size_t point, double value, double derivative) {
+      const std::size_t middle = std::clamp<std::size_t>(point, 1, cells - 1);  // of the parabola
+      const std::array<double, 3>& parabola = parabola_[k][point];
+      for (std::size_t i = 0; i < 3; ++i) {
+        result.weight[place(middle - 1 + i)] += value * parabola[i];
+        result.slope[place(middle - 1 + i)] += derivative * parabola[i];
+      }
+    };
+    result.weight[place(cell)] = h00;
+    result.weight[place(cell + 1)] = h01;
+    result.slope[place(cell)] = d00;
+    result.slope[place(cell + 1)] = d01;
+    add_slope(cell, h * h10, d10);
+    add_slope(cell + 1, h * h11, d11);
+  }
+  if (flat) result.slope = {};
+  return result;
+}
+
+GridInterpolator::TimeWeights GridInterpolator::at(double t) const {
+  const auto& times = data_->times;
+  if (times.size() == 1 || t <= times.front()) return {0, 0};
+  if (t >= times.back()) return {times.size() - 1, 0};
+  const auto first = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin()) - 1;
+  return {first, (t - times[first]) / (times[first + 1] - times[first])};
+}
+
+namespace {
+
+/// sum over the stencil points of weight_x weight_y (weight_z) values[point * stride].
+template <class Stencil>
+double gather(const GridData& data, const std::array<const double*, max_dimension>& weights,
+              const std::array<Stencil, max_dimension>& stencils, const double* values) {
+  const std::size_t row = data.axis[0].size(), plane = data.dimension == 3 ? row * data.axis[1].size() : 0;
+  const std::size_t stride = data.components;
+  const int layers = data.dimension == 3 ? stencils[2].length : 1;
+  double sum = 0;
+  for (int c = 0; c < layers; ++c) {
+    double layer = 0;
+    for (int b = 0; b < stencils[1].length; ++b) {
+      std::size_t point = (stencils[1].first + static_cast<std::size_t>(b)) * row + stencils[0].first;
+      if (data.dimension == 3) point += (stencils[2].first + static_cast<std::size_t>(c)) * plane;
+      double line = 0;
+      for (int a = 0; a < stencils[0].length; ++a)
+        line += weights[0][a] * values[(point + static_cast<std::size_t>(a)) * stride];
+      layer += weights[1][b] * line;
+    }
+    sum += data.dimension == 3 ? weights[2][c] * layer : layer;
+  }
+  return sum;
+}
+
+}  // namespace
+
+void GridInterpolator::add(double t, const PointsView& x, std::size_t count, double* const* sums) const {
+  const TimeWeights time = at(t);
+  std::array<Stencil, max_dimension> stencils;
+  for (std::size_t i = 0; i < x.count; ++i) {
+    bool inside = true, lost = false;
+    for (int k = 0; k < x.dimension; ++k) {
+      stencils[k] = stencil(k, x.axis[k][i]);
+      inside = inside && stencils[k].length > 0;
+      lost = lost || stencils[k].lost;
+    }
+    if (lost)
+      for (std::size_t c = 0; c < count; ++c) sums[c][i] = std::numeric_limits<double>::quiet_NaN();
+    if (!inside) continue;
+    const std::array<const double*, max_dimension> weights{stencils[0].weight.data(), stencils[1].weight.data(),
+                                                           stencils[2].weight.data()};
+    for (std::size_t c = 0; c < count; ++c) {
+      double value = gather(*data_, weights, stencils, data_->values[time.first].data() + c);
+      if (time.second_weight > 0) {
+        const double next = gather(*data_, weights, stencils, data_->values[time.first + 1].data() + c);
+        value += time.second_weight * (next - value);
+      }
+      sums[c][i] += value;
+    }
+  }
+}
+
+void GridInterpolator::add_divergence(double t, const PointsView& x, double* sums) const {
+  const TimeWeights time = at(t);
+  std::array<Stencil, max_dimension> stencils;
+  for (std::size_t i = 0; i < x.count; ++i) {
+    bool inside = true, lost = false;
+    for (int k = 0; k < x.dimension; ++k) {
+      stencils[k] = stencil(k, x.axis[k][i]);
+      inside = inside && stencils[k].length > 0;
+      lost = lost || stencils[k].lost;
+    }
+    if (lost) sums[i] = std::numeric_limits<double>::quiet_NaN();
+    if (!inside) continue;
+    for (int k = 0; k < x.dimension; ++k) {
+      std::array<const double*, max_dimension> weights{stencils[0].weight.data(), stencils[1].weight.data(),
+                                                       stencils[2].weight.data()};
+      weights[k] = stencils[k].slope.data();
+      double value = gather(*data_, weights, stencils, data_->values[time.first].data() + k);
+      if (time.second_weight > 0) {
+        const double next = gather(*data_, weights, stencils, data_->values[time.first + 1].data() + k);
+        value += time.second_weight * (next - value);
+      }
+      sums[i] += value;
+    }
+  }
+}
+
+std::string GridInterpolator::why_lost(const Vector& x) const {
+  for (int k = 0; k < data_->dimension; ++k)
+    if (stencil(k, x[k]).lost) {
+      const double least = data_->axis[k].front(), most = data_->axis[k].back();
+      return fmt::format(
+          "{} = {} is outside of {}, which reaches from {} to {}: say what stands there with outside = \"clamp\" or "
+          "\"zero\", take data of a larger region, shorten time.end, or move the density",
+          "xyz"[k], base::told_apart(x[k], least, most), data_ -> name, base::told_apart(least, x[k]),
+          base::told_apart(most, x[k]));
+    }
+  return "";
+}
+
+std::string GridInterpolator::describe() const {
+  std::vector<std::size_t> sizes;
+  for (int k = 0; k < data_->dimension; ++k) sizes.push_back(data_->axis[k].size());
+  return fmt::format("{} on {} points{}, {}, outside: {}{}{}", data_->name, fmt::join(sizes, " x "),
+                     data_->times.size() == 1 ? "" : fmt::format(" at {} times", data_->times.size()),
+                     interpolation_names[static_cast<std::size_t>(interpolation_)],
+                     outside_names[static_cast<std::size_t>(outside_)], data_->filled.empty() ? "" : ", ",
+                     data_->filled);
+}
+
+}  // namespace gaussdrift

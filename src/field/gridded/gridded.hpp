@@ -1,0 +1,43 @@
+// Fields from data on a grid: a velocity, a density.
+#pragma once
+
+#include <utility>
+
+#include "field/density/density.hpp"
+#include "field/gridded/grid_data.hpp"
+#include "field/velocity/velocity.hpp"
+
+namespace gaussdrift {
+
+/// u = the first components of the data. Its divergence is that of the interpolating function. To the divergence of the
+/// flow behind the data it converges with one order less than the interpolation.
+class GriddedVelocity : public VelocityField {
+ public:
+  explicit GriddedVelocity(GridInterpolator grid) : grid_(std::move(grid)) {}
+  void add(double t, const PointsView& x, const VectorsView& u) const override {
+    grid_.add(t, x, static_cast<std::size_t>(x.dimension), u.axis.data());
+  }
+  void add_divergence(double t, const PointsView& x, double* values) const override {
+    grid_.add_divergence(t, x, values);
+  }
+  bool is_steady() const override { return grid_.is_steady(); }
+  bool is_smooth() const override { return false; }
+  double cost() const override { return 10; }
+  std::string why_not_finite(double /*t*/, const Vector& x) const override { return grid_.why_lost(x); }
+  std::string describe() const override { return "u = " + grid_.describe(); }
+
+ private:
+  GridInterpolator grid_;
+};
+
+class GriddedDensity : public InitialDensity {
+ public:
+  explicit GriddedDensity(GridInterpolator grid) : grid_(std::move(grid)) {}
+  void add(const PointsView& x, double* values) const override { grid_.add(0, x, 1, &values); }
+  std::string describe() const override { return "rho_0 = " + grid_.describe(); }
+
+ private:
+  GridInterpolator grid_;
+};
+
+}  // namespace gaussdrift

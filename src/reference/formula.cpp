@@ -1,0 +1,76 @@
+#include "reference/formula.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "expression/expression.hpp"
+#include "reference/coordinates.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_together = 256;  // points in one call of the expression
+
+class Formula : public Reference {
+ public:
+  Formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params, const Lattice& lattice)
+      : expression_(rho,
+                    lattice.dimension == 3 ? std::vector<std::string>{"x", "y", "z", "t"}
+                                           : std::vector<std::string>{"x", "y", "t"},
+                    params),
+        lattice_(lattice) {}
+
+  ReferenceReport evaluate(double time, std::vector<double>& rho) override {
+    rho.assign(lattice_.size(), 0.0);
+    return fill(time, rho, [&](std::size_t i) { return i; });
+  }
+
+  ReferenceReport evaluate_at(double time, const std::vector<std::size_t>& points,
+                              std::vector<double>& rho) const override {
+    rho.assign(points.size(), 0.0);
+    return fill(time, rho, [&](std::size_t i) { return points[i]; });
+  }
+
+ private:
+  template <class PointOf>
+  ReferenceReport fill(double time, std::vector<double>& rho, const PointOf& point_of) const {
+    ReferenceReport report;
+    const std::vector<double> times(most_together, time);
+    std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * most_together);
+    std::vector<std::size_t> points(most_together);
+    for (std::size_t first = 0; first < rho.size(); first += most_together) {
+      const std::size_t count = std::min(most_together, rho.size() - first);
+      for (std::size_t i = 0; i < count; ++i) points[i] = point_of(first + i);
+      fill_coordinates(lattice_, points.data(), count, coordinates.data());
+      std::array<const double*, max_dimension + 1> arguments{};
+      for (int k = 0; k < lattice_.dimension; ++k)
+        arguments[static_cast<std::size_t>(k)] = coordinates.data() + static_cast<std::size_t>(k) * count;
+      arguments[static_cast<std::size_t>(lattice_.dimension)] = times.data();
+      expression_.evaluate(arguments.data(), count, rho.data() + first);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (std::isfinite(rho[first + i])) continue;
+        rho[first + i] = nan;
+        if (report.untraced++ > 0) continue;
+        fill_coordinates(lattice_, points[i], 1, report.first_untraced.data());
+        report.trouble = "the expression is not finite";
+      }
+    }
+    return report;
+  }
+
+  Expression expression_;
+  Lattice lattice_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params,
+                                   const Lattice& lattice) {
+  return std::make_unique<Formula>(rho, params, lattice);
+}
+
+}  // namespace gaussdrift

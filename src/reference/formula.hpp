@@ -1,0 +1,18 @@
+// The exact density by an expression of the case.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/lattice.hpp"
+#include "reference/reference.hpp"
+
+namespace gaussdrift {
+
+/// rho as an expression in x, y, (z,) t and the params. Throws ExpressionError.
+std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params,
+                                   const Lattice& lattice);
+
+}  // namespace gaussdrift

@@ -1,0 +1,22 @@
+// Norms of the error of a density.
+#pragma once
+
+#include <vector>
+
+#include "reference/sample.hpp"
+
+namespace gaussdrift {
+
+/// Norms of rho_eps^h - rho on the grid, each divided by that of the exact rho at the same time; NaN where that is 0.
+struct ErrorNorms {
+  double l1 = 0, l2 = 0, linf = 0;
+};
+
+/// Norms of rho - exact over a sample; exact[i] at sample.points[i]. See compare() below.
+ErrorNorms compare(const std::vector<double>& rho, const GridSample& sample, const std::vector<double>& exact);
+
+/// Norms of rho - exact over the lattice points where exact is a number, each divided by that of exact; NaN where exact
+/// is 0 everywhere. Sums in the order of the points.
+ErrorNorms compare(const std::vector<double>& rho, const std::vector<double>& exact);
+
+}  // namespace gaussdrift

@@ -1,0 +1,21 @@
+// Some points of a lattice that stand for all of them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/lattice.hpp"
+
+namespace gaussdrift {
+
+struct GridSample {
+  std::vector<std::size_t> points;
+  std::vector<double> weight;  // how many points of the lattice each stands for; 0: for the largest error alone
+};
+
+/// About `count` points. Half of them are points where |rho| is at least a millionth of its largest value, half are
+/// others. Each half is spread evenly over its points. The neighbourhood of the largest value is added; it counts for
+/// the largest error alone. All points if there are not more than `count`.
+GridSample sample_of_grid(const Lattice& lattice, const std::vector<double>& rho, std::size_t count);
+
+}  // namespace gaussdrift

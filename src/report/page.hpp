@@ -1,0 +1,22 @@
+// The page that a run leaves: report.html, self-contained and offline, with report.json and summary.png beside it. It
+// is made from the files of the run, so it can be made again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gaussdrift::report {
+
+struct ReportFiles {
+  std::vector<std::filesystem::path> written;
+  std::vector<std::string> left_out;  // what the run did not leave, or could not be read
+  std::vector<std::string> failed;    // what could not be written, and why
+};
+
+/// From summary.json, provenance.json, run.toml, density/ and images/ of a run's folder. pictures: draw the panel of
+/// initial, final, exact and error densities. If one file cannot be written, the others still are. Throws FileError
+/// where the folder holds no run.
+ReportFiles write_report(const std::filesystem::path& folder, bool pictures);
+
+}  // namespace gaussdrift::report

@@ -1,0 +1,313 @@
+#include "sum/points.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/number.hpp"
+#include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
+#include "base/users_words.hpp"
+
+namespace gaussdrift::sum {
+
+namespace {
+
+constexpr int highest_order = 16;   // of fgtd
+constexpr double rounding = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
+
+void check_derivatives(const SumRequest& request) {
+  const input::PointsTable& sources = request.sources;
+  for (const auto& derivative : request.derivatives) {
+    if (derivative.size() != sources.coordinates.size())
+      throw CommandLineError(fmt::format("--derivative {} has {} {}, but the sources have {} ({})",
+                                         fmt::join(derivative, ","), derivative.size(),
+                                         derivative.size() == 1 ? "number" : "numbers", sources.coordinates.size(),
+                                         fmt::join(sources.coordinates, ", ")));
+    double order = 0;  // of an int the sum may exceed the range
+    for (const int part : derivative) order += part;
+    if (order > highest_order)
+      throw CommandLineError(fmt::format("--derivative {}: the orders add up to {:g}, at most {} is possible",
+                                         fmt::join(derivative, ","), order, highest_order));
+    if (std::count(request.derivatives.begin(), request.derivatives.end(), derivative) > 1)
+      throw CommandLineError(fmt::format("--derivative {} is there twice", fmt::join(derivative, ",")));
+  }
+}
+
+std::string column_name(const std::vector<int>& derivative) { return fmt::format("d_{}", fmt::join(derivative, "_")); }
+
+void check_values(const PointSums& sums) {
+  for (Eigen::Index k = 0; k < sums.values.cols(); ++k)
+    for (Eigen::Index i = 0; i < sums.values.rows(); ++i)
+      if (!std::isfinite(sums.values(i, k)))
+        throw NumericalError(fmt::format("{} at target {} (counted from 1) is {}; scale the weights or sigma down",
+                                         sums.columns[k], i + 1, sums.values(i, k)));
+}
+
+template <int d>
+std::vector<fgtd::Combination<d>> combinations_of(const std::vector<std::vector<int>>& derivatives) {
+  std::vector<fgtd::Combination<d>> combinations;
+  for (const auto& derivative : derivatives) {
+    fgtd::Term<d> term;
+    std::copy(derivative.begin(), derivative.end(), term.derivative.begin());
+    combinations.push_back({term});
+  }
+  return combinations;
+}
+
+Eigen::Map<const Eigen::VectorXd> weights_of(const SumRequest& request) {
+  return {request.sources.weights.data(), static_cast<Eigen::Index>(request.sources.weights.size())};
+}
+
+template <int d>
+void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
+  using Points = Eigen::Map<const fgtd::Points<d>>;
+  const auto points = [](const input::PointsTable& table) {
+    return Points(table.positions.data(), d, static_cast<Eigen::Index>(table.size()));
+  };
+  const std::vector<fgtd::Combination<d>> combinations = combinations_of<d>(result.derivatives);
+  if (!request.grid.empty()) options.expected_grid = fgtd::TensorGrid{nodes_of(request.grid)};
+
+  const base::Stopwatch preparing;
+  const fgtd::Plan<d> plan(points(request.sources), weights_of(request), request.sigma, options);
+  result.prepare_seconds = preparing.seconds();
+
+  const base::Stopwatch evaluating;
+  if (options.expected_grid)
+    result.values = plan.evaluate_combinations(*options.expected_grid, combinations);
+  else
+    result.values =
+        plan.evaluate_combinations(points(request.targets ? *request.targets : request.sources), combinations);
+  result.evaluate_seconds = evaluating.seconds();
+
+  result.choice = plan.choice();
+  for (const auto& combination : combinations) {
+    result.error_bounds.emplace_back();
+    if (result.choice.bound)
+      result.error_bounds.back() = (*result.choice.bound + rounding) *
+                                   fgtd::derivative_scale<d>(combination.front().derivative, request.sigma) *
+                                   result.weight_total;
+  }
+}
+
+template <int d>
+void measure(const SumRequest& request, PointSums& result) {
+  const SampleOfTargets sample = sample_targets(request);
+  const auto combinations = combinations_of<d>(result.derivatives);
+  fgtd::Options options;
+  options.method = fgtd::Method::direct;
+  options.threads = request.threads;
+  options.derivative_order = 0;
+  for (const auto& derivative : result.derivatives)
+    options.derivative_order =
+        std::max(options.derivative_order, std::accumulate(derivative.begin(), derivative.end(), 0));
+  options.tolerance = 1e-6;  // all pairs, whatever it is
+  const fgtd::Plan<d> plan(Eigen::Map<const fgtd::Points<d>>(request.sources.positions.data(), d,
+                                                             static_cast<Eigen::Index>(request.sources.size())),
+                           weights_of(request), request.sigma, options);
+  const Eigen::MatrixXd exact = plan.evaluate_combinations(fgtd::Points<d>(sample.points), combinations);
+  result.compared = sample.rows.size();
+  result.measured.clear();
+  result.units.clear();
+  for (std::size_t k = 0; k < combinations.size(); ++k) {
+    const double scale =
+        fgtd::derivative_scale<d>(combinations[k].front().derivative, request.sigma) * result.weight_total;
+    double error = 0;
+    for (std::size_t i = 0; i < sample.rows.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const double off = std::abs(result.values(sample.rows[i], column) - exact(static_cast<Eigen::Index>(i), column));
+      if (!(off <= error)) error = off;  // what is not a number stays
+      if (std::isnan(error)) break;
+    }
+    result.units.push_back(scale);
+    result.measured.push_back({result.columns[k], error == 0 ? 0 : error / scale, request.tolerance + 2 * rounding});
+  }
+}
+
+// The tables have been checked, so fgtd can only refuse a number of the command line.
+template <class Work>
+void with_errors_of_fgtd(const Work& work) {
+  const base::Words words = {{"Options::tolerance = ", "--tolerance "}, {"with sigma = ", "with --sigma "}};
+  try {
+    work();
+  } catch (const fgtd::MemoryLimitError& error) {
+    throw InputError(
+        fmt::format("the sum would take {:.3g} GB, at most {:.3g} GB are left for it; ask for fewer targets "
+                    "at a time, or leave --method to auto",
+                    error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
+  } catch (const fgtd::InvalidArgument& error) {
+    throw CommandLineError(base::in_users_words(error.what(), words));
+  } catch (const fgtd::Error& error) {
+    throw InputError(base::in_users_words(error.what(), words));
+  }
+}
+
+/// Calls work(std::integral_constant<int, d>) for the dimension.
+template <class Work>
+void in_dimension(int dimension, const Work& work) {
+  switch (dimension) {
+    case 1:
+      return work(std::integral_constant<int, 1>{});
+    case 2:
+      return work(std::integral_constant<int, 2>{});
+    case 3:
+      return work(std::integral_constant<int, 3>{});
+    default:
+      return work(std::integral_constant<int, 4>{});
+  }
+}
+
+// Numbers that JSON has no word for become null.
+nlohmann::ordered_json number(std::optional<double> value) {
+  if (value && std::isfinite(*value)) return *value;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<int> parse_derivative(const std::string& text) {
+  std::vector<int> derivative;
+  for (const std::string_view part : split(text, ',')) {
+    const auto order = base::read_number<int>(part);
+    if (!order || *order < 0)
+      throw CommandLineError(
+          fmt::format("--derivative: \"{}\" in \"{}\" is not an order; write one number for every coordinate, as in "
+                      "--derivative 0,1,2",
+                      part, text));
+    derivative.push_back(*order);
+  }
+  return derivative;
+}
+
+PointSums sum_points(const SumRequest& request) {
+  check_together(request);
+  check_derivatives(request);
+  PointSums result;
+  result.dimension = request.sources.dimension();
+  result.sigma = request.sigma;
+  result.derivatives = request.derivatives;
+  if (result.derivatives.empty()) result.derivatives.emplace_back(result.dimension, 0);
+  result.asked = request.method;
+  result.threads = base::resolve_threads(request.threads);
+  for (const double weight : request.sources.weights) result.weight_total += std::abs(weight);
+
+  fgtd::Options options;
+  options.tolerance = request.tolerance;
+  options.method = request.method;
+  options.threads = request.threads;
+  options.memory_limit = memory_for_plan(request, std::max<std::size_t>(1, request.derivatives.size()));
+  options.expected_targets = request.targets ? request.targets->size() : request.sources.size();
+  for (const auto& derivative : result.derivatives) {
+    result.columns.push_back(column_name(derivative));
+    double order = 0;  // the sum of large orders may exceed an int
+    for (const int part : derivative) order += part;
+    options.derivative_order = std::max(options.derivative_order, static_cast<int>(std::min(order, 1e6)));
+  }
+  with_errors_of_fgtd([&] {
+    in_dimension(result.dimension, [&](auto dimension) {
+      constexpr int d = decltype(dimension)::value;
+      const auto work = [&](double most_seconds) {
+        options.most_seconds = most_seconds;
+        sum<d>(request, options, result);
+      };
+      within_seconds<fgtd::TimeLimitError>(request, work, [&](double most_seconds) {
+        options.method = fgtd::Method::automatic;
+        work(most_seconds);
+      });
+    });
+  });
+  check_values(result);
+  if (result.choice.method != fgtd::Method::direct) {
+    const base::Stopwatch comparing;
+    measure_errors(request, result);
+    result.compare_seconds = comparing.seconds();
+  }
+  return result;
+}
+
+void measure_errors(const SumRequest& request, PointSums& sums) {
+  with_errors_of_fgtd(
+      [&] { in_dimension(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
+}
+
+std::string to_text(const PointSums& sums) {
+  std::ostringstream choice;
+  choice << sums.choice;
+  std::string text = fmt::format(
+      "sums   {} at {} targets in {:.3g} s on {} {} (read {:.3g}, prepare {:.3g}, evaluate {:.3g}, compare "
+      "{:.3g}, write {:.3g})\n",
+      fmt::join(sums.columns, ", "), sums.values.rows(),
+      sums.read_seconds + sums.prepare_seconds + sums.evaluate_seconds + sums.compare_seconds + sums.write_seconds,
+      sums.threads, sums.threads == 1 ? "thread" : "threads", sums.read_seconds, sums.prepare_seconds,
+      sums.evaluate_seconds, sums.compare_seconds, sums.write_seconds);
+  text += fmt::format("method {}\n", choice.str());
+  text += fmt::format("Q      {:.9g}", sums.weight_total);
+  for (std::size_t k = 0; k < sums.columns.size(); ++k)
+    if (sums.error_bounds[k])
+      text += fmt::format("{} {} right to {:.1e}", k ? "," : ";", sums.columns[k], *sums.error_bounds[k]);
+  for (std::size_t k = 0; k < sums.measured.size(); ++k)
+    text += fmt::format("{} {} {:.1e}", k ? "," : fmt::format("; measured at {} targets:", sums.compared),
+                        sums.measured[k].of, sums.measured[k].error * sums.units[k]);
+  return text + "\n";
+}
+
+std::string to_json(const PointSums& sums) {
+  const fgtd::Choice& choice = sums.choice;
+  std::ostringstream line;
+  line << choice;
+  nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
+  // Those that the method has.
+  if (choice.box_scale > 0) parameters["box_scale"] = choice.box_scale;
+  if (choice.box_side > 0) parameters["box_side"] = number(choice.box_side);
+  if (choice.expansion_order > 0) parameters["expansion_order"] = choice.expansion_order;
+  if (choice.neighbours == fgtd::HermiteParameters::all_boxes)
+    parameters["neighbours"] = "all";
+  else if (choice.neighbours > 0)
+    parameters["neighbours"] = choice.neighbours;
+  if (choice.boxes > 0) parameters["boxes"] = choice.boxes;
+  nlohmann::ordered_json errors = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < sums.columns.size(); ++k) errors[sums.columns[k]] = number(sums.error_bounds[k]);
+  nlohmann::ordered_json measured = nullptr;
+  if (sums.compared > 0) {
+    measured = {{"targets", sums.compared}};
+    for (const MeasuredError& one : sums.measured) measured["errors"][one.of] = number(one.error);
+    measured["kept"] = broken_promises(sums.measured, sums.compared).empty();
+  }
+  const nlohmann::ordered_json json = {{"kernel", "gauss"},
+                                       {"dimension", sums.dimension},
+                                       {"sources", choice.sources},
+                                       {"targets", sums.values.rows()},
+                                       {"sigma", sums.sigma},
+                                       {"columns", sums.columns},
+                                       {"derivatives", sums.derivatives},
+                                       {"tolerance", choice.tolerance},
+                                       {"method_asked", fgtd::to_string(sums.asked)},
+                                       {"method", fgtd::to_string(choice.method)},
+                                       {"parameters", parameters},
+                                       {"choice", line.str()},
+                                       {"bound", number(choice.bound)},
+                                       {"error_bounds", errors},
+                                       {"measured", measured},
+                                       {"Q", number(sums.weight_total)},
+                                       {"predicted_seconds", number(choice.seconds)},
+                                       {"threads", sums.threads},
+                                       {"seconds",
+                                        {{"read", sums.read_seconds},
+                                         {"prepare", sums.prepare_seconds},
+                                         {"evaluate", sums.evaluate_seconds},
+                                         {"compare", sums.compare_seconds},
+                                         {"write", sums.write_seconds}}}};
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gaussdrift::sum
