@@ -156,10 +156,10 @@ void finish(Experiment& experiment, const Case& scene) {
   if (const auto doubtful =
           std::count_if(samples.begin(), samples.end(), [](const Sample& each) { return !each.confirmed; }))
     experiment.notes.push_back(
-        fmt::format("{} of the {} times are doubtful, and so is what follows from them: measurements differ by more "
-                    "than a fifth, or "
-                    "more digits took less time; the machine was busy with other work",
-                    doubtful, samples.size()));
+        fmt::format("Doubtful times: {}. Measurements differ by more than a fifth, or more digits took less time. The "
+                    "machine was busy "
+                    "with other work. What follows from these times is doubtful, too",
+                    doubtful));
   for (Sample& sample : samples) {
     sample.on_front = sample.failure.empty();
     for (const Sample& other : samples)
