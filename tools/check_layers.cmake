@@ -1,6 +1,6 @@
 # Reads the include lines of src/ and include/ and fails if one points up the module order, or at a header that another module
 # keeps to itself:
-#   cli -> study, reproduce, report, sum -> accuracy -> input, render -> write -> sim -> reference -> (effect, time)
+#   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
 #     -> (particle, read, field, blockmatrix, farfield) -> fgtd -> base
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
@@ -19,7 +19,7 @@ set(may_reference base expression field particle time case)
 set(may_sim base expression fgtd field particle effect reference time case)
 set(may_write base particle reference sim case)
 set(may_render base particle reference sim case write)
-set(may_input base expression field read case)
+set(may_input base expression field read write render case)
 set(may_blockmatrix base farfield)
 set(may_accuracy base expression fgtd field particle effect reference time sim write render input case)
 set(may_report base read sim render write case)
@@ -41,8 +41,8 @@ set(public_particle cutoff particles seeding)
 set(public_effect charge core_spreading drift effect particle_exchange path_integral reaction remesh vortex)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample)
 set(public_sim density frame outside simulation stable_step stepper)
-set(public_write atomic_file observers provenance run_folder summary vtk_files)
-set(public_render chart panel picture picture_series)
+set(public_write atomic_file output_files provenance run_folder series_table summary vtk_files)
+set(public_render chart panel picture picture_series styles)
 set(public_input effect_rules examples explain foreign_keys points_table read_case registry)
 set(public_blockmatrix block_matrix)
 set(public_accuracy accuracy_table budget footprint forecast target would_run)

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -121,27 +122,35 @@ struct EvaluateSpec {
   std::string method = "auto";  ///< auto, or a method of fgtd by name
 };
 
+/// A kind of files that a run writes for ParaView, as far as a case and predictions need to know it. `write` has all
+/// of them, and writes them.
+struct OutputFile {
+  std::string_view name;        ///< in a case, of the files, and of the folder that they lie in
+  std::string_view meaning;     ///< one line
+  bool by_default = false;      ///< written where a case does not say which
+  bool needs_velocity = false;  ///< at the particles
+  bool shows_density = false;   ///< and the exact one, where that is known at all points of the grid
+};
+
+/// A style of pictures, as far as a case and predictions need to know it. `render` has all of them, and draws them.
+struct PictureStyle {
+  std::string_view name;     ///< in a case, and of the pictures
+  std::string_view meaning;  ///< one line
+  int least_dimension = 2;   ///< of the densities that it shows
+  int most_dimension = 3;    ///< the same
+  bool by_default = false;   ///< drawn where a case does not say which
+  bool shows_error = false;  ///< shows the difference from the exact density: needs a reference
+
+  /// Densities of this dimension?
+  bool shows(int dimension) const { return least_dimension <= dimension && dimension <= most_dimension; }
+};
+
 /// `[output]`: when to write, and what.
 struct OutputSpec {
-  /// Files for ParaView.
-  enum class Vtk {
-    density,   ///< rho on the grid
-    particles  ///< positions, weights and velocities
-  };
-  /// Styles of pictures.
-  enum class Image {
-    surface,     ///< 2D: a height field in perspective
-    contour,     ///< 2D: contour lines
-    heatmap,     ///< 2D: colours
-    slices,      ///< 3D: colours on three planes
-    projection,  ///< 3D: the largest value on every line of sight
-    isosurface,  ///< 3D: surfaces of equal density
-    error        ///< the difference from the reference
-  };
-  std::vector<double> times;                           ///< ascending, 0 <= t <= end
-  std::vector<Vtk> vtk{Vtk::density, Vtk::particles};  ///< files that are written
-  std::vector<Image> images{Image::surface};           ///< pictures of every output
-  bool report = true;                                  ///< report.html, report.json, summary.png
+  std::vector<double> times;         ///< ascending, 0 <= t <= end
+  std::vector<OutputFile> files;     ///< files that are written at each of these times
+  std::vector<PictureStyle> images;  ///< pictures of every output
+  bool report = true;                ///< report.html, report.json, summary.png
 };
 
 // --- what the results are compared with -------------------------------------------------------------------------

@@ -12,18 +12,15 @@
 #include "accuracy/budget.hpp"
 #include "accuracy/trial.hpp"
 #include "base/error.hpp"
+#include "render/styles.hpp"
 #include "sim/simulation.hpp"
 
 namespace gaussdrift::accuracy {
 
 namespace {
 
-constexpr double number = 8, base64 = 4. / 3;  // bytes; four letters for three bytes
+constexpr double number = 8;  // bytes
 constexpr std::size_t trial_particles = 100'000;
-
-bool wants(const Case& spec, OutputSpec::Vtk kind) {
-  return std::find(spec.output.vtk.begin(), spec.output.vtk.end(), kind) != spec.output.vtk.end();
-}
 
 bool in_space(const Case& spec) { return spec.domain.dimension == 3; }
 
@@ -44,20 +41,12 @@ double limit_of_group() {
 
 }  // namespace
 
-double bytes_of_density_file(const Extent& extent) {
-  return base64 * number * extent.grid_points * (extent.compared_everywhere ? 3 : 1) + 1500;
-}
-
-// Three coordinates, three components of the velocity, weight, id, and two numbers that make each a cell.
-double bytes_of_particle_file(const Extent& extent) { return base64 * number * 10 * extent.particles + 2500; }
-
 double disk_of_run(const Case& spec, const Extent& extent) {
   const auto frames = static_cast<double>(spec.output.times.size());
-  const double pictures = frames * static_cast<double>(spec.output.images.size());
-  double bytes = 1e4 + 250 * frames + 8e4 * pictures;
-  if (wants(spec, OutputSpec::Vtk::density)) bytes += frames * bytes_of_density_file(extent);
-  if (wants(spec, OutputSpec::Vtk::particles)) bytes += frames * bytes_of_particle_file(extent);
-  if (spec.output.report) bytes += 5e4 + (pictures > 0 ? 5e5 : 0);  // the page and its picture
+  double bytes = 1e4 + 250 * frames;
+  for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
+  for (const OutputFile& file : spec.output.files) bytes += frames * write::find_output_file(file.name).bytes(extent);
+  if (spec.output.report) bytes += 5e4 + (spec.output.images.empty() ? 0 : 5e5);  // the page and its picture
   return bytes;
 }
 
@@ -95,10 +84,8 @@ double memory_of_run(const Case& spec, const Extent& extent) {
   const double shown =
       stays + m * number + n * number * d + (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0);
   double output = shown + n * number * d;
-  // A file is made in memory, as arrays and twice as text.
-  if (wants(spec, OutputSpec::Vtk::density)) output = std::max(output, shown + 2 * bytes_of_density_file(extent));
-  if (wants(spec, OutputSpec::Vtk::particles))
-    output = std::max(output, shown + n * number * 8 + 2.2 * bytes_of_particle_file(extent));
+  for (const OutputFile& file : spec.output.files)
+    output = std::max(output, shown + write::find_output_file(file.name).memory(extent));
   if (pictures) output = std::max(output, shown) + m * number;
   // The drawing library stays once it has drawn.
   const double drawing = pictures ? 1.4e8 : 0;

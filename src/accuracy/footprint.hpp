@@ -4,16 +4,11 @@
 #include <cstddef>
 
 #include "gaussdrift/case.hpp"
+#include "write/output_files.hpp"
 
 namespace gaussdrift::accuracy {
 
-/// The numbers that decide it.
-struct Extent {
-  double lattice_points = 0;  // looked at for particles
-  double particles = 0;       // carried, with those that effects add
-  double grid_points = 0;
-  bool compared_everywhere = false;  // with the exact density
-};
+using write::Extent;
 
 /// Bytes that a run takes beyond those of the program and the data of the case: the most of its stages. Measured over
 /// the cases and sizes of tests/program/footprint_test.cpp: right within a factor of 1.3 for what is above 20 MB.
@@ -21,9 +16,6 @@ double memory_of_run(const Case& spec, const Extent& extent);
 
 /// Bytes of all files of a run.
 double disk_of_run(const Case& spec, const Extent& extent);
-/// Of these, the files of an output that are text: density, particles.
-double bytes_of_density_file(const Extent& extent);
-double bytes_of_particle_file(const Extent& extent);
 
 /// Bytes that this process holds, or has held.
 double memory_of_this_process();

@@ -13,7 +13,7 @@
 
 namespace gaussdrift::accuracy {
 
-struct Description {
+struct Forecast {
   std::string velocity;                      // formula
   std::string initial_density;               // formula, smoothness, mass where it is known
   std::vector<std::string> effects;          // beside transport, their equations
@@ -50,11 +50,11 @@ struct Description {
 /// Throws what a run would throw before its first step: NumericalError for a density or velocity that is not finite at
 /// the sampled places, InputError where nothing carries weight. Takes about two seconds and 100 MB at most, whatever
 /// the case: what is larger is sampled or left out. `doing` is told what comes next.
-Description describe(const Case& scene, int threads, const std::function<void(const std::string&)>& doing = {});
+Forecast forecast(const Case& spec, int threads, const std::function<void(const std::string&)>& doing = {});
 
 /// The lines that `gaussdrift check` prints.
-std::string to_text(const Case& scene, const Description& description);
+std::string to_text(const Case& spec, const Forecast& forecast);
 /// The same as JSON.
-std::string to_json(const Case& scene, const Description& description);
+std::string to_json(const Case& spec, const Forecast& forecast);
 
 }  // namespace gaussdrift::accuracy

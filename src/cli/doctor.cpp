@@ -13,7 +13,7 @@
 #include "cli/verbs.hpp"
 #include "fgtd/kernels/kernels.hpp"
 #include "read/grid_file.hpp"
-#include "render/picture.hpp"
+#include "render/styles.hpp"
 #include "write/vtk_files.hpp"
 
 namespace gaussdrift::cli {
@@ -54,7 +54,7 @@ DensityGrid hill() {
 
 Finding check_picture(const fs::path& folder) {
   if (const std::string reason = render::unavailable_reason(); !reason.empty()) return {"picture", reason, false};
-  render::draw(render::Style::surface, hill(), {.width = 320, .height = 240}, folder / "picture.png");
+  render::draw(render::default_style(2), hill(), {.width = 320, .height = 240}, folder / "picture.png");
   return {"picture", fmt::format("drawn off screen, {} bytes", fs::file_size(folder / "picture.png")), true};
 }
 

@@ -16,8 +16,9 @@
 #include "cli/verbs.hpp"
 #include "read/written_run.hpp"
 #include "reference/reference.hpp"
-#include "render/picture.hpp"
+#include "render/styles.hpp"
 #include "report/page.hpp"
+#include "write/output_files.hpp"
 
 namespace gaussdrift::cli {
 
@@ -26,10 +27,11 @@ namespace fs = std::filesystem;
 namespace {
 
 std::vector<read::WrittenOutput> outputs_of(const fs::path& place) {
-  auto outputs = read::written_outputs(place);
+  const std::string_view series = write::density_output().about.name;
+  auto outputs = read::written_outputs(place, series);
   if (outputs.empty())
-    throw FileError(fmt::format(
-        "{} holds no densities: name the folder of a run that wrote vtk = [\"density\"], or a .vti", place.string()));
+    throw FileError(fmt::format("{} holds no densities: name the folder of a run that wrote vtk = [\"{}\"], or a .vti",
+                                place.string(), series));
   return outputs;
 }
 
@@ -125,6 +127,19 @@ ExitCode report(const ReportOptions& options) {
   return files.failed.empty() ? ExitCode::ok : ExitCode::files;
 }
 
+namespace {
+
+const render::Style& style_called(const std::string& name) {
+  if (const render::Style* style = base::find_or_null(render::styles(), name)) return *style;
+  std::vector<std::string> names;
+  for (const render::Style& style : render::styles()) names.emplace_back(style.about.name);
+  const auto near = base::suggest(name, names);
+  throw CommandLineError(fmt::format("--style {} is not known{} there are {}", name,
+                                     near ? fmt::format("; did you mean {}?", *near) : ";", fmt::join(names, ", ")));
+}
+
+}  // namespace
+
 ExitCode render(const RenderOptions& options) {
   if (const std::string reason = render::unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
   const std::vector<std::string> fields{"rho", "rho_exact", "error"};
@@ -134,19 +149,7 @@ ExitCode render(const RenderOptions& options) {
                                        near ? fmt::format("; did you mean {}?", *near) : ""));
   }
   const bool error = options.field == "error";
-  std::vector<std::string> names;
-  std::optional<render::Style> style;
-  for (const auto known :
-       {render::Style::surface, render::Style::contour, render::Style::heatmap, render::Style::slices,
-        render::Style::projection, render::Style::isosurface, render::Style::error}) {
-    names.push_back(render::to_string(known));
-    if (names.back() == options.style) style = known;
-  }
-  if (!options.style.empty() && !style) {
-    const auto near = base::suggest(options.style, names);
-    throw CommandLineError(fmt::format("--style {} is not known{} there are {}", options.style,
-                                       near ? fmt::format("; did you mean {}?", *near) : ";", fmt::join(names, ", ")));
-  }
+  const render::Style* style = options.style.empty() ? nullptr : &style_called(options.style);
   const auto outputs = outputs_of(options.folder);
   std::set<std::size_t> wanted;
   for (const double time : options.times) wanted.insert(output_at(time, outputs, options.folder));
@@ -159,12 +162,11 @@ ExitCode render(const RenderOptions& options) {
     dimension = density.lattice.dimension;
     for (const double value : density.rho) low = std::min(low, value), high = std::max(high, value);  // not of NaN
   }
-  if (!style) style = error ? render::Style::error : dimension == 2 ? render::Style::surface : render::Style::slices;
-  if (!render::shows(*style, dimension))
+  if (!style) style = &render::default_style(dimension, error);
+  if (!style->about.shows(dimension))
     throw CommandLineError(
-        fmt::format("--style {} does not show densities of {} dimensions", render::to_string(*style), dimension));
-  const auto [range_min, range_max] =
-      *style == render::Style::error ? render::symmetric_range(low, high) : render::rounded_range(low, high);
+        fmt::format("--style {} does not show densities of {} dimensions", style->about.name, dimension));
+  const auto [range_min, range_max] = style->range(low, high);
   const fs::path out = options.out.empty()
                            ? (fs::is_directory(options.folder) ? options.folder / "images" : fs::path("."))
                            : options.out;
@@ -172,7 +174,7 @@ ExitCode render(const RenderOptions& options) {
   const fs::path named = (options.folder / "").parent_path();  // "a/b/" is "a/b"
   for (const std::size_t i : wanted) {
     const fs::path png = out / fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_",
-                                           render::to_string(*style), outputs[i].number);
+                                           style->about.name, outputs[i].number);
     draw(*style, read::read_density(outputs[i].file, options.field),
          {.title = named.stem().string(),
           .quantity = options.field == "rho" ? "density" : options.field,

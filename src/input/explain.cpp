@@ -12,6 +12,8 @@
 #include "field/named/named_fields.hpp"
 #include "input/effect_rules.hpp"
 #include "input/registry.hpp"
+#include "render/styles.hpp"
+#include "write/output_files.hpp"
 
 namespace gaussdrift::input {
 
@@ -49,6 +51,8 @@ std::string default_text(const Key& key) {
   return std::string(key.fallback);
 }
 
+std::string dimensions_text(int least, int most) { return least == most ? fmt::format("{}", least) : "2 and 3"; }
+
 Explanation about(const Key& key) {
   Explanation result{"key", full_name(key), std::string(key.meaning), {}};
   if (!key.value.empty())
@@ -77,8 +81,7 @@ Explanation about(std::string_view kind, std::string_view table, const NamedForm
   Explanation result{
       std::string(kind), fmt::format("{}.{} = \"{}\"", table, kind, formula.name), std::string(formula.meaning), {}};
   add(result.facts, "value", std::string(formula.formula));
-  add(result.facts, "dimensions",
-      formula.least_dimension == formula.most_dimension ? fmt::format("{}", formula.least_dimension) : "2 and 3");
+  add(result.facts, "dimensions", dimensions_text(formula.least_dimension, formula.most_dimension));
   return result;
 }
 
@@ -104,6 +107,20 @@ Explanation about(const NamedField& field) {
 Explanation about(const NamedShape& shape) {
   Explanation result = about("shape", "density", shape.about);
   add_parameters(result, "density", "shape", shape.about.name);
+  return result;
+}
+
+Explanation about(const OutputFile& file) {
+  Explanation result{"file", fmt::format("output.vtk = [\"{}\"]", file.name), std::string(file.meaning), {}};
+  add(result.facts, "written by default", file.by_default ? "yes" : "no");
+  return result;
+}
+
+Explanation about(const PictureStyle& style) {
+  Explanation result{"picture", fmt::format("output.images = [\"{}\"]", style.name), std::string(style.meaning), {}};
+  add(result.facts, "dimensions", dimensions_text(style.least_dimension, style.most_dimension));
+  add(result.facts, "needs", style.shows_error ? "a reference" : "");
+  add(result.facts, "drawn by default", style.by_default ? "yes" : "no");
   return result;
 }
 
@@ -167,6 +184,10 @@ std::vector<Explanation> explain(std::string_view word) {
     if (field.about.name == word) found.push_back(about(field));
   for (const NamedShape& shape : named_shapes())
     if (shape.about.name == word) found.push_back(about(shape));
+  for (const write::FileKind& kind : write::output_files())
+    if (kind.about.name == word) found.push_back(about(kind.about));
+  for (const render::Style& style : render::styles())
+    if (style.about.name == word) found.push_back(about(style.about));
   for (const FunctionInfo& function : expression_functions())
     if (function.name == word) found.push_back(about(function));
   for (const Key& key : keys())  // "gauss4" is explained by the key that may have this value

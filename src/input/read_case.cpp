@@ -27,6 +27,8 @@
 #include "input/gaussian_table.hpp"
 #include "input/registry.hpp"
 #include "read/grid_file.hpp"
+#include "render/styles.hpp"
+#include "write/output_files.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -564,29 +566,33 @@ class Reader {
     return std::string(index ? key.choices[*index] : key.fallback);
   }
 
-  template <class Enum>
-  void choices(std::string_view name, std::vector<Enum>& result) {
-    const Key& key = find_key("output", name);
-    const Entry* entry = find("output", name);
-    result.clear();
+  /// Those of the key's choices that are in the list of the file, as indices; the default ones if it has none.
+  std::vector<std::size_t> choices(std::string_view table_name, std::string_view name) {
+    const Key& key = find_key(table_name, name);
+    const Entry* entry = find(table_name, name);
+    std::vector<std::size_t> result;
     if (!entry) {  // the default: those choices that the registry names
       const auto named = [&](std::string_view word) {
         const auto words = ", " + std::string(key.fallback) + ",";
         return words.find(fmt::format(", {},", word)) != std::string::npos;
       };
       for (std::size_t k = 0; k < key.choices.size(); ++k)
-        if (named(key.choices[k])) result.push_back(static_cast<Enum>(k));
-      return;
+        if (named(key.choices[k])) result.push_back(k);
+      return result;
     }
-    if (entry->value.kind != Kind::list) return wrong_type(entry->value, label_of(key), type_text(key));
+    if (entry->value.kind != Kind::list) {
+      wrong_type(entry->value, label_of(key), type_text(key));
+      return result;
+    }
     for (std::size_t k = 0; k < entry->value.items.size(); ++k) {
       const Value& item = entry->value.items[k];
       if (const auto index = choice_in(item, key, fmt::format("entry {} of {}", k + 1, label_of(key)))) {
-        if (std::find(result.begin(), result.end(), static_cast<Enum>(*index)) != result.end())
+        if (std::find(result.begin(), result.end(), *index) != result.end())
           diagnostics_.error(item.place, fmt::format("\"{}\" appears twice in {}", item.text, label_of(key)));
-        result.push_back(static_cast<Enum>(*index));
+        result.push_back(*index);
       }
     }
+    return result;
   }
 
   /// An expression of position, perhaps time; compiled here to find its errors. A plain number is one too.
@@ -1095,36 +1101,29 @@ class Reader {
     else if (const auto count = number("output", "frames"); count && end_)
       spread_frames(*count, time.end, output.times);
 
-    choices("vtk", output.vtk);
-    choices("images", output.images);
+    for (const std::size_t k : choices("output", "vtk")) output.files.push_back(write::output_files()[k].about);
+    for (const std::size_t k : choices("output", "images")) output.images.push_back(render::styles()[k].about);
     output.report = choice("output", "report") == "html";
     if (dimension_) check_images(output.images);
   }
 
-  static bool shows(OutputSpec::Image image, int dimension) {
-    using Image = OutputSpec::Image;
-    const bool flat = image == Image::surface || image == Image::contour || image == Image::heatmap;
-    return image == Image::error || flat == (dimension == 2);
-  }
-
   /// Complains about styles of the other dimension; of the defaults only those of this one are kept.
-  void check_images(std::vector<OutputSpec::Image>& images) {
-    const Key& key = find_key("output", "images");
+  void check_images(std::vector<PictureStyle>& images) {
     if (const Entry* entry = find("output", "images")) {
       std::vector<std::string_view> possible;
-      for (std::size_t k = 0; k < key.choices.size(); ++k)
-        if (shows(static_cast<OutputSpec::Image>(k), dimension_)) possible.push_back(key.choices[k]);
+      for (const render::Style& style : render::styles())
+        if (style.about.shows(dimension_)) possible.push_back(style.about.name);
       for (const Value& item : entry->value.items) {
-        const auto found = std::find(key.choices.begin(), key.choices.end(), item.text);
-        if (item.kind != Kind::text || found == key.choices.end()) continue;  // complained about
-        if (!shows(static_cast<OutputSpec::Image>(found - key.choices.begin()), dimension_))
+        if (item.kind != Kind::text) continue;  // complained about
+        const render::Style* style = base::find_or_null(render::styles(), item.text);
+        if (style && !style->about.shows(dimension_))
           diagnostics_.error(item.place,
                              fmt::format("\"{}\" shows scenes in {}D; the domain has {} dimensions", item.text,
                                          5 - dimension_, dimension_),
                              fmt::format("pictures in {}D: {}", dimension_, quoted_list(possible)));
       }
     }
-    std::erase_if(images, [&](OutputSpec::Image image) { return !shows(image, dimension_); });
+    std::erase_if(images, [&](const PictureStyle& style) { return !style.shows(dimension_); });
   }
 
   void read_reference(Case& scene) {

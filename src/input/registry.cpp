@@ -5,26 +5,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 
+#include "base/catalogue.hpp"
 #include "expression/expression.hpp"
 #include "field/density/shapes.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/grid_data.hpp"
 #include "field/named/named_fields.hpp"
 #include "read/missing_data.hpp"
+#include "render/styles.hpp"
+#include "write/output_files.hpp"
 
 namespace gaussdrift::input {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::string quoted(std::string_view text) { return fmt::format("\"{}\"", text); }
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text); }
 
-std::string joined(const std::vector<std::string_view>& words) {
+std::string quoted_list(const std::vector<std::string_view>& words) {
   std::vector<std::string> shown;
   shown.reserve(words.size());
-  for (const auto word : words) shown.push_back(quoted(word));
+  for (const auto word : words) shown.push_back(in_quotes(word));
   return fmt::format("{}", fmt::join(shown, ", "));
 }
 
@@ -118,6 +123,47 @@ std::vector<std::string_view> names_of(const std::vector<Named>& all) {
   std::vector<std::string_view> names;
   for (const Named& one : all) names.push_back(one.about.name);
   return names;
+}
+
+/// A text that is made, kept as long as the program runs.
+std::string_view kept(std::string text) {
+  static std::mutex one_at_a_time;
+  static std::set<std::string> texts;
+  const std::lock_guard lock(one_at_a_time);
+  return *texts.insert(std::move(text)).first;
+}
+
+std::string joined(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+template <class Thing>
+std::vector<std::string_view> default_names(const std::vector<Thing>& all) {
+  std::vector<std::string_view> names;
+  for (const Thing& one : all)
+    if (one.about.by_default) names.push_back(one.about.name);
+  return names;
+}
+
+/// "`surface`, `contour` and `heatmap`".
+std::string in_words(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 < names.size() ? ", " : " and ", names[i]);
+  return text;
+}
+
+std::string meaning_of_images() {
+  std::vector<std::string_view> flat, solid, both, errors;
+  for (const render::Style& style : render::styles()) {
+    const PictureStyle& about = style.about;
+    auto& list = about.shows_error ? errors : !about.shows(3) ? flat : !about.shows(2) ? solid : both;
+    list.push_back(about.name);
+  }
+  const std::string in_both = both.empty() ? "" : in_words(both) + "; ";
+  return fmt::format(
+      "pictures that are drawn. In 2D {}; in 3D {}; in both {}{}, which needs a reference. The default is `{}` in 2D "
+      "and `{}` in 3D",
+      in_words(flat), in_words(solid), in_both, in_words(errors), render::default_style(2).about.name,
+      render::default_style(3).about.name);
 }
 
 std::vector<Key> written_keys() {
@@ -418,17 +464,15 @@ std::vector<Key> written_keys() {
       {.table = "output",
        .name = "vtk",
        .type = Type::choices,
-       .fallback = "density, particles",
-       .choices = {"density", "particles"},
+       .fallback = kept(joined(default_names(write::output_files()))),
+       .choices = base::names_of(write::output_files()),
        .meaning = "files that are written for ParaView"},
       {.table = "output",
        .name = "images",
        .type = Type::choices,
-       .fallback = "surface, slices",
-       .choices = {"surface", "contour", "heatmap", "slices", "projection", "isosurface", "error"},
-       .meaning =
-           "pictures that are drawn. In 2D `surface`, `contour` and `heatmap`; in 3D `slices`, `projection` and "
-           "`isosurface`; in both `error`, which needs a reference. The default is `surface` in 2D and `slices` in 3D"},
+       .fallback = kept(joined(default_names(render::styles()))),
+       .choices = base::names_of(render::styles()),
+       .meaning = kept(meaning_of_images())},
       {.table = "output",
        .name = "report",
        .type = Type::choice,
@@ -585,7 +629,8 @@ std::vector<Key> written_keys() {
 }  // namespace
 
 const std::vector<Key>& keys() {
-  static const std::vector<Key> list = [] {
+  static base::FromCatalogues<std::vector<Key>> list;
+  return list.get([] {
     std::vector<Key> all;
     for (Key& key : written_keys()) {
       all.push_back(std::move(key));
@@ -595,8 +640,7 @@ const std::vector<Key>& keys() {
         add_parameters(all, "density", "shape", named_shapes());
     }
     return all;
-  }();
-  return list;
+  });
 }
 
 const std::vector<Quantity>& quantities() {
@@ -685,9 +729,9 @@ std::string type_text(const Key& key) {
     case Type::expressions:
       return "a list of strings, one expression for each axis";
     case Type::choice:
-      return key.choices.size() == 1 ? quoted(key.choices[0]) : "one of " + joined(key.choices);
+      return key.choices.size() == 1 ? in_quotes(key.choices[0]) : "one of " + quoted_list(key.choices);
     case Type::choices:
-      return "a list of some of " + joined(key.choices);
+      return "a list of some of " + quoted_list(key.choices);
   }
   return "";
 }
@@ -709,7 +753,7 @@ std::string keys_markdown(std::string_view table, std::string_view with, std::st
       text = "\n| key | what | type and range | default | unit | symbol |\n| --- | --- | --- | --- | --- | --- |\n";
     const std::string range = range_text(key.range);
     std::string fallback = key.required ? "required" : std::string(key.fallback);
-    if (key.type == Type::choice && !key.fallback.empty()) fallback = quoted(fallback);
+    if (key.type == Type::choice && !key.fallback.empty()) fallback = in_quotes(fallback);
     if (key.type == Type::choices && !key.fallback.empty()) fallback = fmt::format("[{}]", fallback);
     const std::string with_text =
         value.empty() && !key.with.empty() ? fmt::format(". It goes with `{}`", key.with) : "";
@@ -725,6 +769,20 @@ std::string formula_markdown(std::string_view with, const NamedFormula& formula)
                      capital(formula.meaning), formula.formula);
 }
 
+/// What a run can write and draw.
+std::string outputs_markdown() {
+  std::string text = "\n| file | what |\n| --- | --- |\n";
+  for (const write::FileKind& kind : write::output_files())
+    text += fmt::format("| `{}` | {} |\n", kind.about.name, kind.about.meaning);
+  text += "\n| picture | dimensions | what |\n| --- | --- | --- |\n";
+  for (const render::Style& style : render::styles()) {
+    const PictureStyle& about = style.about;
+    const std::string_view dimensions = !about.shows(3) ? "2" : !about.shows(2) ? "3" : "2 and 3";
+    text += fmt::format("| `{}` | {} | {} |\n", about.name, dimensions, about.meaning);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string registry_markdown() {
@@ -738,6 +796,7 @@ std::string registry_markdown() {
       text += fmt::format("\nEach has exactly one of {}.\n", fmt::join(kinds, ", "));
     }
     text += keys_markdown(table.name, "", "");
+    if (table.name == "output") text += outputs_markdown();
     if (table.name == "velocity")
       for (const NamedField& field : named_fields())
         text += formula_markdown("field", field.about) +

@@ -50,12 +50,11 @@ std::string choice(std::string_view table, std::string_view name, Enum value) {
   return std::string(find_key(table, name).choices.at(static_cast<std::size_t>(value)));
 }
 
-template <class Enum>
-std::vector<std::string> choices(std::string_view name, const std::vector<Enum>& values) {
+template <class Thing>
+std::string written_names(const std::vector<Thing>& things) {
   std::vector<std::string> names;
-  names.reserve(values.size());
-  for (const Enum value : values) names.push_back(choice("output", name, value));
-  return names;
+  for (const Thing& thing : things) names.emplace_back(thing.name);
+  return written(names);
 }
 
 class Writer {
@@ -188,8 +187,8 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
   out.entry("method", written(scene.evaluate.method));
   out.table("output");
   out.entry("times", written(scene.output.times));
-  out.entry("vtk", written(choices("vtk", scene.output.vtk)));
-  out.entry("images", written(choices("images", scene.output.images)));
+  out.entry("vtk", written_names(scene.output.files));
+  out.entry("images", written_names(scene.output.images));
   out.entry("report", written(std::string(scene.output.report ? "html" : "none")));
   if (const auto& reaction = scene.effects.reaction) {
     out.table("effects.reaction");

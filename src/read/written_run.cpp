@@ -39,11 +39,11 @@ read::GridSnapshot snapshot(const fs::path& file, const std::string& array) {
 
 }  // namespace
 
-std::vector<WrittenOutput> written_outputs(const fs::path& place) {
+std::vector<WrittenOutput> written_outputs(const fs::path& place, std::string_view series) {
   if (!fs::exists(place)) throw FileError(fmt::format("there is no {}", place.string()));
   if (!fs::is_directory(place)) return {{place, snapshot(place, "rho").time, number_of(place).value_or(0)}};
   std::vector<WrittenOutput> outputs;
-  const fs::path folder = place / "density";
+  const fs::path folder = place / series;
   if (fs::is_directory(folder))
     for (const auto& entry : fs::directory_iterator(folder))
       if (const auto number = number_of(entry.path())) outputs.push_back({entry.path(), {}, *number});
@@ -51,7 +51,7 @@ std::vector<WrittenOutput> written_outputs(const fs::path& place) {
             [](const WrittenOutput& a, const WrittenOutput& b) { return a.number < b.number; });
   std::vector<read::SeriesEntry> listed;
   try {
-    if (fs::exists(place / "density.pvd")) listed = read::read_series(place / "density.pvd");
+    if (const fs::path list = place / fmt::format("{}.pvd", series); fs::exists(list)) listed = read::read_series(list);
   } catch (const read::GridFileError&) {  // the files say it themselves
   }
   std::map<fs::path, double> times;  // by name

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/density_grid.hpp"
@@ -17,9 +18,9 @@ struct WrittenOutput {
   std::size_t number = 0;      // of the output, as in the file's name; 0 for a single file
 };
 
-/// Of a run's folder, finished or not, or of one .vti. Times are those of density.pvd, or of the files where it does
-/// not list them. Empty where a folder holds no densities. Throws FileError: nothing there, a file that cannot be read.
-std::vector<WrittenOutput> written_outputs(const std::filesystem::path& place);
+/// Of a run's folder, finished or not, or of one .vti. `series` names the files and their folder; times are those of
+/// its .pvd, or of the files where it does not list them. Empty where a folder holds no densities. Throws FileError: nothing there, a file that cannot be read.
+std::vector<WrittenOutput> written_outputs(const std::filesystem::path& place, std::string_view series);
 
 /// An array of a .vti: rho, rho_exact (NaN where it is not known) or error. Throws FileError.
 DensityGrid read_density(const std::filesystem::path& file, const std::string& array);

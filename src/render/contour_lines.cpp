@@ -11,7 +11,18 @@
 
 #include <cmath>
 
+#include "render/ticks.hpp"
+
 namespace gaussdrift::render {
+
+std::vector<double> contour_levels(const ColourRange& range) {
+  const double length = range.max - range.min;
+  std::vector<double> levels;
+  for (const Tick& tick : make_ticks(range.min, range.max, 15).list)
+    if (range.position(tick.at) > 1e-6 && range.position(tick.at) < 1 - 1e-6 && std::fabs(tick.at) > 1e-9 * length)
+      levels.push_back(tick.at);
+  return levels;
+}
 
 std::vector<ContourLine> contour_lines(const HeightField& field, const std::vector<double>& levels) {
   vtkNew<vtkImageData> image;

@@ -8,6 +8,10 @@
 
 namespace gaussdrift::render {
 
+/// About ten round values inside the range, the same for every picture with that range. Never 0: where a density
+/// vanishes its line would be noise.
+std::vector<double> contour_levels(const ColourRange& range);
+
 /// A connected piece of the line on which the field has `level`, in the scene's coordinates [0, width] x [0, depth].
 struct ContourLine {
   double level;

@@ -146,10 +146,7 @@ std::vector<Level> levels_of(const ColourRange& range) {
   return levels;
 }
 
-}  // namespace
-
-void draw_isosurface(Canvas& canvas, const DensityGrid& full, const ColourRange& range, const PictureOptions& options) {
-  check_solid(full);
+void draw(Canvas& canvas, const DensityGrid& full, const ColourRange& range, const PictureOptions& options) {
   const Scale scale(canvas);
   const DensityGrid density = thinned(full, most_points);
   const Lattice& lattice = density.lattice;
@@ -191,6 +188,22 @@ void draw_isosurface(Canvas& canvas, const DensityGrid& full, const ColourRange&
   draw_colour_bar(canvas, {canvas.width() - scale(134), scale(250), scale(26), scale(460)}, true,
                   {options.quantity, range.min, range.max, 6}, marks, range.map);
   draw_heading(canvas, options, facts_of(full.rho));
+}
+
+Painting isosurface(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
+  check_solid(density);
+  return [&density, range, options](Canvas& canvas) { draw(canvas, density, range, options); };
+}
+
+}  // namespace
+
+Style isosurface_style() {
+  return {.about = {.name = "isosurface",
+                    .meaning = "surfaces of equal density in perspective, at 15, 45 and 75 % of the range",
+                    .least_dimension = 3},
+          .cost = {.seconds = 0.17, .a_point_in_space = 3e-8},
+
+          .painting = isosurface};
 }
 
 }  // namespace gaussdrift::render

@@ -9,6 +9,7 @@
 #include "render/on_canvas.hpp"
 #include "render/picture.hpp"
 #include "render/read_png.hpp"
+#include "render/styles.hpp"
 
 namespace gaussdrift::render {
 
@@ -40,14 +41,11 @@ void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& 
   const auto [error_min, error_max] = symmetric_range(low_error, high_error);
   std::vector<Image> images;
   for (const Panel& panel : panels) {
-    const bool flat = panel.density.lattice.dimension == 2;
     const Scratch part(png.string() + ".panel");
-    draw(panel.is_error ? Style::error
-         : flat         ? Style::heatmap
-                        : Style::slices,
-         panel.density,
+    const Style& style = panel_style(panel.density.lattice.dimension, panel.is_error);
+    draw(style, panel.density,
          {.title = panel.title,
-          .quantity = panel.is_error ? "error" : "density",
+          .quantity = style.quantity,
           .time = panel.time,
           .range_min = panel.is_error ? error_min : range_min,
           .range_max = panel.is_error ? error_max : range_max,

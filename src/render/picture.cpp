@@ -16,47 +16,16 @@
 namespace gaussdrift::render {
 namespace {
 
-/// More points than these a picture of 1280 pixels does not show; a surface costs time for each.
-constexpr std::size_t most_surface = 300, most_plane = 1000;
-
-ColourRange colour_range(Style style, const DensityGrid& density, const PictureOptions& options) {
+ColourRange colour_range(const Style& style, const DensityGrid& density, const PictureOptions& options) {
   ColourRange range;
-  if (style == Style::error) range.map = blue_white_red;
+  range.map = style.colours;
   range.min = options.range_min, range.max = options.range_max;
   if (std::isfinite(range.min) && std::isfinite(range.max) && range.min < range.max) return range;
   double minimum = 0, maximum = 0;
   for (const double value : density.rho)
     if (std::isfinite(value)) minimum = std::min(minimum, value), maximum = std::max(maximum, value);
-  std::tie(range.min, range.max) =
-      style == Style::error ? symmetric_range(minimum, maximum) : rounded_range(minimum, maximum);
+  std::tie(range.min, range.max) = style.range(minimum, maximum);
   return range;
-}
-
-/// The density of a style that shows planes; empty for others.
-HeightField field_for(Style style, const DensityGrid& density, const ColourRange& range) {
-  const bool plane = shows(style, 2) && (style != Style::error || density.lattice.dimension == 2);
-  return plane ? make_height_field(density, range, style == Style::surface ? most_surface : most_plane) : HeightField{};
-}
-
-void draw_on(Canvas& canvas, Style style, const DensityGrid& density, const HeightField& field,
-             const ColourRange& range, const PictureOptions& options) {
-  switch (style) {
-    case Style::surface:
-      return draw_surface(canvas, field, range, options);
-    case Style::contour:
-      return draw_contour(canvas, field, range, options);
-    case Style::heatmap:
-      return draw_heatmap(canvas, field, range, options);
-    case Style::slices:
-      return draw_slices(canvas, density, range, options);
-    case Style::projection:
-      return draw_projection(canvas, density, range, options);
-    case Style::isosurface:
-      return draw_isosurface(canvas, density, range, options);
-    case Style::error:
-      return density.lattice.dimension == 2 ? draw_heatmap(canvas, field, range, options)
-                                            : draw_slices(canvas, density, range, options);
-  }
 }
 
 }  // namespace
@@ -78,11 +47,10 @@ void on_canvas(int width, int height, const std::filesystem::path& png, const st
   write::write_text(png, bytes);
 }
 
-void draw(Style style, const DensityGrid& density, const PictureOptions& options, const std::filesystem::path& png) {
+void draw(const Style& style, const DensityGrid& density, const PictureOptions& options,
+          const std::filesystem::path& png) {
   const ColourRange range = colour_range(style, density, options);
-  const HeightField field = field_for(style, density, range);  // VTK looks into it until the picture is finished
-  on_canvas(options.width, options.height, png,
-            [&](Canvas& canvas) { draw_on(canvas, style, density, field, range, options); });
+  on_canvas(options.width, options.height, png, style.painting(density, range, options));
 }
 
 }  // namespace gaussdrift::render

@@ -1,5 +1,5 @@
 // Pictures of a density on a plane or in space, drawn off screen by VTK through OSMesa: no display, no GPU.
-// The interface knows no VTK; where OSMesa was absent at build time available() says so and draw() throws.
+// The interface knows no VTK; where OSMesa was absent at build time unavailable_reason() says so and draw() throws.
 #pragma once
 
 #include <array>
@@ -12,12 +12,7 @@
 
 namespace gaussdrift::render {
 
-enum class Style { surface, contour, heatmap, slices, projection, isosurface, error };
-
-/// "surface", ...: the name in a case file and of the picture's file.
-std::string to_string(Style style);
-/// Can the style show densities of this dimension?
-bool shows(Style style, int dimension);
+struct Style;  // render/styles.hpp
 
 struct PictureOptions {
   std::string title{};  // of the case
@@ -34,23 +29,16 @@ struct PictureOptions {
 /// Empty if pictures can be drawn, else the reason and the remedy.
 std::string unavailable_reason();
 
-/// Draws a density into a PNG (written beside its name and renamed). In 2D:
-///   surface  height field with contour lines in perspective, seen from above at an angle; at most 300 x 300 points of it
-///   contour  contour lines: from above, and from the side (x against height), as Figures 5.3 and 5.5 of [Sch06]. Where
-///            the lines fill a small part of the domain, half, a quarter or an eighth of it around them is shown, and said
-///   heatmap  colours from above
-/// In 3D:
-///   slices      colours on three planes through the value largest in size
-///   projection  maximum-intensity projections: on three planes, the value largest in size on every line of sight
-///   isosurface  surfaces of equal density in perspective, at 15, 45 and 75 % of the range; at most 160 points an axis
-/// In both, of differences:
-///   error       heatmap or slices in colours from blue through white, which is 0, to red
-/// Values outside the range get the colours of its ends; heights stick out of the box by at most 4 % of the range.
-/// Values that are not finite are left out (heatmap, slices: red; error: grey) and counted in the heading, which also
-/// tells the true extremes. Without a range (range_min < range_max, both finite) the density's own rounded one is used.
+/// Draws a density into a PNG (written beside its name and renamed). Values outside the range get the colours of its
+/// ends; heights stick out of the box by at most 4 % of the range. Values that are not finite are left out (red, or grey
+/// in pictures of errors) and counted in the heading, which also tells the true extremes. Without a range (range_min <
+/// range_max, both finite) the rounded one of the density itself is used.
+/// At most 300 x 300 points of a surface are drawn, and 160 an axis of surfaces in space. Where contour lines fill a
+/// small part of the domain, half, a quarter or an eighth of it around them is shown, and said.
 /// One call draws at a time, whatever the thread. Throws FileError; Error(ExitCode::internal) when drawing is not
 /// available or the style cannot show the density.
-void draw(Style style, const DensityGrid& density, const PictureOptions& options, const std::filesystem::path& png);
+void draw(const Style& style, const DensityGrid& density, const PictureOptions& options,
+          const std::filesystem::path& png);
 
 /// A range with round ends that contains [minimum, maximum], except for up to 1 % at either end: the small overshoots
 /// of a smoothed step do not spoil [0, 1]. 0 is an end if the values begin within a quarter of their size of it. [0, 1]

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/solid.hpp"
+#include "render/styles.hpp"
 
 namespace gaussdrift::render {
 
@@ -47,33 +48,40 @@ class RunningRange {
 
 class PictureSeries : public Observer {
  public:
-  PictureSeries(const fs::path& folder, std::vector<Style> styles, std::string title)
-      : folder_(folder / "images"), styles_(std::move(styles)) {
+  PictureSeries(const fs::path& folder, const std::vector<PictureStyle>& styles, std::string title)
+      : folder_(folder / "images") {
+    for (const PictureStyle& about : styles) {
+      const Style& style = find_style(about.name);
+      styles_.push_back({style, RunningRange(style.range)});
+    }
     options_.title = std::move(title);
   }
   std::string name() const override { return "pictures"; }
 
   void frame(const Frame& frame) override {
-    density_range_.include(frame.numbers.minimum, frame.numbers.maximum);
-    keep(kept_, frame, *frame.density);
-    draw_all(frame.index, frame.time, *frame.density, false);
-    if (!frame.exact || std::find(styles_.begin(), styles_.end(), Style::error) == styles_.end()) return;
+    show(kept_, frame, *frame.density, {frame.numbers.minimum, frame.numbers.maximum}, false);
+    if (!frame.exact ||
+        std::none_of(styles_.begin(), styles_.end(), [](const Drawn& drawn) { return drawn.style.about.shows_error; }))
+      return;
     const DensityGrid error = error_of(frame);
     const ValueFacts facts = facts_of(error.rho);
-    error_range_.include(facts.minimum, facts.maximum);
-    keep(kept_errors_, frame, error);
-    draw_all(frame.index, frame.time, error, true);
+    show(kept_errors_, frame, error, {facts.minimum, facts.maximum}, true);
   }
 
   void finish() override {
-    for (const bool errors : {false, true}) {
-      if (!(errors ? error_range_ : density_range_).widen()) continue;
-      for (const Kept& kept : errors ? kept_errors_ : kept_)
-        draw_all(kept.index, kept.time, {kept.lattice, {kept.rho.begin(), kept.rho.end()}}, errors);
+    for (Drawn& drawn : styles_) {
+      if (!drawn.range.widen()) continue;
+      for (const Kept& kept : drawn.style.about.shows_error ? kept_errors_ : kept_)
+        draw_one(drawn, kept.index, kept.time, {kept.lattice, {kept.rho.begin(), kept.rho.end()}});
     }
   }
 
  private:
+  struct Drawn {
+    Style style;
+    RunningRange range;
+  };
+
   // Single precision is plenty for colours and halves what a long run keeps; in space thinned, for the same reason.
   struct Kept {
     int index;
@@ -94,27 +102,35 @@ class PictureSeries : public Observer {
     return error;
   }
 
-  void draw_all(int index, double time, const DensityGrid& density, bool errors) {
-    const RunningRange& range = errors ? error_range_ : density_range_;
+  /// By the styles that show the density, or those that show its error.
+  void show(std::vector<Kept>& list, const Frame& frame, const DensityGrid& density, std::pair<double, double> extremes,
+            bool errors) {
+    keep(list, frame, density);
+    for (Drawn& drawn : styles_) {
+      if (drawn.style.about.shows_error != errors) continue;
+      drawn.range.include(extremes.first, extremes.second);
+      draw_one(drawn, frame.index, frame.time, density);
+    }
+  }
+
+  void draw_one(const Drawn& drawn, int index, double time, const DensityGrid& density) {
     options_.time = time;
-    options_.quantity = errors ? "error" : "density";
-    options_.range_min = range.min, options_.range_max = range.max;
-    for (const Style style : styles_)
-      if ((style == Style::error) == errors)
-        draw(style, density, options_, folder_ / fmt::format("{}_{:04}.png", to_string(style), index));
+    options_.quantity = drawn.style.quantity;
+    options_.range_min = drawn.range.min, options_.range_max = drawn.range.max;
+    draw(drawn.style, density, options_, folder_ / fmt::format("{}_{:04}.png", drawn.style.about.name, index));
   }
 
   fs::path folder_;
-  std::vector<Style> styles_;
+  std::vector<Drawn> styles_;
   PictureOptions options_;
   std::vector<Kept> kept_, kept_errors_;
-  RunningRange density_range_{rounded_range}, error_range_{symmetric_range};
 };
 
 }  // namespace
 
-std::unique_ptr<Observer> picture_series(const fs::path& folder, std::vector<Style> styles, std::string title) {
-  return std::make_unique<PictureSeries>(folder, std::move(styles), std::move(title));
+std::unique_ptr<Observer> picture_series(const fs::path& folder, const std::vector<PictureStyle>& styles,
+                                         std::string title) {
+  return std::make_unique<PictureSeries>(folder, styles, std::move(title));
 }
 
 }  // namespace gaussdrift::render

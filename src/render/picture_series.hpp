@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/picture.hpp"
+#include "gaussdrift/case.hpp"
 #include "sim/frame.hpp"
 
 namespace gaussdrift::render {
@@ -14,8 +14,8 @@ namespace gaussdrift::render {
 /// images/surface_0000.png, ... The range is that of the first frame, with round ends. If a later frame leaves it by
 /// more than a hundredth, all pictures are drawn again at the end, with the wider range (in 3D from every second,
 /// third, ... point where an axis has more than 128). Errors have a range of their own, as far below 0 as above;
-/// Style::error needs frames with an exact density.
-std::unique_ptr<Observer> picture_series(const std::filesystem::path& folder, std::vector<Style> styles,
+/// styles that show them need frames with an exact density.
+std::unique_ptr<Observer> picture_series(const std::filesystem::path& folder, const std::vector<PictureStyle>& styles,
                                          std::string title);
 
 }  // namespace gaussdrift::render

@@ -37,40 +37,4 @@ std::pair<double, double> symmetric_range(double minimum, double maximum) {
   return {-end, end};
 }
 
-std::string to_string(Style style) {
-  switch (style) {
-    case Style::surface:
-      return "surface";
-    case Style::contour:
-      return "contour";
-    case Style::heatmap:
-      return "heatmap";
-    case Style::slices:
-      return "slices";
-    case Style::projection:
-      return "projection";
-    case Style::isosurface:
-      return "isosurface";
-    case Style::error:
-      return "error";
-  }
-  return "picture";
-}
-
-bool shows(Style style, int dimension) {
-  switch (style) {
-    case Style::surface:
-    case Style::contour:
-    case Style::heatmap:
-      return dimension == 2;
-    case Style::slices:
-    case Style::projection:
-    case Style::isosurface:
-      return dimension == 3;
-    case Style::error:
-      return dimension == 2 || dimension == 3;
-  }
-  return false;
-}
-
 }  // namespace gaussdrift::render

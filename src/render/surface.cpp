@@ -121,9 +121,7 @@ void add_contours(vtkRenderer* scene, const HeightField& field, double height, c
   scene->AddActor(actor);
 }
 
-}  // namespace
-
-void draw_surface(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options) {
+void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options) {
   const Scale scale(canvas);
   const double height = 0.45 * std::max(0.5, std::sqrt(field.width * field.depth));
   const double w = field.width, d = field.depth;
@@ -148,6 +146,27 @@ void draw_surface(Canvas& canvas, const HeightField& field, const ColourRange& r
   draw_colour_bar(canvas, {canvas.width() - scale(134), scale(250), scale(26), scale(460)}, true,
                   {options.quantity, range.min, range.max, 6}, {});
   draw_heading(canvas, options, field);
+}
+
+/// More points an axis than these a picture of 1280 pixels does not show; a surface costs time for each.
+constexpr std::size_t most_points = 300;
+
+Painting surface(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
+  return [field = make_height_field(density, range, most_points), range, options](Canvas& canvas) {
+    draw(canvas, field, range, options);
+  };
+}
+
+}  // namespace
+
+Style surface_style() {
+  return {.about = {.name = "surface",
+                    .meaning = "a surface in perspective, seen from above at an angle, with contour lines on it",
+                    .most_dimension = 2,
+                    .by_default = true},
+          .cost = {.a_point = 1.6e-6, .most_points = most_points * most_points},  // a triangle for every point
+
+          .painting = surface};
 }
 
 }  // namespace gaussdrift::render

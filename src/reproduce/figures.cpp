@@ -12,7 +12,7 @@
 #include "input/examples.hpp"
 #include "input/read_case.hpp"
 #include "render/chart.hpp"
-#include "render/picture.hpp"
+#include "render/styles.hpp"
 #include "reproduce/fgtd.hpp"
 #include "sim/simulation.hpp"
 
@@ -48,6 +48,10 @@ std::vector<std::pair<double, DensityGrid>> densities(const std::string& name,
   return frames;
 }
 
+// As the thesis shows densities: heights in perspective, or contour lines from above and from the side.
+const render::Style& heights() { return render::find_style("surface"); }
+const render::Style& lines() { return render::find_style("contour"); }
+
 /// All that a figure is made from.
 struct Maker {
   const FiguresOptions& options;
@@ -57,8 +61,9 @@ struct Maker {
   void add(const std::string& number, const std::string& caption, const base::Stopwatch& watch) const {
     made.push_back({number, caption, file(number), watch.seconds()});
   }
-  void field(const std::string& number, const std::string& caption, const std::string& title, render::Style style,
-             const std::pair<double, DensityGrid>& frame, const base::Stopwatch& watch, bool from_below = false) const {
+  void field(const std::string& number, const std::string& caption, const std::string& title,
+             const render::Style& style, const std::pair<double, DensityGrid>& frame, const base::Stopwatch& watch,
+             bool from_below = false) const {
     draw(style, frame.second,
          {.title = title, .time = frame.first, .from_below = from_below, .range_min = 0, .range_max = 1}, file(number));
     add(number, caption, watch);
@@ -81,7 +86,7 @@ void cost_of_parameters(const Maker& make) {
   cost.lattice.points = {most_p + 1, most_n + 1, 1};
   for (int n = 0; n <= most_n; ++n)
     for (int p = 0; p <= most_p; ++p) cost.rho.push_back(operations_a_point(p, n) / 1e3);
-  draw(render::Style::surface, cost,
+  draw(heights(), cost,
        {.title = "Cost of the fast Gauss transform, p² + (2n+1)² p²",
         .quantity = "thousand operations a point",
         .axes = {"terms p", "neighbour boxes n"},
@@ -161,16 +166,15 @@ void cone_of_widths(const Maker& make) {
     const auto frames = densities("rotating_cone", {fmt::format("particles.overlap={}", overlap), "output.times=[0]"},
                                   make.options.threads);
     make.field(fmt::format("5.1{}", letter), fmt::format("the cone at t = 0, c = {}", overlap),
-               fmt::format("Cone, c = {}", overlap), render::Style::surface, frames.front(), watch);
+               fmt::format("Cone, c = {}", overlap), heights(), frames.front(), watch);
   }
 }
 
 void turning_cone(const Maker& make) {
   const base::Stopwatch watch;
   const auto frames = densities("rotating_cone", {"output.times=[0, \"pi/2\"]"}, make.options.threads);
-  make.field("5.2a", "the cone at t = 0", "Rotating cone", render::Style::surface, frames[0], watch);
-  make.field("5.2b", "the cone at t = pi/2, a quarter of a turn", "Rotating cone", render::Style::surface, frames[1],
-             watch);
+  make.field("5.2a", "the cone at t = 0", "Rotating cone", heights(), frames[0], watch);
+  make.field("5.2b", "the cone at t = pi/2, a quarter of a turn", "Rotating cone", heights(), frames[1], watch);
 }
 
 void lines_of_the_cone(const Maker& make) {
@@ -182,17 +186,17 @@ void lines_of_the_cone(const Maker& make) {
   make.field("5.3",
              fmt::format("contour lines of the cone after 100 turns, from above and from the side, steps of {}{}", step,
                          make.options.full ? "" : " (0.001 with --full; the difference is below 1e-7)"),
-             "Cone after 100 turns", render::Style::contour, frames.front(), watch);
+             "Cone after 100 turns", lines(), frames.front(), watch);
 }
 
 void disk_with_gap(const Maker& make) {
   const base::Stopwatch watch;
   const auto frames = densities("rotating_gap", {"output.times=[0, \"400*pi\"]"}, make.options.threads);
-  make.field("5.4a", "the disk with a gap at t = 0", "Disk with a gap", render::Style::surface, frames.front(), watch);
-  make.field("5.4b", "the disk after 200 turns, steps of 0.01", "Disk with a gap after 200 turns",
-             render::Style::surface, frames.back(), watch);
-  make.field("5.5", "its contour lines from below and from the side", "Disk with a gap after 200 turns",
-             render::Style::contour, frames.back(), watch, true);
+  make.field("5.4a", "the disk with a gap at t = 0", "Disk with a gap", heights(), frames.front(), watch);
+  make.field("5.4b", "the disk after 200 turns, steps of 0.01", "Disk with a gap after 200 turns", heights(),
+             frames.back(), watch);
+  make.field("5.5", "its contour lines from below and from the side", "Disk with a gap after 200 turns", lines(),
+             frames.back(), watch, true);
 }
 
 const std::vector<std::pair<std::string, void (*)(const Maker&)>> makers{

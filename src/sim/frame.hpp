@@ -37,7 +37,7 @@ struct Frame {
   int index = 0;
   double time = 0;
   const Particles* particles = nullptr;
-  /// u(X_j, t) [j][dimension]; only if particle files are written, else null
+  /// u(X_j, t) [j][dimension]; only if files that are written need it, else null
   const std::vector<double>* velocity = nullptr;
   const DensityGrid* density = nullptr;
   /// rho at the points of the density, NaN where not known; null without a reference and where a sample is compared

@@ -30,6 +30,12 @@ std::vector<double> landings(const Case& description) {
 
 namespace {
 
+/// Has one of the things this property?
+template <class Thing>
+bool has_one(const std::vector<Thing>& things, bool Thing::*property) {
+  return std::any_of(things.begin(), things.end(), [&](const Thing& thing) { return thing.*property; });
+}
+
 FrameNumbers measure_frame(const Particles& particles, const DensityGrid& density) {
   FrameNumbers numbers;
   for (std::size_t j = 0; j < particles.size(); ++j) {
@@ -230,17 +236,16 @@ Affordable affordable_paths(const Case& description, const Scene& scene, double 
 }
 
 Comparison plan_comparison(const Case& description, const Scene& scene, std::size_t particles, int threads) {
-  const auto has = [](const auto& list, auto item) { return std::find(list.begin(), list.end(), item) != list.end(); };
   const std::size_t whole = scene.evaluation.size();
   if (description.reference.kind == ReferenceSpec::Kind::none) return {};
   if (description.reference.points)
     return {.points = std::min(whole, static_cast<std::size_t>(*description.reference.points))};
   if (description.reference.kind != ReferenceSpec::Kind::characteristics || description.output.times.empty() ||
-      has(description.output.images, OutputSpec::Image::error))
+      has_one(description.output.images, &PictureStyle::shows_error))
     return {.points = whole};
   constexpr double share = 0.15, few = 2.5e6;
   const auto& times = description.output.times;
-  const bool shown = has(description.output.vtk, OutputSpec::Vtk::density);
+  const bool shown = has_one(description.output.files, &OutputFile::shows_density);
   const bool steady = scene.velocity->is_steady() && (!scene.reaction_rate || scene.reaction_rate->is_steady());
   // Steady: the last output goes on from the feet of those before, if all points do; else each is traced to the start.
   const double outputs = times.back() > 0 ? std::accumulate(times.begin(), times.end(), 0.0) / times.back() : 0.0;
@@ -366,8 +371,7 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   summary.transform_achievable = std::max(summary.transform_achievable, report.achievable);
 
   const std::vector<double> velocity = velocity_at_particles(time);
-  const bool velocity_wanted =
-      std::find(case_.output.vtk.begin(), case_.output.vtk.end(), OutputSpec::Vtk::particles) != case_.output.vtk.end();
+  const bool velocity_wanted = has_one(case_.output.files, &OutputFile::needs_velocity);
 
   Frame frame;
   frame.index = index;

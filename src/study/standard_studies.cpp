@@ -60,7 +60,7 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
       .conclusion = {},
       .notes = {}};
   Case bare = scene;
-  bare.output.vtk.clear();
+  bare.output.files.clear();
   bare.output.images.clear();
   bare.checks.clear();
   bare.reference = {};
@@ -230,7 +230,7 @@ Case with_steps(Case scene, const time::Tableau& tableau, double step, double to
 
 /// Why the case with its outputs left out does not run to its end; empty: it does.
 std::string why_it_does_not_finish(Case scene, int threads) {
-  scene.output.vtk.clear();
+  scene.output.files.clear();
   scene.output.images.clear();
   scene.output.times = {scene.output.times.back()};
   scene.checks.clear();

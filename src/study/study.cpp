@@ -100,7 +100,7 @@ Variation parse_variation(const std::string& text) {
 Sample measure_run(const Case& scene, const StudyOptions& options) {
   Sample sample;
   Case bare = scene;
-  bare.output.vtk.clear();
+  bare.output.files.clear();
   bare.output.images.clear();
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
   bare.checks.clear();

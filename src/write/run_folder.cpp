@@ -3,15 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "write/atomic_file.hpp"
+#include "write/output_files.hpp"
+#include "write/series_table.hpp"
 
 namespace gaussdrift::write {
 
@@ -19,12 +21,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The files that a run writes at the top of its folder, and the numbered files below it.
-constexpr std::array<std::string_view, 13> run_files{
-    "case.toml", "density.pvd", "log.txt",      "particles.pvd",     "provenance.json", "report.html", "report.json",
-    "run.toml",  "series.csv",  "summary.json", "summary.png.panel", "summary.png",     "view.py"};
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> numbered_files{
-    {{"density", ".vti"}, {"particles", ".vtp"}, {"images", ".png"}}};
+constexpr std::string_view pictures_folder = "images", pictures_ending = ".png";
+
+/// The files that a run writes at the top of its folder.
+std::vector<std::string> run_files() {
+  std::vector<std::string> names{"case.toml",         "log.txt",     "provenance.json", "report.html",
+                                 "report.json",       "run.toml",    series_name,       "summary.json",
+                                 "summary.png.panel", "summary.png", "view.py"};
+  for (const FileKind& kind : output_files()) names.push_back(fmt::format("{}.pvd", kind.about.name));
+  return names;
+}
+
+/// Folders with the numbered files of a run, and the ending of these.
+std::vector<std::pair<std::string_view, std::string_view>> numbered_files() {
+  std::vector<std::pair<std::string_view, std::string_view>> folders{{pictures_folder, pictures_ending}};
+  for (const FileKind& kind : output_files()) folders.emplace_back(kind.about.name, kind.ending);
+  return folders;
+}
 
 // "surface_0012.png": letters, an underscore, digits, and the ending; ".part" where a run was killed.
 bool is_numbered(std::string name, std::string_view ending) {
@@ -40,15 +53,15 @@ bool is_numbered(std::string name, std::string_view ending) {
 // Removes what a run wrote and nothing else: what a user keeps beside it stays.
 void remove_earlier_run(const fs::path& folder) {
   try {
-    for (const auto& [name, ending] : numbered_files) {
+    for (const auto& [name, ending] : numbered_files()) {
       if (!fs::is_directory(folder / name)) continue;
       for (const auto& entry : fs::directory_iterator(folder / name))
         if (is_numbered(entry.path().filename().string(), ending)) fs::remove(entry.path());
       if (fs::is_empty(folder / name)) fs::remove(folder / name);
     }
-    for (const std::string_view name : run_files) {
+    for (const std::string& name : run_files()) {
       fs::remove(folder / name);
-      fs::remove(folder / (std::string(name) + ".part"));  // where a run was killed
+      fs::remove(folder / (name + ".part"));  // where a run was killed
     }
   } catch (const fs::filesystem_error& failure) {
     throw FileError(fmt::format("the earlier run in {} cannot be removed: {}; choose another folder with --out",
@@ -57,9 +70,6 @@ void remove_earlier_run(const fs::path& folder) {
 }
 
 std::string view_script(const Case& scene) {
-  const auto wants = [&](OutputSpec::Vtk kind) {
-    return std::find(scene.output.vtk.begin(), scene.output.vtk.end(), kind) != scene.output.vtk.end();
-  };
   std::string script =
       "# Opens this run in ParaView:   paraview --script=view.py   (in this folder), or   pvpython view.py\n"
       "import os\n"
@@ -72,19 +82,15 @@ std::string view_script(const Case& scene) {
       "    here = os.getcwd()\n"
       "\n"
       "view = GetActiveViewOrCreate('RenderView')\n";
-  if (wants(OutputSpec::Vtk::density)) {
-    script +=
-        "density = PVDReader(registrationName='density', FileName=os.path.join(here, 'density.pvd'))\n"
-        "shown = Show(density, view)\n"
-        "ColorBy(shown, ('POINTS', 'rho'))\n"
-        "shown.RescaleTransferFunctionToDataRange(False, True)\n"
-        "shown.SetScalarBarVisibility(view, True)\n";
-    script += scene.domain.dimension == 2 ? "shown.SetRepresentationType('Surface')\n"
-                                          : "shown.SetRepresentationType('Volume')\n";
-  }
-  if (wants(OutputSpec::Vtk::particles)) {
-    script += "particles = PVDReader(registrationName='particles', FileName=os.path.join(here, 'particles.pvd'))\n";
-    script += wants(OutputSpec::Vtk::density) ? "Hide(particles, view)\n" : "Show(particles, view)\n";
+  bool first = true;  // the others are read and hidden
+  for (const FileKind& kind : output_files()) {
+    if (std::none_of(scene.output.files.begin(), scene.output.files.end(),
+                     [&](const OutputFile& file) { return file.name == kind.about.name; }))
+      continue;
+    script += fmt::format("{0} = PVDReader(registrationName='{0}', FileName=os.path.join(here, '{0}.pvd'))\n",
+                          kind.about.name);
+    script += first ? kind.view(scene.domain.dimension) : fmt::format("Hide({}, view)\n", kind.about.name);
+    first = false;
   }
   script +=
       "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"

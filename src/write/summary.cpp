@@ -6,17 +6,73 @@
 
 namespace gaussdrift::write {
 
-std::string summary_json(const Case& scene, const RunSummary& summary, const nlohmann::ordered_json& more) {
-  using json = nlohmann::ordered_json;
+namespace {
+
+using json = nlohmann::ordered_json;
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json particles_of(const Case& spec, const RunSummary& summary) {
+  json particles{{"lattice_points", summary.lattice_points},
+                 {"carried", summary.particles},
+                 {"left_out", summary.seeding.left_out},
+                 {"threshold", spec.particles.threshold},
+                 {"mass_left_out", summary.seeding.carried.front().part()}};
+  if (summary.seeding.carried.size() > 1) particles["charge_left_out"] = summary.seeding.carried.back().part();
+  if (summary.beyond_at_start > 0) particles["mass_outside_at_start"] = summary.beyond_at_start;
+  particles["spacing"] = summary.spacing;
+  particles["core_radius"] = summary.core_radius;
+  particles["cutoff"] = spec.particles.cutoff;
+  return particles;
+}
+
+json effects_of(const RunSummary& summary) {
+  json effects = json::array();
+  for (const EffectSummary& effect : summary.effects) {
+    json row{{"name", effect.name},
+             {"seconds", effect.seconds},
+             {"equation", effect.equation},
+             {"changes", effect.changes},
+             {"conserves", effect.conserves}};
+    for (const auto& [name, value] : effect.numbers) row[name] = value;
+    if (!effect.warning.empty()) row["warning"] = effect.warning;
+    effects.push_back(std::move(row));
+  }
+  return effects;
+}
+
+json reference_of(const Case& spec, const RunSummary& summary) {
+  json reference{{"kind", to_string(spec.reference.kind)}};
+  if (spec.reference.kind != ReferenceSpec::Kind::none) reference["untraced"] = summary.reference.untraced;
+  if (!summary.reference_word.empty()) reference["paths"] = summary.reference_word;
+  if (summary.reference.untraced > 0) reference["trouble"] = summary.reference.trouble;
+  return reference;
+}
+
+json checks_of(const RunSummary& summary) {
+  json checks = json::array();
+  for (const CheckResult& result : summary.checks)
+    checks.push_back({{"what", to_string(result.check.what)},
+                      {"value", number(result.value)},
+                      {"t", result.time},
+                      {"max", result.check.max ? json(*result.check.max) : json(nullptr)},
+                      {"min", result.check.min ? json(*result.check.min) : json(nullptr)},
+                      {"passed", result.passed}});
+  return checks;
+}
+
+json seconds_of(const RunSummary& summary) {
   json seconds;
   for (const auto& [stage, value] : summary.stages.stages()) seconds[stage] = value;
   seconds["total"] = summary.seconds;
+  return seconds;
+}
 
-  const auto number = [](double value) { return std::isfinite(value) ? json(value) : json(nullptr); };
+json frames_of(const Case& spec, const RunSummary& summary) {
   json frames = json::array();
   for (const auto& [time, n] : summary.frames) {
     json centroid = json::array();
-    for (int k = 0; k < scene.domain.dimension; ++k) centroid.push_back(n.centroid[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < spec.domain.dimension; ++k) centroid.push_back(n.centroid[static_cast<std::size_t>(k)]);
     frames.push_back({{"t", time},
                       {"mass", n.mass},
                       {"minimum", n.minimum},
@@ -35,52 +91,21 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
       if (!n.no_norms.empty()) frames.back()["no_norms"] = n.no_norms;
     }
   }
+  return frames;
+}
 
-  json particles{{"lattice_points", summary.lattice_points},
-                 {"carried", summary.particles},
-                 {"left_out", summary.seeding.left_out},
-                 {"threshold", scene.particles.threshold},
-                 {"mass_left_out", summary.seeding.carried.front().part()}};
-  if (summary.seeding.carried.size() > 1) particles["charge_left_out"] = summary.seeding.carried.back().part();
-  if (summary.beyond_at_start > 0) particles["mass_outside_at_start"] = summary.beyond_at_start;
-  particles["spacing"] = summary.spacing;
-  particles["core_radius"] = summary.core_radius;
-  particles["cutoff"] = scene.particles.cutoff;
+}  // namespace
 
-  json checks = json::array();
-  for (const CheckResult& result : summary.checks)
-    checks.push_back({{"what", to_string(result.check.what)},
-                      {"value", number(result.value)},
-                      {"t", result.time},
-                      {"max", result.check.max ? json(*result.check.max) : json(nullptr)},
-                      {"min", result.check.min ? json(*result.check.min) : json(nullptr)},
-                      {"passed", result.passed}});
-
-  json reference{{"kind", to_string(scene.reference.kind)}};
-  if (scene.reference.kind != ReferenceSpec::Kind::none) reference["untraced"] = summary.reference.untraced;
-  if (!summary.reference_word.empty()) reference["paths"] = summary.reference_word;
-  if (summary.reference.untraced > 0) reference["trouble"] = summary.reference.trouble;
-  json effects = json::array();
-  for (const EffectSummary& effect : summary.effects) {
-    json row{{"name", effect.name},
-             {"seconds", effect.seconds},
-             {"equation", effect.equation},
-             {"changes", effect.changes},
-             {"conserves", effect.conserves}};
-    for (const auto& [name, value] : effect.numbers) row[name] = value;
-    if (!effect.warning.empty()) row["warning"] = effect.warning;
-    effects.push_back(std::move(row));
-  }
-
+std::string summary_json(const Case& spec, const RunSummary& summary, const json& more) {
   json document{
-      {"case", scene.name},
-      {"title", scene.title},
-      {"effects", effects},
-      {"particles", particles},
+      {"case", spec.name},
+      {"title", spec.title},
+      {"effects", effects_of(summary)},
+      {"particles", particles_of(spec, summary)},
       {"time",
-       {{"method", scene.time.method},
-        {"step", scene.time.step},
-        {"end", scene.time.end},
+       {{"method", spec.time.method},
+        {"step", spec.time.step},
+        {"end", spec.time.end},
         {"steps", summary.steps},
         {"steps_rejected", summary.steps_rejected}}},
       {"evaluate",
@@ -88,18 +113,18 @@ std::string summary_json(const Case& scene, const RunSummary& summary, const nlo
         {"tolerance", summary.transform_tolerance},
         {"achievable", summary.transform_achievable},
         {"chosen", summary.transform_choice}}},
-      {"reference", reference},
-      {"checks", checks},
+      {"reference", reference_of(spec, summary)},
+      {"checks", checks_of(summary)},
       {"threads", summary.threads},
-      {"seconds", seconds},
-      {"frames", frames},
+      {"seconds", seconds_of(summary)},
+      {"frames", frames_of(spec, summary)},
   };
   if (const auto* worst = worst_output(summary.frames)) {
     const ErrorNorms& error = *worst->second.error;
     document["worst"] = {{"t", worst->first}, {"L1", error.l1}, {"L2", error.l2}, {"Linf", error.linf}};
   }
   for (const auto& [key, value] : more.items()) document[key] = value;
-  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gaussdrift::write

@@ -11,6 +11,6 @@
 namespace gaussdrift::write {
 
 /// The summary as JSON text, with the members of `more` at its end. Numbers that are not finite become null.
-std::string summary_json(const Case& scene, const RunSummary& summary, const nlohmann::ordered_json& more);
+std::string summary_json(const Case& spec, const RunSummary& summary, const nlohmann::ordered_json& more);
 
 }  // namespace gaussdrift::write

@@ -15,6 +15,7 @@
 #include "accuracy/trial.hpp"
 #include "base/error.hpp"
 #include "input/read_case.hpp"
+#include "render/styles.hpp"
 
 namespace gaussdrift::study {
 namespace {
@@ -95,10 +96,10 @@ TEST(Trial, IsThinnedOutToSelfSimilarOnes) {
 }
 
 TEST(Check, OfALargeCaseSamplesAndSaysSo) {
-  const Description whole = describe(bump({"particles.per_axis=301"}), 0);
+  const Forecast whole = forecast(bump({"particles.per_axis=301"}), 0);
   EXPECT_TRUE(whole.whole);
   EXPECT_TRUE(whole.left_out.empty());
-  const Description large = describe(bump({"particles.per_axis=30001"}), 0);
+  const Forecast large = forecast(bump({"particles.per_axis=30001"}), 0);
   EXPECT_FALSE(large.whole);
   EXPECT_LE(large.looked_at, 1'500'000u);
   EXPECT_EQ(large.lattice_points, 30'001u * 30'001u);
@@ -115,7 +116,7 @@ TEST(Check, LeavesOutErrorsThatTakeLongerThanTheRun) {
   for (int i = 0; i < 800; ++i) terms += "+5*x";
   const Case spec = bump({"velocity.u=[\"" + terms + "\", \"0\"]", "reference.kind=\"characteristics\""});
   EXPECT_GT(make_scene(spec).velocity->cost(), 20);  // of a formula with a sine or two
-  const Description told = describe(spec, 0);
+  const Forecast told = forecast(spec, 0);
   EXPECT_TRUE(told.budget.too_dear) << told.budget.not_covered;
   EXPECT_LE(told.work_of_errors, 3e7);
   EXPECT_LE(told.paths_traced * 20, 2e7);
@@ -124,7 +125,7 @@ TEST(Check, LeavesOutErrorsThatTakeLongerThanTheRun) {
 // A vortex for 10^6 units of time: one path from the end to the start takes 10^7 steps.
 TEST(Check, TracesAPartOfALongRun) {
   const Case spec = built_in("swirl_remesh", {"params.T=1e6", "particles.per_axis=14", "evaluate.per_axis=14"});
-  const Description told = describe(spec, 0);
+  const Forecast told = forecast(spec, 0);
   EXPECT_EQ(told.steps, 20'000'000u);
   EXPECT_LE(told.paths_traced, 2e7);
   // 5 outputs of 196 points, twice and a half the last: some 10^5 steps of 12 rates of 40 ns each at least.
@@ -132,7 +133,7 @@ TEST(Check, TracesAPartOfALongRun) {
 }
 
 TEST(Check, PredictsErrorsWhereTheyTakeLessThanTheRun) {
-  const Description told = describe(built_in("rotating_cone", {}), 0);
+  const Forecast told = forecast(built_in("rotating_cone", {}), 0);
   EXPECT_TRUE(told.budget.known()) << told.budget.not_covered;
   EXPECT_NEAR(told.budget.total, 0.024, 0.001);  // published: the cone's height falls by that
   EXPECT_TRUE(told.whole);
@@ -161,7 +162,7 @@ TEST(Check, CountsTheStepsAndTheParticlesOfTheRun) {
            Counted{"shear_diffusion", {"evaluate.per_axis=21"}},
        }) {
     const Case spec = built_in(counted.name, counted.overrides);
-    const Description told = describe(spec, 1);
+    const Forecast told = forecast(spec, 1);
     std::vector<double> counts;
     Simulation simulation(spec, 1);
     simulation.observe(std::make_unique<CountParticles>(counts));
@@ -181,34 +182,33 @@ TEST(Check, CountsTheStepsAndTheParticlesOfTheRun) {
 // Vortex blobs that have spread are summed pair by pair, six times as dear as at the start: what is tried has to be all
 // of the particles, for fewer are summed by another method.
 TEST(Check, TriesAllParticlesThatMoveEachOtherWhereTheyAreFew) {
-  const Description told = describe(built_in("lamb_oseen", {}), 0);
+  const Forecast told = forecast(built_in("lamb_oseen", {}), 0);
   EXPECT_EQ(told.tried_in_steps, told.particles);
   // Of 130 000 in space, as many as still take the tree.
-  const Description many = describe(built_in("charged_ball", {"particles.per_axis=161", "evaluate.per_axis=21"}), 0);
+  const Forecast many = forecast(built_in("charged_ball", {"particles.per_axis=161", "evaluate.per_axis=21"}), 0);
   EXPECT_GE(many.tried_in_steps, 9'000u);
   EXPECT_LE(many.tried_in_steps, 80'000u);
 }
 
 TEST(Pictures, CostByStyleNumberAndSize) {
   Case spec = built_in("rotating_cone", {});
-  const auto seconds = [&](OutputSpec::Image style, std::size_t points, std::size_t outputs, Redrawn again = {}) {
-    spec.output.images = {style};
+  const auto seconds = [&](const char* style, std::size_t points, std::size_t outputs, Redrawn again = {}) {
+    spec.output.images = {render::find_style(style).about};
     spec.output.times.assign(outputs, 0.0);
     return seconds_of_pictures(spec, points, again);
   };
-  using Image = OutputSpec::Image;
   // Ratios alone, which are those of the constants; the two timings of the machine may differ by a half.
-  const double one = seconds(Image::heatmap, 10'000, 1), many = seconds(Image::heatmap, 10'000, 101);
+  const double one = seconds("heatmap", 10'000, 1), many = seconds("heatmap", 10'000, 101);
   EXPECT_NEAR(many / one, (0.11 + 101 * 0.133) / (0.11 + 0.133), 28);
-  EXPECT_GT(seconds(Image::surface, 90'000, 10), 1.2 * seconds(Image::heatmap, 90'000, 10));
-  EXPECT_LT(seconds(Image::surface, 10'000'000, 10), 2 * seconds(Image::surface, 90'000, 10));
-  EXPECT_GT(seconds(Image::error, 10'000, 100, {.error = true}), 1.2 * seconds(Image::error, 10'000, 100));
+  EXPECT_GT(seconds("surface", 90'000, 10), 1.2 * seconds("heatmap", 90'000, 10));
+  EXPECT_LT(seconds("surface", 10'000'000, 10), 2 * seconds("surface", 90'000, 10));
+  EXPECT_GT(seconds("error", 10'000, 100, {.error = true}), 1.2 * seconds("error", 10'000, 100));
   spec.output.images.clear();
   EXPECT_EQ(seconds_of_pictures(spec, 10'000, {}), 0);
 }
 
 TEST(Check, OfAnAbsurdCaseSaysThatItDoesNotFit) {
-  const Description told = describe(bump({"particles.per_axis=46000"}), 0);
+  const Forecast told = forecast(bump({"particles.per_axis=46000"}), 0);
   EXPECT_GT(told.memory_bytes, 6e10);
   EXPECT_LT(told.memory_bytes, 1.3e11);
 }

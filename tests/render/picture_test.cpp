@@ -16,18 +16,23 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "render/styles.hpp"
 #include "write/disk.hpp"
 #include "write/files.hpp"
 #ifdef GAUSSDRIFT_PICTURES
 #include "render/contour_lines.hpp"
 #include "render/read_png.hpp"
-#include "render/styles.hpp"
 #endif
 
 namespace gaussdrift::render {
 namespace {
 
-[[maybe_unused]] constexpr std::array styles{Style::surface, Style::contour, Style::heatmap};
+[[maybe_unused]] std::vector<Style> flat_styles() {
+  std::vector<Style> flat;
+  for (const Style& style : styles())
+    if (style.about.shows(2) && !style.about.shows_error) flat.push_back(style);
+  return flat;
+}
 [[maybe_unused]] constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 DensityGrid sampled(const Vector& min, const Vector& max, int per_axis,
@@ -52,13 +57,13 @@ DensityGrid cone(double x, double y, double height = 1, double radius = 0.25) {
 TEST(Picture, SaysWhyItCannotBeDrawn) {
   EXPECT_NE(unavailable_reason().find("no pictures"), std::string::npos);
   const Folder folder;
-  EXPECT_THROW(draw(Style::surface, cone(0, 0), {}, folder / "p.png"), Error);
+  EXPECT_THROW(draw(find_style("surface"), cone(0, 0), {}, folder / "p.png"), Error);
   EXPECT_EQ(folder.count(), 0u);
 }
 
 #else
 
-Image drawn(Style style, const DensityGrid& density, const PictureOptions& options = {}) {
+Image drawn(const Style& style, const DensityGrid& density, const PictureOptions& options = {}) {
   const Folder folder;
   draw(style, density, options, folder / "p.png");
   EXPECT_EQ(folder.count(), 1u);
@@ -79,7 +84,7 @@ struct Found {
 /// Where the heatmap of this shape is in the picture: drawn without a single number, it is all red.
 Found heatmap_panel(DensityGrid density) {
   std::fill(density.rho.begin(), density.rho.end(), nan);
-  const Image image = drawn(Style::heatmap, density);
+  const Image image = drawn(find_style("heatmap"), density);
   // The heading tells the number of missing values in the same red, above the panel.
   Found found{image.width, -1, image.height, -1};
   for (int y = 0; y < image.height - 110; ++y)
@@ -92,7 +97,7 @@ Found heatmap_panel(DensityGrid density) {
 TEST(Picture, IsAvailable) { EXPECT_EQ(unavailable_reason(), ""); }
 
 TEST(Picture, HasTheSizeAskedForAndIsNotBlank) {
-  for (const Style style : styles) {
+  for (const Style& style : flat_styles()) {
     const Image image = drawn(style, cone(0.5, 0), {.title = "Rotating cone", .time = 1.5});
     EXPECT_EQ(image.width, 1280);
     EXPECT_EQ(image.height, 960);
@@ -109,7 +114,7 @@ TEST(Picture, HasTheSizeAskedForAndIsNotBlank) {
 TEST(Picture, LeavesItsMarginsWhite) {
   const auto far =
       sampled({1e6, -3e6, 0}, {1e6 + 1, -3e6 + 0.6, 0}, 60, [](double x, double) { return 1e-7 * (x - 1e6); });
-  for (const Style style : styles)
+  for (const Style& style : flat_styles())
     for (const auto& [density, options] :
          {std::pair{cone(-0.5, 0.3), PictureOptions{.title = std::string(300, 'W'), .time = 123456.789}},
           {far, PictureOptions{.title = "Far", .time = 1e-12, .range_max = 1e-7}}}) {
@@ -118,20 +123,20 @@ TEST(Picture, LeavesItsMarginsWhite) {
       for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
           ASSERT_TRUE((inner(x, image.width) && inner(y, image.height)) || image.at(x, y) == white)
-              << x << ", " << y << " style " << static_cast<int>(style);
+              << x << ", " << y << " style " << style.about.name;
     }
 }
 
 TEST(Picture, OfTheSameInputIsIdentical) {
-  for (const Style style : styles) {
+  for (const Style& style : flat_styles()) {
     const Image first = drawn(style, cone(0.5, 0), {.title = "Rotating cone"});
-    drawn(Style::surface, cone(-0.5, 0.5), {.title = "between", .width = 640, .height = 480});
+    drawn(find_style("surface"), cone(-0.5, 0.5), {.title = "between", .width = 640, .height = 480});
     EXPECT_EQ(drawn(style, cone(0.5, 0), {.title = "Rotating cone"}).pixels, first.pixels);
   }
 }
 
 TEST(Picture, OfAnotherInputDiffers) {
-  for (const Style style : styles) {
+  for (const Style& style : flat_styles()) {
     const Image first = drawn(style, cone(0.5, 0));
     EXPECT_NE(drawn(style, cone(0.3, 0)).pixels, first.pixels);
     EXPECT_NE(drawn(style, cone(0.5, 0, 0.7)).pixels, first.pixels);
@@ -145,7 +150,7 @@ TEST(Heatmap, IsBrightestWhereTheDensityIsLargest) {
     const auto density = cone(x, y);
     const Found panel = heatmap_panel(density);
     EXPECT_NEAR(panel.right - panel.left, panel.top - panel.bottom, 1) << "equal aspect";
-    const Image image = drawn(Style::heatmap, density);
+    const Image image = drawn(find_style("heatmap"), density);
     double brightest = -1;
     int at_x = 0, at_y = 0;
     for (int q = panel.bottom + 3; q < panel.top - 3; ++q)
@@ -167,11 +172,11 @@ TEST(Heatmap, GivesAValueTheSameColourInEveryFrame) {
   const int x = panel.left + (panel.right - panel.left) / 4, y = (panel.bottom + panel.top) / 2;
   const int other_x = panel.left + 3 * (panel.right - panel.left) / 4;
   for (const double other : {0., 0.3, 1., 40.}) {
-    const Image image = drawn(Style::heatmap, density(other));
+    const Image image = drawn(find_style("heatmap"), density(other));
     EXPECT_EQ(image.at(x, y), viridis(0.5));
     EXPECT_EQ(image.at(other_x, y), viridis(other)) << "beyond the range: the colour of its end";
   }
-  EXPECT_EQ(drawn(Style::heatmap, density(1), {.range_max = 2}).at(x, y), viridis(0.25));
+  EXPECT_EQ(drawn(find_style("heatmap"), density(1), {.range_max = 2}).at(x, y), viridis(0.25));
 }
 
 TEST(Heatmap, KeepsTheShapeOfTheDomain) {
@@ -184,7 +189,7 @@ TEST(Heatmap, KeepsTheShapeOfTheDomain) {
 
 TEST(Surface, RaisesTheTopWithTheDensity) {
   const auto top_of = [](double height) {
-    const Image image = drawn(Style::surface, cone(0.5, 0, height), {.range_max = 1});
+    const Image image = drawn(find_style("surface"), cone(0.5, 0, height), {.range_max = 1});
     // The highest pixel of the colours of the cone, left of the colour bar.
     for (int y = 800; y > 0; --y)
       for (int x = 300; x < 1000; ++x)
@@ -228,7 +233,7 @@ TEST(Contour, LevelsAreRoundInsideTheRangeAndNeverZero) {
 }
 
 TEST(Contour, OfAConeFallsWithinItsPanelFromAboveAndAtItsHeightsFromTheSide) {
-  const Image image = drawn(Style::contour, cone(0.5, 0));
+  const Image image = drawn(find_style("contour"), cone(0.5, 0));
   // The line of 0.5 in both halves, well above the colour bar. A ring on the left, one level line on the right.
   const Colour colour = viridis(0.5);
   int left_low = 2000, left_high = 0, right_low = 2000, right_high = 0;
@@ -259,7 +264,7 @@ TEST(Picture, OfUnusualDomainsIsDrawn) {
       sampled({-1e300, -1e300, 0}, {1e300, 1e300, 0}, 20, [](double x, double) { return x > 0 ? 1. : 0.; }),
   };
   for (std::size_t i = 0; i < domains.size(); ++i)
-    for (const Style style : styles)
+    for (const Style& style : flat_styles())
       EXPECT_GT(colours_of(drawn(style, domains[i], {.width = 640, .height = 480})), 50u) << "domain " << i;
 }
 
@@ -269,7 +274,7 @@ TEST(Picture, OfUnusualDensitiesIsDrawn) {
     return sampled({-1, -1, 0}, {1, 1, 0}, 30, [=](double x, double y) { return x * x + y * y < 0.25 ? a : b; });
   };
   const PictureOptions small{.width = 320, .height = 240};
-  for (const Style style : styles) {
+  for (const Style& style : flat_styles()) {
     for (const double a : {0., 1., nan, infinity, -infinity, 1e300, 1e-320})
       for (const double b : {0., nan, -infinity})
         EXPECT_GT(colours_of(drawn(style, filled(a, b), small)), 30u) << a << " " << b;
@@ -285,7 +290,7 @@ TEST(Picture, OfUnusualDensitiesIsDrawn) {
 TEST(Picture, TakesAnyTitle) {
   for (const char* title :
        {"", " ", "line\nbreak", "\xFF\xC3 broken UTF-8", "\u03B5 = 2h, \u222B\u03C1 dx", "$x^2$ $y$", "50 % <b>&</b>"})
-    EXPECT_GT(colours_of(drawn(Style::heatmap, cone(0, 0), {.title = title, .width = 320, .height = 240})), 30u)
+    EXPECT_GT(colours_of(drawn(find_style("heatmap"), cone(0, 0), {.title = title, .width = 320, .height = 240})), 30u)
         << title;
 }
 
@@ -293,22 +298,22 @@ TEST(Picture, RefusesWhatItCannotShow) {
   const Folder folder;
   auto density = cone(0, 0);
   density.rho.pop_back();
-  EXPECT_THROW(draw(Style::heatmap, density, {}, folder / "p.png"), Error);
+  EXPECT_THROW(draw(find_style("heatmap"), density, {}, folder / "p.png"), Error);
   const DensityGrid solid{make_lattice(3, {0, 0, 0}, {1, 1, 1}, 3), std::vector<double>(27)};
-  EXPECT_THROW(draw(Style::surface, solid, {}, folder / "p.png"), Error);
-  EXPECT_THROW(draw(Style::surface, cone(0, 0), {.width = 0}, folder / "p.png"), Error);
+  EXPECT_THROW(draw(find_style("surface"), solid, {}, folder / "p.png"), Error);
+  EXPECT_THROW(draw(find_style("surface"), cone(0, 0), {.width = 0}, folder / "p.png"), Error);
   EXPECT_EQ(folder.count(), 0u);
-  EXPECT_GT(colours_of(drawn(Style::surface, cone(0, 0))), 100u) << "and the next picture is none the worse";
+  EXPECT_GT(colours_of(drawn(find_style("surface"), cone(0, 0))), 100u) << "and the next picture is none the worse";
 }
 
 TEST(Picture, KeepsTheOldFileOnAFullDisk) {
   const Folder folder;
-  draw(Style::heatmap, cone(0, 0), {}, folder / "p.png");
+  draw(find_style("heatmap"), cone(0, 0), {}, folder / "p.png");
   const std::string old = text_of(folder / "p.png");
   std::string text;
   {
     const FileSizeLimit limit(1000);
-    text = message_of<FileError>([&] { draw(Style::heatmap, cone(0.5, 0), {}, folder / "p.png"); });
+    text = message_of<FileError>([&] { draw(find_style("heatmap"), cone(0.5, 0), {}, folder / "p.png"); });
   }
   EXPECT_NE(text.find("p.png: File too large"), std::string::npos) << text;
   EXPECT_EQ(text_of(folder / "p.png"), old);
@@ -316,11 +321,11 @@ TEST(Picture, KeepsTheOldFileOnAFullDisk) {
 }
 
 TEST(Picture, MayBeDrawnByAnotherThread) {
-  const Image here = drawn(Style::surface, cone(0.5, 0));
+  const Image here = drawn(find_style("surface"), cone(0.5, 0));
   Image there;
-  std::thread([&] { there = drawn(Style::surface, cone(0.5, 0)); }).join();
+  std::thread([&] { there = drawn(find_style("surface"), cone(0.5, 0)); }).join();
   EXPECT_EQ(there.pixels, here.pixels);
-  EXPECT_EQ(drawn(Style::surface, cone(0.5, 0)).pixels, here.pixels);
+  EXPECT_EQ(drawn(find_style("surface"), cone(0.5, 0)).pixels, here.pixels);
 }
 
 /// This program once more, with next to no environment: no DISPLAY, and a home that cannot be written or created.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "render/picture.hpp"
+#include "render/styles.hpp"
 #include "write/files.hpp"
 #ifdef GAUSSDRIFT_PICTURES
 #include "render/read_png.hpp"
@@ -77,22 +77,27 @@ TEST(Solid, ThinningKeepsPlacesAndValues) {
 }
 
 TEST(Style, KnowsTheDimensionsItShows) {
-  for (const Style style : {Style::surface, Style::contour, Style::heatmap}) {
-    EXPECT_TRUE(shows(style, 2));
-    EXPECT_FALSE(shows(style, 3));
+  for (const char* flat : {"surface", "contour", "heatmap"}) {
+    EXPECT_TRUE(find_style(flat).about.shows(2)) << flat;
+    EXPECT_FALSE(find_style(flat).about.shows(3)) << flat;
   }
-  for (const Style style : {Style::slices, Style::projection, Style::isosurface}) {
-    EXPECT_FALSE(shows(style, 2));
-    EXPECT_TRUE(shows(style, 3));
+  for (const char* solid : {"slices", "projection", "isosurface"}) {
+    EXPECT_FALSE(find_style(solid).about.shows(2)) << solid;
+    EXPECT_TRUE(find_style(solid).about.shows(3)) << solid;
   }
-  EXPECT_TRUE(shows(Style::error, 2) && shows(Style::error, 3));
+  EXPECT_TRUE(find_style("error").about.shows(2) && find_style("error").about.shows(3));
 }
 
 #ifdef GAUSSDRIFT_PICTURES
 
-constexpr std::array solid_styles{Style::slices, Style::projection, Style::isosurface, Style::error};
+std::vector<Style> solid_styles() {
+  std::vector<Style> solid;
+  for (const Style& style : styles())
+    if (style.about.shows(3)) solid.push_back(style);
+  return solid;
+}
 
-Image drawn(Style style, const DensityGrid& density, const PictureOptions& options = {}) {
+Image drawn(const Style& style, const DensityGrid& density, const PictureOptions& options = {}) {
   const Folder folder;
   draw(style, density, options, folder / "p.png");
   return read_png(folder / "p.png");
@@ -109,7 +114,7 @@ struct Found {
 
 std::array<Found, 3> panels_of(DensityGrid density) {
   std::fill(density.rho.begin(), density.rho.end(), nan);
-  const Image image = drawn(Style::slices, density);
+  const Image image = drawn(find_style("slices"), density);
   const auto bounds = [&](int x0, int x1, int y0, int y1) {
     Found found{image.width, -1, image.height, -1};
     for (int y = y0; y < y1; ++y)
@@ -146,8 +151,8 @@ TEST(SlicesAndProjection, AreBrightestWhereTheDensityIsLargest) {
   const auto density = ball(at[0], at[1], at[2]);
   const auto panels = panels_of(density);
   for (const Found& panel : panels) EXPECT_NEAR(panel.width(), panel.height(), 1) << "equal aspect";
-  for (const Style style : {Style::slices, Style::projection}) {
-    const Image image = drawn(style, density);
+  for (const char* style : {"slices", "projection"}) {
+    const Image image = drawn(find_style(style), density);
     const auto xy = brightest(image, panels[0]), xz = brightest(image, panels[1]), zy = brightest(image, panels[2]);
     const double pixel = 2.5 / panels[0].width();  // the top is flat to 1/255 over a few pixels
     EXPECT_NEAR(xy[0], at[0], pixel);
@@ -164,13 +169,13 @@ TEST(Projection, ShowsWhatTheSlicesMiss) {
   const auto second = ball(0.75, 0.75, 0.75, 0.8);
   for (std::size_t i = 0; i < density.rho.size(); ++i) density.rho[i] += second.rho[i];
   const auto panels = panels_of(density);
-  const auto colour_at = [&](Style style, double x, double y) {
+  const auto colour_at = [&](const Style& style, double x, double y) {
     const Found& panel = panels[0];
     return drawn(style, density)
         .at(panel.left + static_cast<int>(x * panel.width()), panel.bottom + static_cast<int>(y * panel.height()));
   };
-  EXPECT_EQ(colour_at(Style::slices, 0.75, 0.75), viridis(0)) << "the slice lies at z = 0.25";
-  const Colour seen = colour_at(Style::projection, 0.75, 0.75), expected = viridis(0.8);
+  EXPECT_EQ(colour_at(find_style("slices"), 0.75, 0.75), viridis(0)) << "the slice lies at z = 0.25";
+  const Colour seen = colour_at(find_style("projection"), 0.75, 0.75), expected = viridis(0.8);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], expected[k], 4) << "half a pixel beside the top";
 }
 
@@ -190,7 +195,7 @@ TEST(Slices, GiveAValueTheSameColourInEveryFrame) {
   };
   const auto panels = panels_of(density(0));
   for (const double other : {0., 0.3, 1., 40.}) {
-    const Image image = drawn(Style::slices, density(other));
+    const Image image = drawn(find_style("slices"), density(other));
     const int y = panels[0].bottom + panels[0].height() / 3;
     EXPECT_EQ(image.at(panels[0].left + panels[0].width() / 4, y), viridis(0.5));
     EXPECT_EQ(image.at(panels[0].left + 3 * panels[0].width() / 4, y), viridis(other));
@@ -202,7 +207,7 @@ TEST(ErrorPicture, IsBlueBelowWhiteAtAndRedAboveZero) {
     return x < 0.3 ? -1e-3 : x > 0.7 ? 1e-3 : 0.;
   });
   const auto panels = panels_of(error);
-  const auto solid = drawn(Style::error, error, {.range_min = -1e-3, .range_max = 1e-3});
+  const auto solid = drawn(find_style("error"), error, {.range_min = -1e-3, .range_max = 1e-3});
   const auto colour = [&](double share) {
     const Found& panel = panels[0];
     return solid.at(panel.left + static_cast<int>(share * panel.width()), panel.bottom + panel.height() / 3);
@@ -210,7 +215,8 @@ TEST(ErrorPicture, IsBlueBelowWhiteAtAndRedAboveZero) {
   EXPECT_EQ(colour(0.15), blue_white_red(0));
   EXPECT_EQ(colour(0.5), blue_white_red(0.5));
   EXPECT_EQ(colour(0.85), blue_white_red(1));
-  EXPECT_GT(colours_of(drawn(Style::error, {make_lattice(2, {0, 0, 0}, {1, 1, 0}, 20), std::vector<double>(400, 0.1)})),
+  EXPECT_GT(colours_of(
+                drawn(find_style("error"), {make_lattice(2, {0, 0, 0}, {1, 1, 0}, 20), std::vector<double>(400, 0.1)})),
             30u);
 }
 
@@ -225,8 +231,8 @@ Found solid_surface(const Image& image) {
 }
 
 TEST(Isosurface, OfABallIsRoundAndMovesWithIt) {
-  const Found low = solid_surface(drawn(Style::isosurface, ball(0.5, 0.5, 0.3)));
-  const Found high = solid_surface(drawn(Style::isosurface, ball(0.5, 0.5, 0.7)));
+  const Found low = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.3)));
+  const Found high = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.7)));
   ASSERT_GT(low.width(), 20);
   EXPECT_NEAR(low.width(), low.height(), 0.15 * low.width());
   EXPECT_GT(high.bottom, low.bottom + 100);
@@ -234,7 +240,7 @@ TEST(Isosurface, OfABallIsRoundAndMovesWithIt) {
 }
 
 TEST(Isosurface, LetsTheSolidOneShineThrough) {
-  const Image image = drawn(Style::isosurface, ball(0.5, 0.5, 0.5));
+  const Image image = drawn(find_style("isosurface"), ball(0.5, 0.5, 0.5));
   const Found solid = solid_surface(image);
   // Around it the clear ones tint the white background without hiding it.
   std::size_t tinted = 0;
@@ -246,7 +252,7 @@ TEST(Isosurface, LetsTheSolidOneShineThrough) {
 }
 
 TEST(SolidPicture, HasItsSizeWhiteMarginsAndNoChange) {
-  for (const Style style : solid_styles) {
+  for (const Style& style : solid_styles()) {
     const PictureOptions options{.title = "Ball", .time = 1.5};
     const Image image = drawn(style, ball(0.5, 0.4, 0.3), options);
     EXPECT_EQ(image.width, 1280);
@@ -257,7 +263,7 @@ TEST(SolidPicture, HasItsSizeWhiteMarginsAndNoChange) {
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x)
         ASSERT_TRUE((inner(x, image.width) && inner(y, image.height)) || image.at(x, y) == white)
-            << x << ", " << y << " " << to_string(style);
+            << x << ", " << y << " " << style.about.name;
     EXPECT_NE(drawn(style, ball(0.5, 0.4, 0.6), options).pixels, image.pixels);
   }
 }
@@ -277,21 +283,21 @@ TEST(SolidPicture, OfUnusualBoxesAndDensitiesIsDrawn) {
               [](double x, double, double) { return x > 0.5 ? std::numeric_limits<double>::infinity() : -1e300; }),
   };
   for (std::size_t i = 0; i < densities.size(); ++i)
-    for (const Style style : {Style::slices, Style::projection, Style::isosurface})
-      EXPECT_GT(colours_of(drawn(style, densities[i], {.range_max = 0, .width = 320, .height = 240})), 20u)
-          << "density " << i << ", " << to_string(style);
+    for (const char* style : {"slices", "projection", "isosurface"})
+      EXPECT_GT(colours_of(drawn(find_style(style), densities[i], {.range_max = 0, .width = 320, .height = 240})), 20u)
+          << "density " << i << ", " << style;
 }
 
 TEST(SolidPicture, OfTheWrongDimensionIsRefused) {
   const Folder folder;
   const DensityGrid flat{make_lattice(2, {0, 0, 0}, {1, 1, 0}, 3), std::vector<double>(9)};
-  for (const Style style : {Style::slices, Style::projection, Style::isosurface})
-    EXPECT_THROW(draw(style, flat, {}, folder / "p.png"), Error);
-  for (const Style style : {Style::surface, Style::contour, Style::heatmap})
-    EXPECT_THROW(draw(style, ball(0.5, 0.5, 0.5), {}, folder / "p.png"), Error);
+  for (const char* style : {"slices", "projection", "isosurface"})
+    EXPECT_THROW(draw(find_style(style), flat, {}, folder / "p.png"), Error);
+  for (const char* style : {"surface", "contour", "heatmap"})
+    EXPECT_THROW(draw(find_style(style), ball(0.5, 0.5, 0.5), {}, folder / "p.png"), Error);
   auto short_one = ball(0.5, 0.5, 0.5);
   short_one.rho.pop_back();
-  for (const Style style : solid_styles) EXPECT_THROW(draw(style, short_one, {}, folder / "p.png"), Error);
+  for (const Style& style : solid_styles()) EXPECT_THROW(draw(style, short_one, {}, folder / "p.png"), Error);
   EXPECT_EQ(folder.count(), 0u);
 }
 

@@ -1,0 +1,170 @@
+// The lines and the JSON of `gaussdrift check`.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "accuracy/forecast.hpp"
+#include "accuracy/grouped.hpp"
+#include "sim/outside.hpp"
+
+namespace gaussdrift::accuracy {
+
+namespace {
+
+std::string bytes_text(double bytes) {
+  if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
+  if (bytes < 1e9) return fmt::format("{:.3g} MB", bytes / 1e6);
+  return fmt::format("{:.3g} GB", bytes / 1e9);
+}
+
+std::string effects_text(const std::vector<std::string>& effects) {
+  if (effects.empty()) return "transport only";
+  std::string text = "transport";
+  for (const std::string& effect : effects) text += ", " + effect;
+  return text;
+}
+
+std::string head_text(const Case& spec, const Forecast& r) {
+  const Domain& domain = spec.domain;
+  std::string box;
+  for (int k = 0; k < domain.dimension; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    box += fmt::format("{}[{:g},{:g}]", k ? "x" : "", domain.min[axis], domain.max[axis]);
+  }
+  const std::string divergence = r.solenoidal ? "div u = 0"
+                                 : r.largest_divergence <= r.divergence_noise
+                                     ? "div u = 0 (sampled)"
+                                     : fmt::format("max|div u| = {:.3g} (sampled)", r.largest_divergence);
+  std::string text = fmt::format("{}  {}D  {}   {}   max|u| = {:.3g}\n", spec.name, domain.dimension, box, divergence,
+                                 r.largest_speed);
+  if (!spec.title.empty())
+    text += fmt::format("title      {}{}\n", spec.title, spec.cite.empty() ? "" : ", after " + spec.cite);
+  return text;
+}
+
+std::string particles_text(const Case& spec, const Forecast& r) {
+  std::string text;
+  text += fmt::format("velocity   {}\n", r.velocity);
+  for (const std::string& warning : r.step_warnings) text += fmt::format("           {}\n", warning);
+  text += fmt::format("density    {}\n", r.initial_density);
+  text +=
+      fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}\n",
+                  grouped(r.lattice_points), r.spacing, spec.particles.overlap, r.core_radius, spec.particles.cutoff,
+                  r.whole ? "" : "about ", grouped(r.particles), r.seeding.carried.size() > 1 ? " or charge" : "");
+  if (r.seeding.left_out > 0)
+    text += fmt::format(
+        "           {} with less than {:g} of the largest weight are left out: {:.1e} of the mass{} "
+        "(particles.threshold)\n",
+        grouped(r.seeding.left_out), spec.particles.threshold, r.seeding.carried.front().part(),
+        r.seeding.carried.size() > 1 ? fmt::format(", {:.1e} of the charge", r.seeding.carried.back().part()) : "");
+  if (const std::string beyond = about_beyond(r.beyond_at_start); !beyond.empty())
+    text += fmt::format("           {}\n", beyond);
+  return text;
+}
+
+/// What happens beside transport, what it is compared with, and how the density is summed.
+std::string run_text(const Case& spec, const Forecast& r) {
+  std::string text;
+  text += fmt::format("effects    {}\n", effects_text(r.effects));
+  for (const std::string& warning : r.effect_warnings) text += fmt::format("           {}\n", warning);
+  if (!r.reference.empty()) text += fmt::format("reference  {}\n", r.reference);
+  text += fmt::format("transform  {}\n", r.density.choice);
+  text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n",
+                      spec.evaluate.tolerance, r.density.measured_error, r.density.sample);
+  if (r.density.achievable > spec.evaluate.tolerance)
+    text +=
+        fmt::format("           this tolerance cannot be promised here: the bound is {:.1e}\n", r.density.achievable);
+  text += fmt::format("           max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum,
+                      grouped(r.grid_points));
+  return text;
+}
+
+std::string cost_text(const Forecast& r) {
+  std::string text;
+  text += fmt::format(
+      "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (seeding {:.2g}, steps "
+      "{:.2g}, density "
+      "{:.2g}, reference {:.2g}, files {:.2g}, pictures {:.2g}, report {:.2g}); memory {}; disk {}\n",
+      grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads, r.seed_seconds,
+      static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
+      r.reference_seconds, r.file_seconds, r.picture_seconds, r.report_seconds, bytes_text(r.memory_bytes),
+      bytes_text(r.disk_bytes));
+  if (r.memory_bytes >= r.memory_there)
+    text += fmt::format("           this machine has {} of memory, so `run` refuses this case: lower {}\n",
+                        bytes_text(r.memory_there),
+                        r.particles > r.grid_points ? "particles.per_axis" : "evaluate.per_axis");
+  return text;
+}
+
+std::string errors_text(const Forecast& r) {
+  std::string text;
+  for (const std::string& sentence : r.left_out) text += fmt::format("sampled    {}\n", sentence);
+  if (r.budget.known() && r.budget.outside >= 1e-3)
+    text += fmt::format("leaving    {} of the mass is outside the domain at the last output\n",
+                        percent_text(r.budget.outside));
+  if (!r.budget.known())
+    text += fmt::format("errors     not predicted: {}\n", r.budget.not_covered);
+  else
+    text += fmt::format("expected error at the end, largest, relative to max rho: {:.2g}\n{}", r.budget.total,
+                        to_text(r.budget));
+  return text;
+}
+
+nlohmann::ordered_json predicted_json(const Forecast& r) {
+  return {{"seconds", r.seconds},
+          {"seed_seconds", r.seed_seconds},
+          {"step_seconds", static_cast<double>(r.steps) * r.step_seconds},
+          {"density_seconds", static_cast<double>(r.frames) * r.evaluate_seconds},
+          {"reference_seconds", r.reference_seconds},
+          {"file_seconds", r.file_seconds},
+          {"picture_seconds", r.picture_seconds},
+          {"report_seconds", r.report_seconds},
+          {"memory_bytes", r.memory_bytes},
+          {"disk_bytes", r.disk_bytes},
+          {"threads", r.threads}};
+}
+
+}  // namespace
+
+std::string to_text(const Case& spec, const Forecast& r) {
+  return head_text(spec, r) + particles_text(spec, r) + run_text(spec, r) + cost_text(r) + errors_text(r);
+}
+
+std::string to_json(const Case& spec, const Forecast& r) {
+  std::vector<std::string> effects{"transport"};
+  effects.insert(effects.end(), r.effects.begin(), r.effects.end());
+  const nlohmann::ordered_json document{{"case", spec.name},
+                                        {"dimension", spec.domain.dimension},
+                                        {"velocity", r.velocity},
+                                        {"density", r.initial_density},
+                                        {"reference", to_string(spec.reference.kind)},
+                                        {"reference_paths", r.reference},
+                                        {"largest_speed", r.largest_speed},
+                                        {"largest_divergence", r.largest_divergence},
+                                        {"effects", effects},
+                                        {"step_warnings", r.step_warnings},
+                                        {"effect_warnings", r.effect_warnings},
+                                        {"lattice_points", r.lattice_points},
+                                        {"particles", r.particles},
+                                        {"left_out", r.seeding.left_out},
+                                        {"mass_left_out", r.seeding.carried.front().part()},
+                                        {"mass_outside_at_start", r.beyond_at_start},
+                                        {"mass_outside_at_end", r.budget.outside},
+                                        {"particles_counted", r.whole},
+                                        {"lattice_points_looked_at", r.looked_at},
+                                        {"spacing", r.spacing},
+                                        {"core_radius", r.core_radius},
+                                        {"grid_points", r.grid_points},
+                                        {"steps", r.steps},
+                                        {"frames", r.frames},
+                                        {"density_maximum", r.density_maximum},
+                                        {"transform",
+                                         {{"chosen", r.density.choice},
+                                          {"measured_error", r.density.measured_error},
+                                          {"achievable", r.density.achievable}}},
+                                        {"sampled", r.left_out},
+                                        {"budget", to_json(r.budget)},
+                                        {"predicted", predicted_json(r)}};
+  return document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gaussdrift::accuracy

@@ -1,0 +1,30 @@
+#include "cli/asked_case.hpp"
+
+#include "accuracy/target.hpp"
+#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
+#include "input/read_case.hpp"
+
+namespace gaussdrift::cli {
+
+Case read(const CaseOptions& options) {
+  std::vector<std::string> overrides = options.overrides;
+  if (!options.accuracy.empty()) overrides.push_back("accuracy.target=" + options.accuracy);
+  input::ReadResult result = input::read_case(options.file, overrides, options.threads);
+  for (const std::string& warning : result.warnings) note("{}\n", warning);
+  return std::move(result.scene);
+}
+
+Case settled(Case spec, const CaseOptions& options) {
+  if (!spec.accuracy.target) return spec;
+  accuracy::AccuracyChoice choice;
+  {
+    ProgressLine line(1);
+    choice = accuracy::choose_for_accuracy(spec, *spec.accuracy.target, options.threads,
+                                           [&](const std::string& what) { line.show(what); });
+  }
+  put(options.json ? stderr : stdout, accuracy::to_text(choice));
+  return std::move(choice.scene);
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,20 @@
+// gaussdrift check: what a case will do, found without running it.
+#include "accuracy/forecast.hpp"
+#include "cli/asked_case.hpp"
+#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
+
+namespace gaussdrift::cli {
+
+ExitCode check(const CaseOptions& options) {
+  const Case spec = settled(read(options), options);
+  accuracy::Forecast forecast;
+  {
+    ProgressLine line(1);
+    forecast = accuracy::forecast(spec, options.threads, [&](const std::string& what) { line.show("check: " + what); });
+  }
+  say("{}", options.json ? accuracy::to_json(spec, forecast) : accuracy::to_text(spec, forecast));
+  return ExitCode::ok;
+}
+
+}  // namespace gaussdrift::cli

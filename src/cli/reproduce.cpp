@@ -1,0 +1,144 @@
+// gaussdrift reproduce: tables, figures and claims of the literature, made again.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.hpp"
+#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
+#include "reproduce/claims.hpp"
+#include "reproduce/cone.hpp"
+#include "reproduce/coulomb.hpp"
+#include "reproduce/fgtd.hpp"
+#include "reproduce/figures.hpp"
+#include "reproduce/logkernel.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+ExitCode reproduce_cone(const ReproduceOptions& options) {
+  if (!options.table.empty() || options.full)
+    throw CommandLineError(
+        "the cone has no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
+  reproduce::ConeReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_cone(options.threads, [&](std::size_t done, std::size_t total) {
+      line.show(fmt::format("{} of {} heights", done, total));
+    });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return result.worst_difference <= reproduce::cone_agreement ? ExitCode::ok : ExitCode::check;
+}
+
+ExitCode reproduce_claims(const ReproduceOptions& options) {
+  if (!options.table.empty() || options.full)
+    throw CommandLineError(
+        "the claims have no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
+  reproduce::ClaimsOptions claims;
+  if (options.threads > 0) claims.threads = options.threads;
+  reproduce::ClaimsReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_claims(claims, [&](const std::string& what) { line.show(what); });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return ExitCode::ok;
+}
+
+ExitCode reproduce_coulomb(const ReproduceOptions& options) {
+  if (!options.table.empty()) throw CommandLineError("coulomb is one table; leave the number away");
+  reproduce::CoulombOptions coulomb;
+  if (options.threads > 0) coulomb.threads = options.threads;
+  if (options.full) {
+    coulomb.most_particles = 6'400'000;
+    coulomb.most_by_pairs = 100'000;
+  }
+  reproduce::CoulombReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_coulomb(
+        coulomb, [&](std::size_t particles) { line.show(fmt::format("{} particles", particles)); });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
+}
+
+ExitCode reproduce_logkernel(const ReproduceOptions& options) {
+  if (!options.table.empty()) throw CommandLineError("logkernel has no tables to choose from; leave the number away");
+  reproduce::LogKernelOptions logkernel;
+  logkernel.folder = options.folder.empty() ? fs::path("output") / "logkernel" : options.folder;
+  if (options.full) logkernel.largest_dense = 14;
+  reproduce::LogKernelReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_logkernel(logkernel, [&](const std::string& what) { line.show(what); });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return ExitCode::ok;
+}
+
+ExitCode reproduce_tables(reproduce::TableSet set, const ReproduceOptions& options) {
+  reproduce::FgtdOptions fgtd = options.full ? reproduce::FgtdOptions::everything() : reproduce::FgtdOptions{};
+  fgtd.set = set;
+  fgtd.table = options.table;
+  fgtd.threads = options.threads;
+  reproduce::FgtdReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_fgtd(fgtd, [&](const std::string& table) { line.show(table); });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return result.disagreements.empty() ? ExitCode::ok : ExitCode::check;
+}
+
+ExitCode reproduce_figures(const ReproduceOptions& options) {
+  const reproduce::FiguresOptions figures{
+      .figure = options.table,
+      .folder = options.folder.empty() ? fs::path("output") / "figures" : options.folder,
+      .full = options.full,
+      .threads = options.threads};
+  std::vector<reproduce::Figure> made;
+  {
+    ProgressLine line;
+    made = reproduce::reproduce_figures(figures, [&](const std::string& figure) { line.show(figure); });
+  }
+  say("{}", options.json ? reproduce::to_json(made) : reproduce::to_text(made));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode reproduce(const ReproduceOptions& options) {
+  if (!options.folder.empty() && options.what != "figures" && options.what != "logkernel")
+    throw CommandLineError("--out goes with: reproduce figures, logkernel");
+  if (options.what == "figures") return reproduce_figures(options);
+  if (options.what == "coulomb") return reproduce_coulomb(options);
+  if (options.what == "logkernel") return reproduce_logkernel(options);
+  if (options.what == "claims") return reproduce_claims(options);
+  if (options.what == "cone") return reproduce_cone(options);
+  if (options.what == "fgtd") return reproduce_tables(reproduce::TableSet::fgtd, options);
+  if (options.what == "divergence") return reproduce_tables(reproduce::TableSet::divergence, options);
+  if (!options.what.empty())
+    throw CommandLineError(
+        fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, claims, "
+                    "coulomb, logkernel",
+                    options.what));
+  say("tables that can be reproduced:\n"
+      "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
+      "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
+      "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"
+      "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n"
+      "  claims      what the text of Schroeder 2006 claims outside its tables, and whether it holds\n"
+      "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n"
+      "  logkernel   ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project 6\n",
+      fmt::join(reproduce::table_numbers(reproduce::TableSet::fgtd), ", "),
+      fmt::join(reproduce::table_numbers(reproduce::TableSet::divergence), " and "),
+      fmt::join(reproduce::figure_numbers(), ", "));
+  return ExitCode::ok;
+}
+
+}  // namespace gaussdrift::cli

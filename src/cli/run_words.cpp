@@ -1,0 +1,180 @@
+#include "cli/run_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "accuracy/would_run.hpp"
+#include "base/stopwatch.hpp"
+#include "sim/outside.hpp"
+#include "write/output_files.hpp"
+#include "write/series_table.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// "smoothing 0.024 dominates, quadrature 4e-07, ..."
+std::string one_line(const accuracy::Budget& budget) {
+  std::vector<std::pair<double, std::string>> causes{{budget.time_stepping, "time stepping"},
+                                                     {budget.smoothing, "smoothing"},
+                                                     {budget.quadrature, "quadrature"},
+                                                     {budget.transform, "Gauss transform"}};
+  if (budget.left_out > 0) causes.emplace_back(budget.left_out, "particles left out");
+  std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (const auto& [value, name] : causes)
+    text += fmt::format("{}{} {:.1e}{}", text.empty() ? "" : ", ", name, value,
+                        name == budget.dominates ? " dominates" : "");
+  return text;
+}
+
+/// The stages that took the seconds, the largest first, down to a hundredth of all: "charge 460.21, density 30.02".
+std::string seconds_text(const RunSummary& summary) {
+  base::StageTimes parts;
+  double told = 0;
+  for (const auto& [stage, seconds] : summary.stages.stages()) {
+    const std::string name = stage.starts_with("write ")          ? "files"
+                             : stage.starts_with("effect ")       ? stage.substr(7)
+                             : stage == "predicted error budget"  ? "error budget"
+                             : stage == "measure transform error" ? "check of the transform"
+                                                                  : stage;
+    parts.add(name, seconds);
+    told += seconds;
+  }
+  if (summary.seconds > told) parts.add("other", summary.seconds - told);
+  std::vector<std::pair<std::string, double>> rows = parts.stages();
+  std::stable_sort(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [name, seconds] : rows)
+    if (text.empty() || seconds >= 0.01 * summary.seconds)
+      text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", name, seconds);
+  return text;
+}
+
+std::string place_text(const Vector& place, int dimension) {
+  std::string text;
+  for (int k = 0; k < dimension; ++k)
+    text += fmt::format("{}{:.4g}", k ? ", " : "(", place[static_cast<std::size_t>(k)]);
+  return text + ")";
+}
+
+std::string left_out_text(const Case& spec, const SeedReport& seeding) {
+  std::string parts = fmt::format("{:.1e} of the mass", seeding.carried.front().part());
+  if (seeding.carried.size() > 1) parts += fmt::format(", {:.1e} of the charge", seeding.carried.back().part());
+  return fmt::format("left out {} lattice points with less than {:g} of the largest weight: {} (particles.threshold)\n",
+                     seeding.left_out, spec.particles.threshold, parts);
+}
+
+std::string extremes_text(const FrameNumbers& numbers) {
+  return numbers.minimum < 0 ? fmt::format("rho in [{:.6g}, {:.6g}]", numbers.minimum, numbers.maximum)
+                             : fmt::format("max rho = {:.6g}", numbers.maximum);
+}
+
+/// What was done, and what came out.
+std::string result_text(const Case& spec, const RunSummary& summary) {
+  std::string text =
+      fmt::format("done   {} particles, {} steps, {} frames in {:.2f} s on {} threads ({})\n", summary.particles,
+                  summary.steps, summary.frames.size(), summary.seconds, summary.threads, seconds_text(summary));
+  if (!summary.frames.empty()) {
+    double worst = 0;
+    for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
+    const auto& [t0, first] = summary.frames.front();
+    const auto& [t1, last] = summary.frames.back();
+    std::string heights = fmt::format("{} at t = {:.4g}", extremes_text(first), t0);
+    if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {:.4g}", extremes_text(last), t1);
+    text += fmt::format("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights,
+                        last.mass, worst, spec.evaluate.tolerance);
+  }
+  if (summary.seeding.left_out > 0) text += left_out_text(spec, summary.seeding);
+  return text;
+}
+
+/// The error at the end, at its worst, and against the target.
+std::string error_text(const RunSummary& summary, std::optional<double> target) {
+  if (summary.frames.empty()) return "";
+  const auto& [end, last] = summary.frames.back();
+  std::string text;
+  if (!last.no_norms.empty()) {
+    text += fmt::format("error  at t = {:.4g} {}\n", end, last.no_norms);
+  } else if (last.error) {
+    const std::string where = last.compared < summary.grid_points
+                                  ? fmt::format(", on {} of {} grid points", last.compared, summary.grid_points)
+                                  : "";
+    const std::string how = summary.reference_word.empty() ? "" : ", " + summary.reference_word;
+    text += fmt::format("error  at t = {:.4g}, relative to the exact density{}{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n",
+                        end, where, how, last.error->l1, last.error->l2, last.error->linf);
+  }
+  if (const auto* hardest = worst_output(summary.frames); hardest && hardest->first != end)
+    text += fmt::format("worst  at t = {:.4g}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", hardest->first,
+                        hardest->second.error->l1, hardest->second.error->l2, hardest->second.error->linf);
+  if (target && !last.no_norms.empty())
+    text += fmt::format("target {:g}: not known whether it is met, {}\n", *target, last.no_norms);
+  else if (target && last.error)
+    text += fmt::format("target {:g}: achieved {:.2e}{}\n", *target, last.error->linf,
+                        last.error->linf <= *target ? "" : ", MISSED");
+  return text;
+}
+
+std::string budget_text(const accuracy::Budget& budget) {
+  if (!budget.known()) return fmt::format("budget none: {}\n", budget.not_covered);
+  std::string text = fmt::format("budget {}\n", one_line(budget));
+  for (const std::string& advice : budget.advice) text += fmt::format("hint   {}\n", advice);
+  return text;
+}
+
+/// Where to look.
+std::string files_text(const fs::path& folder) {
+  const fs::path page = folder / "report.html", pictures = folder / "images",
+                 density = folder / fmt::format("{}.pvd", write::density_output().about.name);
+  return fmt::format("open   {}{}{}\n", fs::is_regular_file(page) ? page.string() + ", " : "",
+                     fs::exists(density) ? density.string() + " in ParaView" : (folder / write::series_name).string(),
+                     fs::exists(pictures) ? ", pictures in " + pictures.string() : "");
+}
+
+}  // namespace
+
+std::string ending_text(const Case& spec, const RunSummary& summary, const std::optional<accuracy::Budget>& budget,
+                        std::optional<double> target, const fs::path& folder) {
+  std::string text = result_text(spec, summary) + error_text(summary, target);
+  if (budget) text += budget_text(*budget);
+  for (const CheckResult& result : summary.checks)
+    text += fmt::format("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
+  return text + files_text(folder);
+}
+
+std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary) {
+  std::vector<std::string> warnings;
+  if (summary.transform_achievable > spec.evaluate.tolerance)
+    warnings.push_back(
+        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights. The error of the sum is at most "
+                    "{:.1e} of max rho.",
+                    spec.evaluate.tolerance, summary.transform_achievable));
+  Case remeshed = spec;
+  remeshed.effects.remesh = RemeshSpec{};
+  for (const auto& [time, numbers] : summary.frames)
+    if (numbers.stretch > spec.particles.overlap) {
+      warnings.push_back(fmt::format(
+          "at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart. Blobs {:g} spacings wide "
+          "no longer overlap there, so the density has false gaps and peaks. Use {}more overlap on a finer lattice.",
+          time, numbers.stretch, spec.particles.overlap,
+          accuracy::why_not_read(remeshed).empty() ? "[effects.remesh], or " : ""));
+      break;
+    }
+  warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());
+  for (const EffectSummary& effect : summary.effects)
+    if (!effect.warning.empty()) warnings.push_back(fmt::format("{}: {}", effect.name, effect.warning));
+  if (summary.reference.untraced > 0)
+    warnings.push_back(
+        fmt::format("the exact density is not known at {} grid points of all outputs (one is {}: {}); the norms of the "
+                    "error leave them out",
+                    summary.reference.untraced, place_text(summary.reference.first_untraced, spec.domain.dimension),
+                    summary.reference.trouble));
+  for (const std::string& text : {about_leaving(summary.frames), about_beyond(summary.beyond_at_start)})
+    if (!text.empty()) warnings.push_back(text);
+  return warnings;
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,233 @@
+#include "report/sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "sim/outside.hpp"
+
+namespace gaussdrift::report {
+
+std::string verdict(const json& summary) {
+  const json frames = get(summary, "frames"), checks = get(summary, "checks"), target = get(summary, "accuracy"),
+             budget = get(get(summary, "budget"), "measured"), advice = get(get(summary, "budget"), "advice");
+  const json last = frames.empty() ? json() : frames.back();
+  std::string text;
+  if (!last.contains("Linf"))
+    text += "The run was compared with nothing, so its error is not known.";
+  else if (!last.at("Linf").is_number())
+    text += fmt::format("At t = {} {}.", number(last.at("t"), "{:.4g}"),
+                        get(last, "no_norms").is_string() ? escaped(last.at("no_norms").get<std::string>())
+                                                          : "the error is not a number");
+  else
+    text += fmt::format("At t = {} the largest error is <b>{}</b> of the largest density (L1 {}, L2 {}).",
+                        number(last.at("t"), "{:.4g}"), number(last.at("Linf"), "{:.2e}"),
+                        number(last.at("L1"), "{:.2e}"), number(last.at("L2"), "{:.2e}"));
+  if (const json worst = get(summary, "worst"); worst.is_object() && worst.at("t") != get(last, "t"))
+    text += fmt::format(" The worst output is that at t = {}: {} (L1 {}, L2 {}).", number(worst.at("t"), "{:.4g}"),
+                        number(worst.at("Linf"), "{:.2e}"), number(worst.at("L1"), "{:.2e}"),
+                        number(worst.at("L2"), "{:.2e}"));
+  if (target.is_object())
+    text += fmt::format(" Target {}: {}.", number(target.at("target"), "{:g}"),
+                        !target.at("achieved").is_number() ? "not known whether it is met"
+                        : target.at("met") == json(true)   ? "<b>met</b>"
+                                                           : "<b class=bad>missed</b>");
+  if (budget.contains("dominates"))
+    text += fmt::format(" Most of it is {}.", escaped(budget.at("dominates").get<std::string>()));
+  std::size_t failed = 0;
+  for (const json& check : checks) failed += !check.at("passed").get<bool>();
+  if (!checks.empty())
+    text += failed && checks.size() == 1 ? " <b class=bad>The check failed.</b>"
+            : failed ? fmt::format(" <b class=bad>{} of {} checks failed.</b>", failed, checks.size())
+                     : fmt::format(" {} passed.", checks.size() == 1 ? "The check" : "All checks");
+  if (!advice.empty()) text += "<br>Advice: " + escaped(advice.front().get<std::string>()) + ".";
+  return text;
+}
+
+std::string about_comparison(const json& summary, const json& last) {
+  const json points = get(get(summary, "evaluate"), "grid_points"), compared = get(last, "compared"),
+             untraced = get(last, "untraced"), kind = get(get(summary, "reference"), "kind");
+  std::string text = "Relative to the exact density of the same time";
+  if (kind == json("characteristics")) text += ", which is traced back along the paths of the flow";
+  if (kind == json("exact")) text += ", which the case gives as a formula";
+  text += ".";
+  if (compared.is_number() && points.is_number() && compared < points)
+    text += fmt::format(
+        " Compared at a sample, {} of the {} grid points, those around the maximum among them: the largest error is "
+        "that "
+        "of the sample.",
+        compared.get<std::size_t>(), points.get<std::size_t>());
+  if (untraced.is_number() && untraced > 0)
+    text +=
+        fmt::format(" At {} points of the last output the exact density is not known, and the norms leave them out{}.",
+                    untraced.get<std::size_t>(),
+                    get(get(summary, "reference"), "trouble").is_string()
+                        ? ": " + escaped(summary.at("reference").at("trouble").get<std::string>())
+                        : "");
+  return text;
+}
+
+namespace {
+
+std::string bars(const std::vector<std::pair<std::string, double>>& rows) {
+  double total = 0;
+  for (const auto& [name, value] : rows) total = std::max(total, value);
+  std::string text = "<table class=bars>";
+  for (const auto& [name, value] : rows)
+    if (value >= 0.001 * total)
+      text += fmt::format("<tr><td>{}<td class=n>{:.3g} s<td class=w><div style=\"width:{:.1f}%\"></div>",
+                          escaped(name), value, total > 0 ? 100 * value / total : 0);
+  return text + "</table>";
+}
+
+}  // namespace
+
+std::string budget_table(const json& budget) {
+  const json predicted = get(budget, "predicted"), measured = get(budget, "measured");
+  if (measured.contains("not_covered") && predicted.contains("not_covered"))
+    return "<p>Not told apart: " + escaped(measured.at("not_covered").get<std::string>()) + ".";
+  std::string text = "<table class=numbers><tr><th class=l>cause<th>predicted<th>measured";
+  for (const auto& [key, name] : {std::pair{"time_stepping", "time stepping"},
+                                  {"smoothing", "smoothing"},
+                                  {"quadrature", "quadrature"},
+                                  {"transform", "Gauss transform"},
+                                  {"left_out", "particles left out, at most"},
+                                  {"total", "total"}}) {
+    if (key == std::string("left_out") && is_zero(get(predicted, key)) && is_zero(get(measured, key))) continue;
+    const json dominates = get(measured.contains("dominates") ? measured : predicted, "dominates");
+    const bool most = dominates.is_string() && std::string(name).starts_with(dominates.get<std::string>());
+    text += fmt::format("<tr{}><td>{}<td class=n>{}<td class=n>{}", most ? " class=most" : "", name,
+                        number(get(predicted, key), "{:.1e}"), number(get(measured, key), "{:.1e}"));
+  }
+  text += "</table>";
+  if (const json advice = get(budget, "advice"); !advice.empty()) {
+    text += "<ul>";
+    for (const json& line : advice) text += "<li>" + escaped(line.get<std::string>());
+    text += "</ul>";
+  }
+  return text;
+}
+
+std::string accuracy_table(const json& summary) {
+  std::string text =
+      "<h2>What digits of the sum cost</h2><p>The Gauss transform of the last output, done again: tolerance asked "
+      "for, error measured against the direct sum on a sample, both relative to the largest density; milliseconds, "
+      "the fastest of some.</p><table class=numbers><tr><th>tolerance<th>error<th>ms";
+  for (const json& row : summary.at("accuracy_table"))
+    text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}", number(row.at("tolerance"), "{:.0e}"),
+                        number(row.at("error"), "{:.1e}"), number(row.at("milliseconds"), "{:.3g}"));
+  text += "</table>\n";
+  if (const json note = get(summary, "accuracy_table_note"); note.is_string())
+    text += "<p class=quiet>" + escaped(note.get<std::string>()) + "</p>\n";
+  return text;
+}
+
+std::string conservation(const json& frames) {
+  // Runs from before the particles outside were counted have no such number.
+  const bool leaves =
+      std::any_of(frames.begin(), frames.end(), [](const json& frame) { return !is_zero(get(frame, "outside")); });
+  std::string text = fmt::format("<table class=numbers><tr><th>t<th>mass<th>change{}<th>centroid<th>minimum<th>maximum",
+                                 leaves ? "<th>outside the domain" : "");
+  const double begun = frames.front().at("mass").get<double>();
+  double far = 0;  // centroids below rounding of the furthest are 0
+  for (const json& frame : frames)
+    for (const json& x : frame.at("centroid"))
+      if (x.is_number()) far = std::max(far, std::abs(x.get<double>()));
+  constexpr std::size_t rows = 25;
+  const std::size_t stride = (frames.size() + rows - 1) / rows;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i % stride != 0 && i + 1 < frames.size()) continue;
+    const json& frame = frames[i];
+    std::string centroid;
+    for (const json& x : frame.at("centroid")) {
+      const bool is_zero = x.is_number() && std::abs(x.get<double>()) <= 1e-12 * far;
+      centroid += (centroid.empty() ? "" : ", ") + (is_zero ? "0" : number(x, "{:.5g}"));
+    }
+    const double change = begun != 0 ? frame.at("mass").get<double>() / begun - 1 : 0;
+    const json outside = get(frame, "outside");
+    text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}{}<td class=n>{}<td class=n>{}<td class=n>{}",
+                        number(frame.at("t"), "{:.5g}"), number(frame.at("mass"), "{:.9g}"),
+                        change == 0 ? "0" : fmt::format("{:.1e}", change),
+                        !leaves            ? ""
+                        : is_zero(outside) ? "<td class=n>0"
+                                           : "<td class=n>" + percent_text(outside.get<double>()),
+                        centroid, number(frame.at("minimum"), "{:.4g}"), number(frame.at("maximum"), "{:.6g}"));
+  }
+  text += "</table>";
+  if (stride > 1)
+    text +=
+        fmt::format("<p class=quiet>One of {} of the {} outputs; all are in series.csv.</p>", stride, frames.size());
+  return text;
+}
+
+std::string seconds(const json& summary) {
+  std::vector<std::pair<std::string, double>> stages;
+  const json spent = get(summary, "seconds"), total = get(spent, "total");
+  double told = 0;
+  for (const auto& [name, value] : spent.items())
+    if (name != "total") stages.emplace_back(name, value.get<double>()), told += value.get<double>();
+  if (total.is_number() && total.get<double>() > told) stages.emplace_back("other", total.get<double>() - told);
+  const json threads = get(summary, "threads");
+  std::string text =
+      fmt::format("<h2>Seconds</h2><p>{} s in all on {}.</p>{}\n", number(total, "{:.3g}"),
+                  threads == json(1) ? "one thread" : number(threads, "{:.0f}") + " threads", bars(stages));
+  text += "<div class=scroll><table><tr><th>effect<th>equation<th>seconds<th>conserves";
+  for (const json& effect : summary.at("effects"))
+    text += fmt::format("<tr><td>{}<td>{}<td class=n>{}<td>{}", escaped(effect.at("name").get<std::string>()),
+                        escaped(effect.at("equation").get<std::string>()), number(effect.at("seconds"), "{:.2g}"),
+                        escaped(effect.at("conserves").get<std::string>()));
+  return text + "</table></div>\n";
+}
+
+std::string particles(const json& summary) {
+  const json count = get(summary, "particles"), left_out = get(count, "left_out");
+  if (!get(count, "carried").is_number()) return "";
+  std::string text =
+      fmt::format("<h2>Particles</h2><p>{} on a lattice of {} points, {} apart.", number(count.at("carried"), "{:.0f}"),
+                  number(get(count, "lattice_points"), "{:.0f}"), number(get(count, "spacing"), "{:.4g}"));
+  if (!is_zero(left_out))
+    text += fmt::format(
+        " {} points with less than {} of the largest weight have none (particles.threshold): with them {} of the "
+        "mass{} "
+        "is left out.",
+        number(left_out, "{:.0f}"), number(get(count, "threshold"), "{:g}"),
+        number(get(count, "mass_left_out"), "{:.1e}"),
+        count.contains("charge_left_out")
+            ? fmt::format(" and {} of the charge", number(count.at("charge_left_out"), "{:.1e}"))
+            : "");
+  return text + "</p>\n";
+}
+
+std::string checks_table(const json& checks) {
+  std::string text =
+      "<h2>Checks</h2><div class=scroll><table class=numbers><tr><th class=l>what<th>value<th>at t<th>at least<th>at "
+      "most<th>";
+  for (const json& check : checks)
+    text += fmt::format("<tr><td>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td>{}",
+                        escaped(check.at("what").get<std::string>()), number(check.at("value"), "{:.4g}"),
+                        number(check.at("t"), "{:.4g}"), number(check.at("min")), number(check.at("max")),
+                        check.at("passed").get<bool>() ? "passed" : "<b class=bad>failed</b>");
+  return text + "</table></div>\n";
+}
+
+std::string how_to_make_again(const json& provenance) {
+  std::string text =
+      "<h2>How to make it again</h2><p>In the folder of this page:</p><pre>gaussdrift run run.toml --out again</pre>"
+      "<p>How it was made:</p><table class=facts>";
+  for (const auto& [name, value] : provenance.items()) {
+    if (!value.is_array()) {
+      text += fmt::format("<tr><td>{}<td>{}", escaped(name),
+                          escaped(value.is_string() ? value.get<std::string>() : value.dump()));
+      continue;
+    }
+    for (const json& file : value)  // of data
+      text += fmt::format("<tr><td>{}<td>{}<br>{}", escaped(name), escaped(file.at("file").get<std::string>()),
+                          escaped(file.at("hash").get<std::string>()));
+  }
+  return text + "</table>\n";
+}
+
+}  // namespace gaussdrift::report

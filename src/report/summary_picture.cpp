@@ -1,0 +1,78 @@
+#include "report/summary_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "base/error.hpp"
+#include "read/written_run.hpp"
+#include "render/panel.hpp"
+#include "render/picture.hpp"
+#include "write/output_files.hpp"
+
+namespace gaussdrift::report {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Initial, final, exact and error densities; `notes`: why some or all are missing.
+std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary, std::vector<std::string>& notes) {
+  std::vector<render::Panel> panels;
+  const auto outputs = read::written_outputs(folder, write::density_output().about.name);
+  if (outputs.empty()) {
+    notes.push_back("pictures: the run wrote no density files (output.vtk)");
+    return panels;
+  }
+  const auto add = [&](const read::WrittenOutput& output, const char* array, const char* title, bool error) {
+    panels.push_back({title, read::read_density(output.file, array), output.time, error});
+  };
+  if (outputs.size() > 1) add(outputs.front(), "rho", "initial", false);
+  add(outputs.back(), "rho", outputs.size() > 1 ? "final" : "density", false);
+  const json frame = summary.at("frames").empty() ? json::object() : summary.at("frames").back();
+  const std::size_t points = panels.back().density.lattice.size(), compared = frame.value("compared", points);
+  if (!frame.contains("Linf")) {
+    notes.push_back("pictures of the exact density and the error: the run was compared with nothing");
+  } else if (compared < points) {
+    notes.push_back(
+        fmt::format("pictures of the exact density and the error: the run was compared at a sample, {} of the {} grid "
+                    "points (reference.points sets how many)",
+                    compared, points));
+  } else {
+    try {
+      add(outputs.back(), "rho_exact", "exact", false);
+      add(outputs.back(), "error", "error", true);
+    } catch (const FileError& error) {
+      notes.push_back(fmt::format("pictures of the exact density and the error: {}", error.what()));
+    }
+  }
+  return panels;
+}
+
+}  // namespace
+
+void draw_summary(const fs::path& folder, const json& summary, ReportFiles& result) {
+  const fs::path file = folder / "summary.png";
+  std::error_code ignored;
+  fs::remove(file, ignored);  // an older one must not pass for this
+  if (const std::string reason = render::unavailable_reason(); !reason.empty()) {
+    result.left_out.push_back("pictures: " + reason);
+    return;
+  }
+  std::vector<render::Panel> panels;
+  try {
+    panels = panels_of(folder, summary, result.left_out);
+  } catch (const Error& error) {  // densities that cannot be read
+    result.left_out.push_back(fmt::format("pictures: {}", error.what()));
+    return;
+  }
+  if (panels.empty()) return;
+  try {
+    render::draw_panels(panels, file);
+    result.written.push_back(file);
+  } catch (const Error& error) {
+    result.failed.push_back(error.what());
+  }
+}
+
+}  // namespace gaussdrift::report

@@ -1,0 +1,38 @@
+// The density on the evaluation lattice, with the exact one and the error where they are known: image data of ParaView.
+#include "write/output_files.hpp"
+#include "write/vtk_files.hpp"
+
+namespace gaussdrift::write {
+
+namespace {
+
+double bytes(const Extent& extent) {
+  return bytes_as_text(extent.grid_points) * (extent.compared_everywhere ? 3 : 1) + 1500;
+}
+
+std::string view(int dimension) {
+  return std::string(
+             "shown = Show(density, view)\n"
+             "ColorBy(shown, ('POINTS', 'rho'))\n"
+             "shown.RescaleTransferFunctionToDataRange(False, True)\n"
+             "shown.SetScalarBarVisibility(view, True)\n") +
+         (dimension == 2 ? "shown.SetRepresentationType('Surface')\n" : "shown.SetRepresentationType('Volume')\n");
+}
+
+}  // namespace
+
+FileKind density_files() {
+  return {.about = {.name = "density",
+                    .meaning = "the density on the evaluation lattice, with the exact density and the error where all "
+                               "points are compared",
+                    .by_default = true,
+                    .shows_density = true},
+          .ending = ".vti",
+          .text = [](const std::filesystem::path& file,
+                     const Frame& frame) { return density_text(file, *frame.density, frame.time, frame.exact); },
+          .bytes = bytes,
+          .memory = [](const Extent& extent) { return 2 * bytes(extent); },  // as arrays and as text
+          .view = view};
+}
+
+}  // namespace gaussdrift::write

@@ -1,0 +1,68 @@
+#include "write/output_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "write/atomic_file.hpp"
+#include "write/vtk_files.hpp"
+
+namespace gaussdrift::write {
+
+// Each in a file of its name.
+FileKind density_files();
+FileKind particle_files();
+
+}  // namespace gaussdrift::write
+
+template <>
+std::vector<gaussdrift::write::FileKind>& gaussdrift::base::catalogue<gaussdrift::write::FileKind>() {
+  using namespace gaussdrift::write;
+  static std::vector<FileKind> all{density_files(), particle_files()};
+  return all;
+}
+
+namespace gaussdrift::write {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class FileSeries : public Observer {
+ public:
+  FileSeries(const FileKind& kind, const fs::path& folder)
+      : kind_(kind), folder_(folder / kind.about.name), collection_(folder / fmt::format("{}.pvd", kind.about.name)) {}
+  std::string name() const override { return fmt::format("write {}", kind_.about.name); }
+  void frame(const Frame& frame) override {
+    const fs::path file = folder_ / fmt::format("{}_{:04}{}", kind_.about.name, frame.index, kind_.ending);
+    write_text(file, kind_.text(file, frame));
+    collection_.add(frame.time, file);
+  }
+
+ private:
+  const FileKind kind_;
+  fs::path folder_;
+  Collection collection_;
+};
+
+}  // namespace
+
+const std::vector<FileKind>& output_files() { return base::catalogue<FileKind>(); }
+
+const FileKind& find_output_file(std::string_view name) {
+  return base::find_named(output_files(), "kind of output files", name);
+}
+
+const FileKind& density_output() {
+  const auto found = std::find_if(output_files().begin(), output_files().end(),
+                                  [](const FileKind& kind) { return kind.about.shows_density; });
+  if (found == output_files().end()) throw std::logic_error("no output file shows the density");
+  return *found;
+}
+
+std::unique_ptr<Observer> file_series(const FileKind& kind, const fs::path& folder) {
+  return std::make_unique<FileSeries>(kind, folder);
+}
+
+}  // namespace gaussdrift::write

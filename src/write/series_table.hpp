@@ -1,0 +1,17 @@
+// series.csv: the numbers of a run, one row an output.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "sim/frame.hpp"
+
+namespace gaussdrift::write {
+
+constexpr const char* series_name = "series.csv";
+
+/// The whole file is written again each time, so it is never half a row. `errors`: with the norms of the
+/// error, for runs that have a reference.
+std::unique_ptr<Observer> series_table(const std::filesystem::path& folder, int dimension, bool errors);
+
+}  // namespace gaussdrift::write
