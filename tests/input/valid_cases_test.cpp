@@ -10,6 +10,7 @@
 #include <random>
 #include <sstream>
 
+#include "base/catalogue.hpp"
 #include "cases.hpp"
 #include "input/effect_rules.hpp"
 #include "input/registry.hpp"
