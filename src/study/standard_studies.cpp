@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
-#include "base/repeated_time.hpp"
 #include "accuracy/target.hpp"
 #include "accuracy/would_run.hpp"
 #include "base/error.hpp"
 #include "base/number.hpp"
+#include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "reference/exact_paths.hpp"

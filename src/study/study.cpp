@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "accuracy/footprint.hpp"
-#include "base/repeated_time.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
 #include "input/read_case.hpp"
 #include "particle/cutoff.hpp"
