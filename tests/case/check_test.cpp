@@ -17,7 +17,7 @@
 #include "input/read_case.hpp"
 #include "render/styles.hpp"
 
-namespace gaussdrift::study {
+namespace gaussdrift::accuracy {
 namespace {
 
 /// A bump of radius 0.2 that is carried once to the right, in 2D or 3D.
@@ -233,4 +233,4 @@ TEST(Accuracy, SearchesForABoundedWhileAndSaysWhatItLeftOut) {
 }
 
 }  // namespace
-}  // namespace gaussdrift::study
+}  // namespace gaussdrift::accuracy
