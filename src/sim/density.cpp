@@ -79,7 +79,7 @@ std::vector<std::size_t> promising_particles(const Particles& particles) {
 }
 
 // Grid points to compare with `direct`: the one of the largest |rho|, and a low-discrepancy choice of others.
-std::vector<std::size_t> sample_of_grid(const std::vector<double>& rho, std::size_t wanted) {
+std::vector<std::size_t> points_to_measure(const std::vector<double>& rho, std::size_t wanted) {
   std::vector<std::size_t> sample;
   const auto largest =
       std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
@@ -167,7 +167,7 @@ class Evaluation {
   void measure(const Lattice& lattice, const std::vector<double>& rho, DensityReport& report) const {
     // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
     const std::size_t wanted = std::clamp<std::size_t>(20'000'000 / static_cast<std::size_t>(sources_.cols()), 4, 200);
-    const std::vector<std::size_t> sample = sample_of_grid(rho, std::min(wanted, rho.size()));
+    const std::vector<std::size_t> sample = points_to_measure(rho, std::min(wanted, rho.size()));
     fgtd::Points<d> targets(d, static_cast<Eigen::Index>(sample.size()));
     for (std::size_t i = 0; i < sample.size(); ++i) {
       std::size_t index = sample[i];

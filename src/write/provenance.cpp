@@ -78,7 +78,7 @@ std::string hash_of(const std::string& text) {
   return hash.text();
 }
 
-std::string provenance_json(const Case& scene, const std::string& resolved, const std::vector<DataFile>& data,
+std::string provenance_json(const Case& spec, const std::string& resolved, const std::vector<DataFile>& data,
                             const std::string& command, int threads) {
   using json = nlohmann::ordered_json;
   json document{{"version", GAUSSDRIFT_VERSION},
@@ -88,7 +88,7 @@ std::string provenance_json(const Case& scene, const std::string& resolved, cons
                 {"threads", threads},
                 {"command", command},
                 {"date", date()},
-                {"case", hash_of(scene.source)}};
+                {"case", hash_of(spec.source)}};
   std::string all = resolved;
   json files = json::array();
   for (const DataFile& each : data) {

@@ -18,7 +18,7 @@ struct DataFile {
 /// bits) of the case as it was written and of every data file. "resolved_case" is the hash of all that the result
 /// depends on: the resolved case, and the bytes of its data. The time is that of SOURCE_DATE_EPOCH, where that is set.
 /// Throws FileError (data that cannot be read), InputError (SOURCE_DATE_EPOCH is no time).
-std::string provenance_json(const Case& scene, const std::string& resolved, const std::vector<DataFile>& data,
+std::string provenance_json(const Case& spec, const std::string& resolved, const std::vector<DataFile>& data,
                             const std::string& command, int threads);
 
 /// "gaussdrift VERSION, COMPILER, PROCESSOR": for the foot of charts and tables of seconds.

@@ -69,7 +69,7 @@ void remove_earlier_run(const fs::path& folder) {
   }
 }
 
-std::string view_script(const Case& scene) {
+std::string view_script(const Case& spec) {
   std::string script =
       "# Opens this run in ParaView:   paraview --script=view.py   (in this folder), or   pvpython view.py\n"
       "import os\n"
@@ -84,12 +84,12 @@ std::string view_script(const Case& scene) {
       "view = GetActiveViewOrCreate('RenderView')\n";
   bool first = true;  // the others are read and hidden
   for (const FileKind& kind : output_files()) {
-    if (std::none_of(scene.output.files.begin(), scene.output.files.end(),
+    if (std::none_of(spec.output.files.begin(), spec.output.files.end(),
                      [&](const OutputFile& file) { return file.name == kind.about.name; }))
       continue;
     script += fmt::format("{0} = PVDReader(registrationName='{0}', FileName=os.path.join(here, '{0}.pvd'))\n",
                           kind.about.name);
-    script += first ? kind.view(scene.domain.dimension) : fmt::format("Hide({}, view)\n", kind.about.name);
+    script += first ? kind.view(spec.domain.dimension) : fmt::format("Hide({}, view)\n", kind.about.name);
     first = false;
   }
   script +=
@@ -129,10 +129,10 @@ void prepare_run_folder(const fs::path& folder, bool force) {
   write_text(folder / "run.toml", "# this run has not begun\n");
 }
 
-void write_run_inputs(const fs::path& folder, const Case& scene, const std::string& resolved) {
-  if (!scene.source.empty()) write_text(folder / "case.toml", scene.source);
+void write_run_inputs(const fs::path& folder, const Case& spec, const std::string& resolved) {
+  if (!spec.source.empty()) write_text(folder / "case.toml", spec.source);
   write_text(folder / "run.toml", resolved);
-  write_text(folder / "view.py", view_script(scene));
+  write_text(folder / "view.py", view_script(spec));
 }
 
 }  // namespace gaussdrift::write

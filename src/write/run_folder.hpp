@@ -12,6 +12,6 @@ namespace gaussdrift::write {
 void prepare_run_folder(const std::filesystem::path& folder, bool force);
 
 /// case.toml (as it was), run.toml (resolved), view.py (opens the series in ParaView). Throws FileError.
-void write_run_inputs(const std::filesystem::path& folder, const Case& scene, const std::string& resolved);
+void write_run_inputs(const std::filesystem::path& folder, const Case& spec, const std::string& resolved);
 
 }  // namespace gaussdrift::write
