@@ -2,11 +2,13 @@
 /// A case: everything that one run needs, as plain validated data.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -101,8 +103,8 @@ using DensitySpec = std::variant<ExpressionDensity, ShapeDensity, FileDensity>;
 struct ParticleSpec {
   int per_axis = 0;               ///< n_g on the longest axis
   double overlap = 2;             ///< c: eps = c h
-  std::string cutoff = "gauss2";  ///< gauss2 | gauss4 | gauss6 | gauss8 | two-gauss
-  double width_ratio = 2;         ///< a of two-gauss: the second width is a eps
+  std::string cutoff = "gauss2";  ///< name of a cutoff
+  Arguments cutoff_arguments{};   ///< of its parameters; what is left out has its default
   double threshold = 1e-12;       ///< part of the largest weight below which a lattice point has no particle
 };
 
@@ -186,53 +188,63 @@ struct CheckSpec {
 
 // --- effects ----------------------------------------------------------------------------------------------------
 
-/// alpha' = -rate alpha along the path.
-struct ReactionSpec {
-  std::string rate;  ///< expression in x, y, z, t and the params
-};
+/// `[effects.name]`: an effect that the case names, with the values of its keys. docs/cases.md lists effects and keys.
+struct EffectSpec {
+  std::string name;                                          ///< of an effect of the catalogue
+  Arguments numbers{};                                       ///< numbers and points by key, defaults included
+  std::vector<std::pair<std::string, std::string>> texts{};  ///< choices and expressions by key, defaults included
 
-/// d_t rho + div(rho u) = coefficient Laplacian rho.
-struct DiffusionSpec {
-  /// How; docs/method.md, section 8.2.
-  enum class Method {
-    core_spreading,    ///< blobs grow wider
-    particle_exchange  ///< particles exchange weight
-  };
-  double coefficient = 0;                  ///< D
-  Method method = Method::core_spreading;  ///< how
-  double tolerance = 1e-6;  ///< of particle_exchange: part of the largest density above which a particle has a halo
-};
-
-/// Weights go back to a fresh lattice.
-struct RemeshSpec {
-  int every = 0;                  ///< steps between two; 0: as `stretch` says
-  double stretch = 1.5;           ///< whenever neighbours are farther apart than so many spacings
-  std::string kernel = "gauss8";  ///< name of the kernel that shares out weights; docs/method.md, section 8.3
-  double tolerance = 1e-9;        ///< part of the largest weight below which a node is left out
-};
-
-/// X' += mobility E(X), E the field of all particles.
-struct ChargeSpec {
-  double mobility = 1;      ///< velocity for a field of 1
-  std::string density{};    ///< of charge at the start, an expression in x, y, z and the params; empty: the weights
-  double tolerance = 1e-6;  ///< of E, relative to the sum of all fields' sizes
-};
-
-/// X' += the velocity of all particles as vortex blobs.
-struct VortexSpec {
-  double tolerance = 1e-6;  ///< of the velocity, relative to the sum of all velocities' sizes
+  /// True if the key has a value.
+  bool has(std::string_view key) const {
+    const auto is_it = [key](const auto& entry) { return entry.first == key; };
+    return std::any_of(numbers.begin(), numbers.end(), is_it) || std::any_of(texts.begin(), texts.end(), is_it);
+  }
+  /// The numbers of a key, one a dimension. Throws std::out_of_range if the key has none.
+  const std::vector<double>& point(std::string_view key) const {
+    for (const auto& [name_of_key, values] : numbers)
+      if (name_of_key == key) return values;
+    throw std::out_of_range("[effects." + name + "] has no number " + std::string(key));
+  }
+  /// The number of a key. Throws std::out_of_range if the key has none.
+  double number(std::string_view key) const { return point(key).at(0); }
+  /// The choice or expression of a key. Throws std::out_of_range if the key has none.
+  const std::string& text(std::string_view key) const {
+    for (const auto& [name_of_key, value] : texts)
+      if (name_of_key == key) return value;
+    throw std::out_of_range("[effects." + name + "] has no text " + std::string(key));
+  }
+  /// Replaces the number of a key, or adds it.
+  void set(std::string_view key, double value) {
+    for (auto& [name_of_key, values] : numbers)
+      if (name_of_key == key) return void(values = {value});
+    numbers.emplace_back(key, std::vector<double>{value});
+  }
+  /// Same name, same values.
+  bool operator==(const EffectSpec&) const = default;
 };
 
 /// The effects that a case names; what is absent is not constructed.
 struct EffectsSpec {
-  std::optional<ReactionSpec> reaction;    ///< `[effects.reaction]`
-  std::optional<DiffusionSpec> diffusion;  ///< `[effects.diffusion]`
-  std::optional<ChargeSpec> charge;        ///< `[effects.charge]`
-  std::optional<VortexSpec> vortex;        ///< `[effects.vortex]`
-  std::optional<RemeshSpec> remesh;        ///< `[effects.remesh]`
+  std::vector<EffectSpec> list;  ///< each effect at most once, in any order
 
-  /// Particles move each other.
-  bool drifts() const { return charge || vortex; }
+  /// The effect of that name; null if the case does not name it.
+  const EffectSpec* find(std::string_view name) const {
+    for (const EffectSpec& effect : list)
+      if (effect.name == name) return &effect;
+    return nullptr;
+  }
+  /// Replaces the effect of the same name, or adds it.
+  void set(EffectSpec effect) {
+    for (EffectSpec& old : list)
+      if (old.name == effect.name) return void(old = std::move(effect));
+    list.push_back(std::move(effect));
+  }
+  /// Takes the effect out, if it is there.
+  void remove(std::string_view name) {
+    std::erase_if(list, [name](const EffectSpec& effect) { return effect.name == name; });
+  }
+  /// The same effects with the same values.
+  bool operator==(const EffectsSpec&) const = default;
 };
 
 /// `[accuracy]`: how accurate it has to be, and whether a run tells its errors apart by cause.

@@ -12,6 +12,7 @@
 #include "accuracy/would_run.hpp"
 #include "base/error.hpp"
 #include "base/number.hpp"
+#include "effect/catalogue.hpp"
 #include "reference/exact_paths.hpp"
 #include "sim/outside.hpp"
 #include "sim/stable_step.hpp"
@@ -275,7 +276,11 @@ void give_advice(const Case& description, const Scene& scene, const std::vector<
   if (budget.dominates == "smoothing") {
     for (const auto& [cutoff, smoothing] : better) {
       if (smoothing > 0.5 * budget.smoothing) continue;
-      if (!runs([&, &name = cutoff](Case& changed) { changed.particles.cutoff = name; })) continue;
+      const auto use_it = [&name = cutoff](Case& changed) {
+        changed.particles.cutoff = name;
+        changed.particles.cutoff_arguments.clear();
+      };
+      if (!runs(use_it)) continue;
       budget.advice.push_back(
           fmt::format("particles.cutoff = \"{}\" lowers the smoothing to {:.2g}", cutoff, smoothing));
       break;
@@ -284,15 +289,16 @@ void give_advice(const Case& description, const Scene& scene, const std::vector<
     if (runs([&](Case& changed) { changed.particles.per_axis = finer; }))
       budget.advice.push_back(fmt::format(
           "particles.per_axis = {} halves the width of the blobs: a smooth density's smoothing falls {} times", finer,
-          1 << cutoff_order(description.particles.cutoff)));
+          1 << find_cutoff(description.particles.cutoff).order));
   }
   if (budget.dominates == "quadrature") {
     const double wider = number_of(fmt::format("{:.3g}", 1.5 * description.particles.overlap));
     std::string remedies;
     if (runs([&](Case& changed) { changed.particles.overlap = wider; }))
       remedies = fmt::format("particles.overlap = {:g}", wider);
-    if (runs([](Case& changed) { changed.effects.remesh = RemeshSpec{}; }))
-      remedies += std::string(remedies.empty() ? "" : ", or ") + "[effects.remesh] where it strains";
+    const NamedEffect* restorer = overlap_restorer();
+    if (restorer && runs([&](Case& changed) { changed.effects.set(complete_effect(*restorer, {})); }))
+      remedies += std::string(remedies.empty() ? "" : ", or ") + restorers_table() + " where it strains";
     if (!remedies.empty()) budget.advice.push_back("blobs overlap too little for this flow: " + remedies);
   }
   if (budget.dominates == "Gauss transform") {
@@ -306,11 +312,12 @@ void give_advice(const Case& description, const Scene& scene, const std::vector<
     budget.advice.push_back("particles.threshold = 0 leaves nothing out");
 }
 
-/// Cutoffs of higher order than the case's, by name.
+/// Cutoffs of higher order than the case's that need no parameters, by name.
 std::vector<std::string> higher_cutoffs(const Case& description) {
+  const int order = find_cutoff(description.particles.cutoff).order;
   std::vector<std::string> names;
-  for (const char* name : {"gauss4", "gauss6", "gauss8"})
-    if (cutoff_order(name) > cutoff_order(description.particles.cutoff)) names.push_back(name);
+  for (const NamedCutoff& cutoff : cutoffs())
+    if (cutoff.parameters.empty() && cutoff.order > order) names.emplace_back(cutoff.name);
   return names;
 }
 
@@ -342,7 +349,7 @@ void carry_by_steps(const Case& description, const Scene& scene, Particles& part
 bool carry(const Case& description, const Scene& scene, const Carrying& how, Particles& particles) {
   if (particles.size() == 0) return true;
   if (how.exactly)
-    return carry_exactly(*scene.velocity, scene.reaction_rate.get(), particles, 0, description.output.times.back(),
+    return carry_exactly(*scene.velocity, scene.decay_rate.get(), particles, 0, description.output.times.back(),
                          how.paths)
                .lost == 0;
   carry_by_steps(description, scene, particles, how.factor, how.paths.threads);
@@ -361,7 +368,7 @@ double bound_of_left_out(const Scene& scene, const SeedReport& report, const Par
                          double norm) {
   if (report.left_out == 0) return 0;
   double growth = 1;
-  for (std::size_t j = 0; scene.reaction_rate && j < carried.size(); ++j)
+  for (std::size_t j = 0; scene.decay_rate && j < carried.size(); ++j)
     if (start.alpha[j] != 0) growth = std::max(growth, std::abs(carried.alpha[j] / start.alpha[j]));
   return growth * density_left_out(scene, report) / norm;
 }
@@ -390,7 +397,7 @@ Better smoothing_of_others(const Case& description, const Scene& scene, const st
                            const Particles& particles, double norm, int threads) {
   Better better;
   for (const std::string& name : higher_cutoffs(description)) {
-    const Cutoff cutoff = make_cutoff(name, particles.dimension, scene.core_radius, description.particles.width_ratio);
+    const Cutoff cutoff = make_cutoff(name, particles.dimension, scene.core_radius);
     better.emplace_back(name, largest_difference(sums_at(probes, particles, cutoff, threads), exact_of(probes)) / norm);
   }
   return better;
@@ -500,7 +507,7 @@ double work_of_a_path(const Case& description, const Scene& scene, const Particl
   const double bound = allowed / (8 * stages * static_cast<double>(wanted) * work_of_exact_rate(scene));
   options.most_steps = static_cast<std::size_t>(std::clamp(bound, 16.0, static_cast<double>(how.paths.most_steps)));
   const ExactPaths paths =
-      carry_exactly(*scene.velocity, scene.reaction_rate.get(), trial, 0, description.output.times.back(), options);
+      carry_exactly(*scene.velocity, scene.decay_rate.get(), trial, 0, description.output.times.back(), options);
   if (options.most_steps < how.paths.most_steps && 2 * paths.lost > wanted)
     return std::numeric_limits<double>::infinity();
   return std::max(1.0, static_cast<double>(paths.rates) / static_cast<double>(wanted)) * work_of_exact_rate(scene);
@@ -603,12 +610,8 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
 }  // namespace
 
 std::string budget_not_covered(const Case& description) {
-  if (description.effects.diffusion)
-    return "diffusion moves weight between particles; a budget covers transport and reaction";
-  if (description.effects.remesh)
-    return "remeshing moves weight between particles; a budget covers transport and reaction";
-  if (description.effects.drifts())
-    return "the paths of particles that move each other are not known; a budget covers transport and reaction";
+  if (const std::string reason = beyond_budgets(description.effects, description.domain.dimension); !reason.empty())
+    return reason;
   if (description.output.times.empty()) return "there is no output";
   return "";
 }
@@ -756,7 +759,7 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, Allow
   find_dominating(budget);
   Better better;
   for (const std::string& name : higher_cutoffs(description)) {
-    const Cutoff cutoff = make_cutoff(name, seeded.dimension, scene.core_radius, description.particles.width_ratio);
+    const Cutoff cutoff = make_cutoff(name, seeded.dimension, scene.core_radius);
     const std::vector<double> sharper = summed(carried, cutoff);
     better.emplace_back(name, farthest([&](std::size_t i) { return sharper[i]; }) / norm);
   }

@@ -12,6 +12,7 @@
 #include "accuracy/budget.hpp"
 #include "accuracy/trial.hpp"
 #include "base/error.hpp"
+#include "effect/catalogue.hpp"
 #include "render/styles.hpp"
 #include "sim/simulation.hpp"
 
@@ -53,16 +54,18 @@ double disk_of_run(const Case& spec, const Extent& extent) {
 double memory_of_run(const Case& spec, const Extent& extent) {
   const double n = extent.particles, m = extent.grid_points, d = spec.domain.dimension,
                frames = static_cast<double>(spec.output.times.size());
-  const EffectsSpec& effects = spec.effects;
-  const bool exchanges = effects.diffusion && effects.diffusion->method == DiffusionSpec::Method::particle_exchange;
+  EffectMemory effects;  // of all, a particle
+  for (const auto& [effect, written] : effects_of(spec.effects)) {
+    if (!effect->memory) continue;
+    const EffectMemory one = effect->memory(written, spec.domain.dimension);
+    effects.integrals += one.integrals, effects.columns += one.columns;
+    effects.kept += one.kept, effects.step += one.step;
+  }
   const bool pictures = !spec.output.images.empty();
-  const double integrals = (effects.reaction ? 1 : 0) + (exchanges ? 1 : 0);
 
   // What stays: positions, weights, ids, integrals, volumes; a halo's and a remeshing's tables of nodes.
-  double particle = number * (d + 2 + integrals + (exchanges ? 1 : 0));
-  double stays = n * particle;
-  if (exchanges) stays += n * 60;
-  if (effects.remesh) stays += n * 16 * d;
+  double particle = number * (d + 2 + effects.integrals + effects.columns);
+  double stays = n * particle + n * effects.kept;
   // The last output is kept for the error budget and the page.
   const bool kept = spec.output.report || (spec.reference.kind != ReferenceSpec::Kind::none &&
                                            spec.accuracy.budget != AccuracySpec::Budget::none);
@@ -72,10 +75,7 @@ double memory_of_run(const Case& spec, const Extent& extent) {
   // Lines of the lattice are seeded one by one and joined.
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));
   const double seed = 2 * n * particle + 450 * lines;
-  double step = stays + 2 * n * number * (d + integrals);
-  if (effects.drifts()) step += n * (in_space(spec) ? 300 : 200);
-  if (exchanges) step += n * number * 26;
-  if (effects.remesh) step += n * (in_space(spec) ? 150 : 100);
+  double step = stays + 2 * n * number * (d + effects.integrals) + n * effects.step;
 
   // The transform holds the points sorted, with its boxes; in space boxes have more neighbours.
   const double density = stays + n * number * (in_space(spec) ? 20 : 11) + m * number * (in_space(spec) ? 4.5 : 3);

@@ -16,6 +16,7 @@
 #include "accuracy/trial_times.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "effect/catalogue.hpp"
 #include "render/picture.hpp"
 #include "sim/outside.hpp"
 #include "sim/simulation.hpp"
@@ -96,10 +97,9 @@ Redrawn redrawn(const Case& spec, const Forecast& result) {
   if (spec.output.times.size() < 2) return {};
   const auto [low, high] = render::rounded_range(std::min(0.0, result.density_minimum), result.density_maximum);
   const double margin = 0.01 * (high - low);
-  // Where the end is not predicted, the error is taken to grow, and the density of vortex blobs, of which flat patches
-  // are usual, to ripple when they leave the lattice.
+  // Where the end is not predicted, the error is taken to grow.
   if (!result.budget.known())
-    return {.density = spec.effects.vortex && result.density_maximum > high - margin, .error = true};
+    return {.density = flat_patches_ripple(spec.effects) && result.density_maximum > high - margin, .error = true};
   const double error = render::symmetric_range(-result.error_at_start, result.error_at_start).second;
   return {.density = result.budget.lowest < low - margin || result.budget.highest > high + margin,
           .error = result.error_at_start < 0 || result.budget.total * result.density_maximum > 1.02 * error};
@@ -171,7 +171,7 @@ void try_steps(const Case& spec, Trial& trial, int threads, Forecast& result) {
   result.particles_at_end = trial.carried + halo * std::pow(each, 1 - 1 / static_cast<double>(spec.domain.dimension));
   result.particles_at_most = result.particles_at_end;
   const double times = result.particles_at_end / static_cast<double>(particles.size());
-  const bool drifts = spec.effects.drifts();
+  const bool drifts = particles_interact(spec.effects);
   double seconds = 0;
   result.steps = total_steps(spec);
   if (carrier.is_adaptive()) {

@@ -82,7 +82,7 @@ std::optional<Settings> try_lattice(Case scene, int per_axis, double overlap, Se
 /// finer lattice would not.
 std::optional<Settings> find_lattice(const Case& scene, double wanted, double overlap, double most_carried,
                                      Search& search, double& best, bool& gaps) {
-  const int order = cutoff_order(scene.particles.cutoff);
+  const int order = find_cutoff(scene.particles.cutoff).order;
   int most = most_per_axis(scene);
   gaps = false;
   int per_axis = std::clamp(scene.particles.per_axis, fewest_per_axis, most);
@@ -142,6 +142,15 @@ double step_for(const Case& scene, const Scene& parts, double wanted, int thread
   return trial.time.step;
 }
 
+/// Those without parameters of their own. The lowest order comes last: it needs by far the finest lattices.
+std::vector<const NamedCutoff*> cutoffs_to_try() {
+  std::vector<const NamedCutoff*> list;
+  for (const NamedCutoff& cutoff : cutoffs())
+    if (cutoff.parameters.empty()) list.push_back(&cutoff);
+  std::stable_partition(list.begin(), list.end(), [](const NamedCutoff* cutoff) { return cutoff->order > 2; });
+  return list;
+}
+
 }  // namespace
 
 AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads,
@@ -155,13 +164,14 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
   std::optional<Case> chosen;
   for (const double aim : aims) {
     if (chosen || (std::isfinite(best) && best > target)) break;
-    for (const char* cutoff : {"gauss4", "gauss6", "gauss8", "gauss2"}) {
+    for (const NamedCutoff* cutoff : cutoffs_to_try()) {
       Case scene = description;
-      scene.particles.cutoff = cutoff;
+      scene.particles.cutoff = cutoff->name;
+      scene.particles.cutoff_arguments.clear();
       scene.evaluate.tolerance = 1e-8;
       // More overlap where the flow draws particles apart.
       for (const double overlap : {2.0, 3.0, 4.5, 7.0}) {
-        const double dearer = 1 + 0.1 * cutoff_order(cutoff);  // more terms in the transform, all in one pass
+        const double dearer = 1 + 0.1 * cutoff->order;  // more terms in the transform, all in one pass
         bool gaps = false;
         const std::optional<Settings> trial =
             find_lattice(scene, aim * target, overlap, cheapest / dearer, search, best, gaps);

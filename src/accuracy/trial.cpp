@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "effect/catalogue.hpp"
 
 namespace gaussdrift::accuracy {
 
@@ -55,8 +56,10 @@ void take(Trial& trial, const LatticePart& part, Found found) {
   const double times = static_cast<double>(part.stride);
   scene.seeding = part.of(trial.lattice);
   scene.core_radius = spec.overlap * scene.seeding.spacing;
-  scene.cutoff = make_cutoff(spec.cutoff, trial.lattice.dimension, scene.core_radius, spec.width_ratio);
-  if (auto& diffusion = trial.spec.effects.diffusion) diffusion->coefficient = trial.diffusion * times * times;
+  scene.cutoff = make_cutoff(spec.cutoff, trial.lattice.dimension, scene.core_radius, spec.cutoff_arguments);
+  trial.spec.effects = trial.effects;
+  for (EffectSpec& effect : trial.spec.effects.list)
+    if (const auto coarsen = base::find_named(effects(), "effect", effect.name).coarsen) coarsen(effect, times);
 }
 
 /// The part of the lattice that has these particles, and one step of the part around them.
@@ -102,7 +105,7 @@ Lattice LatticePart::of(const Lattice& whole) const {
 Trial make_trial(const Case& spec, std::size_t most_particles, int threads) {
   Trial trial{.spec = spec, .scene = make_scene(spec, threads), .particles = {}};
   trial.lattice = trial.scene.seeding;
-  if (spec.effects.diffusion) trial.diffusion = spec.effects.diffusion->coefficient;
+  trial.effects = spec.effects;
   const double dearness = std::max(1.0, trial.scene.density->cost());
   LatticePart part = all_of(trial.lattice);
   // First a coarse look over the whole lattice. Then a closer one where there is density, until it fills the part

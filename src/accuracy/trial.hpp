@@ -30,7 +30,7 @@ struct Trial {
   Lattice grid{};             // for the density of a trial: that of the case, or every so many points of it
   bool whole = true;          // these are the particles of the case, all of them
   double carried = 0;         // particles of the case: counted, or estimated from the trial
-  double diffusion = 0;       // D of the case
+  EffectsSpec effects{};      // of the case; those of `spec` are as on the coarser lattice
   std::size_t looked_at = 0;  // points at which the density was asked for
 
   /// Particles, or steps of all of them, of the case for one of the trial.

@@ -9,6 +9,7 @@
 
 #include "accuracy/processor_clock.hpp"
 #include "base/stopwatch.hpp"
+#include "effect/catalogue.hpp"
 #include "sim/stepper.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
@@ -75,7 +76,7 @@ Particles sample_of(const Particles& all, std::size_t most) {
 }
 
 std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_t particles) {
-  if (spec.effects.drifts()) {
+  if (particles_interact(spec.effects)) {
     // As many as one sum over all pairs affords. Fewer are summed pair by pair, which does not tell what many take.
     std::size_t most = particles;
     while (most > 1000 && work_of_rate(spec, scene, most) > work_of_drifts) most -= most / 8;
@@ -83,14 +84,10 @@ std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_
   }
   const double stages = time::find_tableau(spec.time.method).stages;
   const double rates = stages * scene.velocity->cost();  // of one particle, in a step
-  const double reaction = scene.reaction_rate ? stages * scene.reaction_rate->cost() : 0;
+  const double reaction = scene.decay_rate ? stages * scene.decay_rate->cost() : 0;
   double each = rates + reaction;
-  const auto& diffusion = spec.effects.diffusion;
-  if (diffusion && diffusion->method == DiffusionSpec::Method::particle_exchange) {
-    // Nodes of the halo that are looked at around a particle at the rim, and three sums over the particles.
-    const double halo = 2 * spec.particles.overlap * std::sqrt(std::log(1 / diffusion->tolerance)) + 1;
-    each += 0.2 * std::pow(halo, spec.domain.dimension) + 60;
-  }
+  for (const auto& [effect, written] : effects_of(spec.effects))
+    if (effect->work) each += effect->work(written, spec);
   return static_cast<std::size_t>(std::clamp(work_of_steps / each, 20.0, 1e9));
 }
 
@@ -143,7 +140,7 @@ double time_drifts(const Case& spec, const Scene& scene, const Particles& partic
     return fastest;
   };
   const double end = spec.time.end, start = at(0);
-  const double sum = spec.effects.diffusion ? (start + 4 * at(end / 2) + at(end)) / 6 : start;
+  const double sum = spreading(spec.effects) > 0 ? (start + 4 * at(end / 2) + at(end)) / 6 : start;
   return sum * time::find_tableau(spec.time.method).stages;
 }
 

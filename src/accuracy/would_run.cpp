@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "base/error.hpp"
+#include "effect/catalogue.hpp"
 #include "input/read_case.hpp"
 #include "sim/simulation.hpp"
 
@@ -48,6 +49,13 @@ std::string why_refused(const Case& scene, int threads) {
     return first_line(error.what());
   }
   return "";
+}
+
+std::string table_against_gaps(Case scene) {
+  const NamedEffect* restorer = overlap_restorer();
+  if (!restorer) return "";
+  scene.effects.set(complete_effect(*restorer, {}));
+  return why_not_read(scene).empty() ? restorers_table() : "";
 }
 
 }  // namespace gaussdrift::accuracy

@@ -16,6 +16,10 @@ std::string why_not_read(const Case& scene);
 /// does. Empty: it would not.
 std::string why_refused(const Case& scene, int threads);
 
+/// "[effects.remesh]", the table of an effect that makes blobs overlap again, if reading the case with it would accept
+/// it; else empty.
+std::string table_against_gaps(Case scene);
+
 /// Lattices with more points than this are not recommended, because judging them means seeding them.
 constexpr double most_judged = 4e6;
 

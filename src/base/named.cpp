@@ -49,19 +49,24 @@ std::vector<double> default_value(const NamedParameter& parameter, const Box& do
 }
 
 Arguments complete(const NamedFormula& formula, const Arguments& given, const Box& domain) {
+  return complete(formula.name, formula.parameters, given, domain);
+}
+
+Arguments complete(std::string_view thing, const std::vector<NamedParameter>& parameters, const Arguments& given,
+                   const Box& domain) {
   Arguments result;
-  for (const NamedParameter& parameter : formula.parameters) {
+  for (const NamedParameter& parameter : parameters) {
     const auto* values = find(given, parameter.name);
     if (!values && parameter.fallback.empty())
-      throw std::invalid_argument(std::string(formula.name) + " needs " + std::string(parameter.name));
+      throw std::invalid_argument(std::string(thing) + " needs " + std::string(parameter.name));
     result.emplace_back(parameter.name, values ? *values : default_value(parameter, domain));
     if (result.back().second.size() != length_of(parameter, domain))
-      throw std::invalid_argument(std::string(parameter.name) + " of " + std::string(formula.name) + " has " +
+      throw std::invalid_argument(std::string(parameter.name) + " of " + std::string(thing) + " has " +
                                   std::to_string(result.back().second.size()) + " numbers");
   }
   for (const auto& argument : given)
     if (!find(result, argument.first))
-      throw std::invalid_argument(std::string(formula.name) + " has no parameter " + argument.first);
+      throw std::invalid_argument(std::string(thing) + " has no parameter " + argument.first);
   return result;
 }
 

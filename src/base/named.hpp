@@ -24,10 +24,19 @@ struct Range {
 
 constexpr Range positive{0, std::numeric_limits<double>::infinity(), true, false};
 
+/// One of the words that a parameter may have, and what it means: a phrase that continues the word, "is a Gaussian".
+struct NamedChoice {
+  std::string_view name, meaning;
+};
+
 struct NamedParameter {
   enum class Kind {
     number,
-    point  // one number a dimension
+    whole,              // a number without a fraction
+    point,              // one number a dimension
+    choice,             // one of `choices`
+    expression,         // a formula in x, y, z and the params
+    expression_in_time  // and in t
   };
   std::string_view name;
   Kind kind = Kind::number;
@@ -38,6 +47,16 @@ struct NamedParameter {
   std::string_view unit = {};
   std::string_view symbol = {};  // in the literature
   std::string_view meaning = {};
+  bool optional = false;                            // it may be left out, without a default
+  std::vector<NamedChoice> (*choices)() = nullptr;  // of a choice
+  std::string_view with = {}, value = {};           // it goes with this value of that choice, and has none elsewhere
+  std::string_view replaced_by = {};                // a parameter in whose presence it has no value
+};
+
+/// Something wrong with the value of a key, for people.
+struct Complaint {
+  std::string_view key;  // "cutoff", or "particles.cutoff" of another table
+  std::string message, remedy;
 };
 
 /// Parameters by name: one number, or a point as one number a dimension.
@@ -46,7 +65,7 @@ using Arguments = std::vector<std::pair<std::string, std::vector<double>>>;
 struct NamedFormula {
   std::string_view name;
   std::string_view meaning;  // one line, with its source
-  std::string_view formula;
+  std::string_view formula = {};
   int least_dimension = 2, most_dimension = 3;
   std::vector<NamedParameter> parameters = {};
   /// The problem with arguments that are complete and each in range, as text for the user; empty if there is none.
@@ -65,6 +84,9 @@ std::vector<double> default_value(const NamedParameter& parameter, const Box& do
 /// `given` in the order of the formula's parameters, with defaults where nothing is given.
 /// Throws std::invalid_argument for an unknown, missing or misshapen parameter: readers have checked before.
 Arguments complete(const NamedFormula& formula, const Arguments& given, const Box& domain);
+/// The same for the numbers and points of any `thing` that has parameters.
+Arguments complete(std::string_view thing, const std::vector<NamedParameter>& parameters, const Arguments& given,
+                   const Box& domain);
 
 /// A parameter among complete arguments; std::out_of_range if there is none.
 double number(const Arguments& arguments, std::string_view name);

@@ -152,15 +152,13 @@ std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary
         fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights. The error of the sum is at most "
                     "{:.1e} of max rho.",
                     spec.evaluate.tolerance, summary.transform_achievable));
-  Case remeshed = spec;
-  remeshed.effects.remesh = RemeshSpec{};
   for (const auto& [time, numbers] : summary.frames)
     if (numbers.stretch > spec.particles.overlap) {
+      const std::string table = accuracy::table_against_gaps(spec);
       warnings.push_back(fmt::format(
           "at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart. Blobs {:g} spacings wide "
           "no longer overlap there, so the density has false gaps and peaks. Use {}more overlap on a finer lattice.",
-          time, numbers.stretch, spec.particles.overlap,
-          accuracy::why_not_read(remeshed).empty() ? "[effects.remesh], or " : ""));
+          time, numbers.stretch, spec.particles.overlap, table.empty() ? "" : table + ", or "));
       break;
     }
   warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "effect/catalogue.hpp"
+
 namespace gaussdrift {
 
 std::string Charge::describe() const {
@@ -63,5 +65,78 @@ Numbers Charge::numbers() const {
           {"charge", total_},
           {"largest_rate", largest_rate_}};
 }
+
+namespace {
+
+bool has_density(const EffectSpec& effect, int /*dimension*/) { return effect.has("density"); }
+
+std::unique_ptr<Effect> make_charge(const EffectSpec& effect, const EffectScene& scene) {
+  Charge::Options options{.mobility = effect.number("mobility"),
+                          .core_radius = scene.core_radius,
+                          .spreading = scene.spreading,
+                          .cell = scene.cell(),
+                          .tolerance = effect.number("tolerance"),
+                          .dimension = scene.spec.domain.dimension,
+                          .threads = scene.threads};
+  if (scene.carried) {
+    // The density of charge times the volume of a particle, at the places of the particles.
+    options.own = [&density = *scene.carried, cell = options.cell](const Particles& particles) {
+      std::vector<double> charges(particles.size(), 0.0);
+      density.add(0, particles.view(), charges.data());
+      for (double& charge : charges) charge *= cell;
+      return charges;
+    };
+    options.written = effect.text("density");
+  }
+  return std::make_unique<Charge>(std::move(options));
+}
+
+}  // namespace
+
+namespace named {
+
+NamedEffect charge() {
+  return {
+      .about = {.name = "charge",
+                .meaning = "the particles are charged and repel each other: X' = u + mobility E(X) with E = sum_k q_k "
+                           "(X - X_k) / r^d. `reference.kind` is then `none`, unless it is `exact`",
+                .parameters = {{.name = "mobility",
+                                .unit = "length^d / (charge time)",
+                                .symbol = "mu",
+                                .meaning = "velocity of a particle in a field of size 1. Equal charges attract each "
+                                           "other where it is negative"},
+                               {.name = "density",
+                                .kind = NamedParameter::Kind::expression,
+                                .unit = "charge / length^d",
+                                .symbol = "rho_q",
+                                .meaning = "density of charge at the start, an expression in x, y, z and params. Every "
+                                           "particle keeps its charge. Without this key the charge of a particle is "
+                                           "its weight",
+                                .optional = true},
+                               {.name = "tolerance",
+                                .fallback = "1e-06",
+                                .range = {1e-14, 0.1},
+                                .meaning = "error allowed in E, relative to the sum of the sizes of all single fields "
+                                           "at that place. The library farfield promises it"}}},
+      .traits = {.particles_interact = true,
+                 .moved_by_weights = {.words = "these are the charges that move the particles",
+                                      .unless = "the charge has a density of its own",
+                                      .remedy = "give the charge a density of its own: effects.charge.density",
+                                      .holds = [](const EffectSpec& effect, int d) { return !has_density(effect, d); }},
+                 .blind_to_widths = {.words = "charges are points in three dimensions, so their field would not spread "
+                                              "with the density",
+                                     .unless = "the scene has two dimensions",
+                                     .holds = [](const EffectSpec&, int dimension) { return dimension == 3; }},
+                 .carries_more = {.words = "charge of their own",
+                                  .unless = "the charge is the weight",
+                                  .remedy = "leave out one of them, or effects.charge.density",
+                                  .holds = has_density}},
+      .carried = "density",
+      .memory = [](const EffectSpec&,
+                   int dimension) { return EffectMemory{.step = PairVelocity::bytes_of_particle(dimension)}; },
+      .make = make_charge};
+}
+
+}  // namespace named
 
 }  // namespace gaussdrift

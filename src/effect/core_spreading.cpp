@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "effect/catalogue.hpp"
 #include "field/velocity/differences.hpp"
 
 namespace gaussdrift {
@@ -48,9 +49,9 @@ std::string CoreSpreading::warning() const {
   if (strain_ * end_ <= noticed) return "";
   return fmt::format(
       "this flow strains at the rate {:.3g} and stretches lengths by up to exp({:.3g}) over the run. Core spreading "
-      "keeps blobs round, so the flow does not stretch what has diffused. [effects.remesh] with small intervals cures "
+      "keeps blobs round, so the flow does not stretch what has diffused. {} with small intervals cures "
       "that, or method = \"particle-exchange\" (docs/method.md, section 8.2).",
-      strain_, strain_ * end_);
+      strain_, strain_ * end_, restorers_table());
 }
 
 Numbers CoreSpreading::numbers() const { return {{"D", coefficient_}, {"largest_strain_rate", strain_}}; }

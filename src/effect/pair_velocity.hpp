@@ -21,6 +21,9 @@ class PairVelocity {
   /// Field of point charges: 3 x particles.
   farfield::Points<3> charges(const PointsView& x, const std::vector<double>& weights) const;
 
+  /// Measured: what a plan and its evaluation hold a particle.
+  static double bytes_of_particle(int dimension) { return dimension == 3 ? 300 : 200; }
+
   std::size_t evaluations() const { return evaluations_; }
   const farfield::Choice& last_choice() const { return choice_; }
 

@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/users_words.hpp"
+#include "effect/catalogue.hpp"
 
 namespace gaussdrift {
 
@@ -89,8 +90,8 @@ void ParticleExchange::settle(Particles& particles, const double* integral, doub
     if (!std::isfinite(particles.volume[j]))
       throw NumericalError(
           fmt::format("the volume of particle {} is too large for a number at t = {:.6g}, because the velocity has "
-                      "diverged for so long. Shorten time.end, or add [effects.remesh].",
-                      particles.id[j], time));
+                      "diverged for so long. Shorten time.end, or add {}.",
+                      particles.id[j], time, restorers_table()));
   }
 }
 
@@ -198,8 +199,8 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   if (length * rate > 2 * (1 + 1e-6))  // 1e-6: the tolerance of largest_rate()
     throw NumericalError(
         fmt::format("diffusion by particle exchange is unstable at t = {:.6g}, because particles have come close "
-                    "together. Use time.step <= {:.3g}, or add [effects.remesh].",
-                    time, 2 / rate));
+                    "together. Use time.step <= {:.3g}, or add {}.",
+                    time, 2 / rate, restorers_table()));
   // L applied to weights w whose sum K w is known. What one particle gives another receives; the tolerance of the sums
   // breaks that, and what is too much or too little is spread over all exchanges, so that the mass stays.
   const auto exchanged = [&](const Eigen::VectorXd& w, const Eigen::ArrayXd& kw) {

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "base/error.hpp"
+#include "effect/catalogue.hpp"
 
 namespace gaussdrift {
 
@@ -114,7 +115,7 @@ class TiledSum {
 }  // namespace
 
 Remesh::Remesh(const Lattice& lattice, const Options& options)
-    : nodes_(lattice), options_(options), kernel_(options.kernel) {}
+    : nodes_(lattice), options_(options), kernel_(find_remesh_kernel(options.kernel)) {}
 
 std::string Remesh::describe() const {
   const std::string when = options_.every > 0 ? fmt::format("every {} steps", options_.every)
@@ -123,7 +124,7 @@ std::string Remesh::describe() const {
 }
 
 std::string Remesh::conserves() const {
-  return fmt::format("mass; moments up to order {} but for weights below {:g} of the largest", kernel_.moments(),
+  return fmt::format("mass; moments up to order {} but for weights below {:g} of the largest", kernel_.moments,
                      options_.tolerance);
 }
 
@@ -172,7 +173,7 @@ void Remesh::remesh(Particles& particles) {
   const int dimension = particles.dimension;
   const double h = nodes_.lattice().spacing;
   const double spread = particles.spread / (h * h);
-  const bool into_weights = spread > 0 && spread >= kernel_.takes_spread();
+  const bool into_weights = spread > 0 && spread >= kernel_.takes_spread;
 
   TiledSum sum(dimension, options_.memory_limit);
   std::array<AxisWeights, max_dimension> axes;
@@ -228,5 +229,69 @@ Numbers Remesh::numbers() const {
           {"negative_weight", most_negative_},
           {"dropped_weight", most_dropped_}};
 }
+
+namespace {
+
+std::vector<NamedChoice> kernel_choices() {
+  std::vector<NamedChoice> choices;
+  for (const RemeshKernel& kernel : remesh_kernels()) choices.push_back({kernel.name, kernel.meaning});
+  return choices;
+}
+
+std::unique_ptr<Effect> make_remesh(const EffectSpec& effect, const EffectScene& scene) {
+  Remesh::Options options{.kernel = effect.text("kernel"), .tolerance = effect.number("tolerance")};
+  if (effect.has("every"))
+    options.every = static_cast<int>(effect.number("every"));
+  else
+    options.stretch = effect.number("stretch");
+  return std::make_unique<Remesh>(scene.seeding, options);
+}
+
+}  // namespace
+
+namespace named {
+
+NamedEffect remesh() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return {
+      .about = {.name = "remesh",
+                .meaning = "the weights move to particles on a fresh lattice: whenever old neighbours have drifted "
+                           "apart, or every so many steps",
+                .parameters = {{.name = "every",
+                                .kind = NamedParameter::Kind::whole,
+                                .range = {1, 1e9},
+                                .meaning = "number of steps from one remeshing to the next. Without it, `stretch` "
+                                           "decides",
+                                .optional = true},
+                               {.name = "stretch",
+                                .fallback = "1.5",
+                                .range = {1, infinity, true},
+                                .meaning = "remesh as soon as particles that were neighbours are farther apart than "
+                                           "this many spacings h. The overlap has then fallen to `particles.overlap` "
+                                           "divided by this number. A case gives either this or `every`",
+                                .replaced_by = "every"},
+                               {.name = "kernel",
+                                .kind = NamedParameter::Kind::choice,
+                                .fallback = remesh_kernels().front().name,
+                                .meaning = "how weights are shared among the new nodes",
+                                .choices = kernel_choices},
+                               {.name = "tolerance",
+                                .fallback = "1e-09",
+                                .range = {0, 0.01},
+                                .meaning = "nodes with less than this part of the largest weight are left out. Their "
+                                           "weight goes to the others"}}},
+      .traits = {.replaces_particles = {.words = "remeshing makes new particles"},
+                 .moves_weight = {.words = "remeshing moves weight between particles"},
+                 .keeps_density = true,
+                 .restores_overlap = true},
+      // The table of neighbours; the nodes.
+      .memory =
+          [](const EffectSpec&, int dimension) {
+            return EffectMemory{.kept = 16.0 * dimension, .step = dimension == 3 ? 150.0 : 100.0};
+          },
+      .make = make_remesh};
+}
+
+}  // namespace named
 
 }  // namespace gaussdrift

@@ -16,10 +16,10 @@ namespace gaussdrift {
 class Remesh : public Effect {
  public:
   struct Options {
-    int every = 0;                  // steps between two remeshings; 0: as `stretch` says
-    double stretch = 1.5;           // whenever particles that were neighbours are farther apart than so many spacings
-    std::string kernel = "gauss8";  // of RemeshKernel
-    double tolerance = 1e-9;        // nodes with less than this part of the largest |weight| are left out
+    int every = 0;         // steps between two remeshings; 0: as `stretch` says
+    double stretch = 1.5;  // whenever particles that were neighbours are farther apart than so many spacings
+    std::string kernel{remesh_kernels().front().name};
+    double tolerance = 1e-9;  // nodes with less than this part of the largest |weight| are left out
     std::size_t memory_limit = std::size_t{4} << 30;  // bytes for the nodes touched
   };
   /// The lattice is continued beyond the domain where particles have left it.

@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 
 namespace gaussdrift {
 
@@ -64,48 +64,78 @@ void smooth_weights(double place, double spread, std::int64_t& first, std::vecto
   for (double& weight : weights) weight /= sum;
 }
 
+// Lambda_{p,r}, piecewise of degree 2r + 1 and r times differentiable, keeps moments up to p. Sum_i f_i Lambda(x - i)
+// interpolates f. Its derivatives at a node are the central differences there, so that it is a two-point Hermite
+// interpolant on every cell. Such a one reproduces any polynomial whose derivatives 0 .. r at both ends it is given,
+// and for degrees <= p the differences are those.
+class Piecewise {
+ public:
+  Piecewise(int p, int r) : p_(p) {
+    const auto stencils = central_differences(p, r);
+    for (int node = 0; node < p + 2; ++node) {
+      std::vector<double> at_0, at_1;
+      for (int m = 0; m <= r; ++m) {
+        const auto& c = stencils[static_cast<std::size_t>(m)];
+        at_0.push_back(node <= p ? c[static_cast<std::size_t>(node)] : 0.0);
+        at_1.push_back(node >= 1 ? c[static_cast<std::size_t>(node - 1)] : 0.0);
+      }
+      polynomials_.push_back(two_point_hermite(at_0, at_1));
+    }
+  }
+
+  void operator()(double place, double spread, std::int64_t& first, std::vector<double>& weights) const {
+    if (spread > 0) return smooth_weights(place, spread, first, weights);
+    const double below = std::floor(place), t = place - below;
+    first = static_cast<std::int64_t>(below) - p_ / 2;
+    weights.resize(polynomials_.size());
+    // The kernel is even; small arguments keep the polynomials' rounding small.
+    const bool mirrored = t > 0.5;
+    const double argument = mirrored ? 1 - t : t;
+    for (std::size_t node = 0; node < polynomials_.size(); ++node) {
+      const std::vector<double>& a = polynomials_[node];
+      double value = 0;
+      for (auto c = a.rbegin(); c != a.rend(); ++c) value = value * argument + *c;
+      weights[mirrored ? polynomials_.size() - 1 - node : node] = value;
+    }
+  }
+
+ private:
+  int p_;
+  std::vector<std::vector<double>> polynomials_;  // one a node, lowest power first
+};
+
+RemeshKernel piecewise(std::string_view name, int p, int r, std::string_view meaning) {
+  return {.name = name, .meaning = meaning, .moments = p, .takes_spread = 2.25, .share = Piecewise(p, r)};
+}
+
 }  // namespace
 
-const std::vector<std::string>& remesh_kernel_names() {
-  static const std::vector<std::string> names{"gauss8", "lambda44", "lambda66", "m4prime"};
-  return names;
-}
+const std::vector<RemeshKernel>& remesh_kernels() { return base::catalogue<RemeshKernel>(); }
 
-// Sum_i f_i Lambda(x - i) interpolates f; its derivatives at a node are the central differences there, so that it is a
-// two-point Hermite interpolant on every cell. Such a one reproduces any polynomial whose derivatives 0 .. r at both
-// ends it is given, and for degrees <= p the differences are those.
-RemeshKernel::RemeshKernel(std::string_view name) : p_(0), r_(0) {
-  if (name == "m4prime") p_ = 2, r_ = 1;
-  if (name == "lambda44") p_ = 4, r_ = 4;
-  if (name == "lambda66") p_ = 6, r_ = 6;
-  if (name == "gauss8") return;
-  if (p_ == 0) throw std::out_of_range("no remeshing kernel is called " + std::string(name));
-  const auto stencils = central_differences(p_, r_);
-  for (int node = 0; node < p_ + 2; ++node) {
-    std::vector<double> at_0, at_1;
-    for (int m = 0; m <= r_; ++m) {
-      const auto& c = stencils[static_cast<std::size_t>(m)];
-      at_0.push_back(node <= p_ ? c[static_cast<std::size_t>(node)] : 0.0);
-      at_1.push_back(node >= 1 ? c[static_cast<std::size_t>(node - 1)] : 0.0);
-    }
-    polynomials_.push_back(two_point_hermite(at_0, at_1));
-  }
-}
-
-void RemeshKernel::share(double place, double spread, std::int64_t& first, std::vector<double>& weights) const {
-  if (p_ == 0 || spread > 0) return smooth_weights(place, spread, first, weights);
-  const double below = std::floor(place), t = place - below;
-  first = static_cast<std::int64_t>(below) - p_ / 2;
-  weights.resize(polynomials_.size());
-  // The kernel is even; small arguments keep the polynomials' rounding small.
-  const bool mirrored = t > 0.5;
-  const double argument = mirrored ? 1 - t : t;
-  for (std::size_t node = 0; node < polynomials_.size(); ++node) {
-    const std::vector<double>& a = polynomials_[node];
-    double value = 0;
-    for (auto c = a.rbegin(); c != a.rend(); ++c) value = value * argument + *c;
-    weights[mirrored ? polynomials_.size() - 1 - node : node] = value;
-  }
+const RemeshKernel& find_remesh_kernel(std::string_view name) {
+  return base::find_named(remesh_kernels(), "remeshing kernel", name);
 }
 
 }  // namespace gaussdrift
+
+namespace gaussdrift::base {
+
+template <>
+std::vector<RemeshKernel>& catalogue() {
+  static std::vector<RemeshKernel> all{
+      // Smooth, so that it also sums up particles that no longer stand on a lattice, as long as they overlap.
+      {.name = "gauss8",
+       .meaning = "is smooth, keeps moments up to order 7 and tolerates a stretch of 1.5",
+       .moments = 7,
+       .share = smooth_weights},
+      // A quarter of the nodes an axis, for particles that have hardly moved against each other.
+      piecewise(
+          "lambda44", 4, 4,
+          "is piecewise polynomial and keeps moments up to order 4. It is cheaper but wants a stretch of at most 1.1"),
+      piecewise("lambda66", 6, 6, "is the same with moments up to order 6"),
+      piecewise("m4prime", 2, 1, "is the same with moments up to order 2"),  // Monaghan's M4' [CEPP14]
+  };
+  return all;
+}
+
+}  // namespace gaussdrift::base

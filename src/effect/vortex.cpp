@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effect/catalogue.hpp"
+#include "particle/cutoff.hpp"
+
 namespace gaussdrift {
 
 std::string Vortex::describe() const {
@@ -37,5 +40,53 @@ Numbers Vortex::numbers() const {
           {"clusters", static_cast<double>(pairs_.last_choice().clusters)},
           {"largest_vorticity", largest_vorticity_}};
 }
+
+namespace {
+
+std::vector<Complaint> needs_gaussian(const EffectSpec& /*effect*/, const Case& spec) {
+  std::string gaussian;
+  for (const NamedCutoff& cutoff : cutoffs()) {
+    if (!cutoff.is_gaussian) continue;
+    if (cutoff.name == spec.particles.cutoff) return {};
+    gaussian = cutoff.name;
+  }
+  return {{.key = "",
+           .message = fmt::format("needs particles.cutoff = \"{}\", found \"{}\"", gaussian, spec.particles.cutoff),
+           .remedy = "the velocity of a blob is known for the Gaussian alone"}};
+}
+
+std::unique_ptr<Effect> make_vortex(const EffectSpec& effect, const EffectScene& scene) {
+  return std::make_unique<Vortex>(Vortex::Options{.core_radius = scene.core_radius,
+                                                  .spreading = scene.spreading,
+                                                  .cell = scene.cell(),
+                                                  .tolerance = effect.number("tolerance"),
+                                                  .threads = scene.threads});
+}
+
+}  // namespace
+
+namespace named {
+
+NamedEffect vortex() {
+  return {.about = {.name = "vortex",
+                    .meaning = "the density is a vorticity, and its blobs move each other as vortices do. It needs two "
+                               "dimensions and `cutoff = \"gauss2\"`. `reference.kind` is then `none`, unless it is "
+                               "`exact`",
+                    .most_dimension = 2,
+                    .parameters = {{.name = "tolerance",
+                                    .fallback = "1e-06",
+                                    .range = {1e-14, 0.1},
+                                    .meaning = "error allowed in the velocity, relative to the sum of the sizes of all "
+                                               "single velocities at that place. The library farfield promises it"}}},
+          .traits = {.particles_interact = true,
+                     .moved_by_weights = {.words = "these are the circulations that move the particles"},
+                     .flat_patches_ripple = true},
+          .problems = needs_gaussian,
+          .memory = [](const EffectSpec&,
+                       int dimension) { return EffectMemory{.step = PairVelocity::bytes_of_particle(dimension)}; },
+          .make = make_vortex};
+}
+
+}  // namespace named
 
 }  // namespace gaussdrift

@@ -44,4 +44,16 @@ void WrittenScalar::add(double t, const PointsView& x, double* values) const {
   }
 }
 
+double SumOfScalars::cost() const {
+  double sum = 0;
+  for (const auto& field : fields_) sum += field->cost();
+  return sum;
+}
+
+std::string SumOfScalars::describe() const {
+  std::string text;
+  for (const auto& field : fields_) text += (text.empty() ? "(" : " + (") + field->describe() + ")";
+  return text;
+}
+
 }  // namespace gaussdrift

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,26 @@ class WrittenScalar : public ScalarField {
   Expression expression_;
   bool constant_, steady_;
   double value_ = 0;  // if constant
+};
+
+/// The sum of at least one field.
+class SumOfScalars : public ScalarField {
+ public:
+  explicit SumOfScalars(std::vector<std::unique_ptr<ScalarField>> fields) : fields_(std::move(fields)) {}
+  void add(double t, const PointsView& x, double* values) const override {
+    for (const auto& field : fields_) field->add(t, x, values);
+  }
+  bool is_steady() const override {
+    return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_steady(); });
+  }
+  bool is_smooth() const override {
+    return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_smooth(); });
+  }
+  double cost() const override;
+  std::string describe() const override;
+
+ private:
+  std::vector<std::unique_ptr<ScalarField>> fields_;
 };
 
 }  // namespace gaussdrift

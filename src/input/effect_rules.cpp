@@ -3,67 +3,83 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "input/registry.hpp"
-
 namespace gaussdrift::input {
 namespace {
 
-bool exchanges(const EffectsSpec& effects) {
-  return effects.diffusion->method == DiffusionSpec::Method::particle_exchange;
+/// Two traits that do not go together in one scene, and why, in their words.
+struct Meeting {
+  Trait (*one)(const EffectTraits& traits);
+  Trait EffectTraits::*other;
+  const char* reason;  // {0}: the words of the one, {1}: of the other
+};
+
+Trait interacting(const EffectTraits& traits) { return {.words = traits.particles_interact ? "move each other" : ""}; }
+Trait moved_by_weights(const EffectTraits& traits) { return traits.moved_by_weights; }
+Trait carrying_more(const EffectTraits& traits) { return traits.carries_more; }
+
+constexpr Meeting meetings[] = {
+    {moved_by_weights, &EffectTraits::grows_weights, "{1}, and {0}"},
+    {interacting, &EffectTraits::adds_particles, "{1}, and they cannot be carried from the start"},
+    {carrying_more, &EffectTraits::replaces_particles, "{1}, which have weights but no {0}"},
+};
+
+EffectRule rule_of(const NamedEffect& one, const NamedEffect& two, const Trait& trait, const Trait& other,
+                   std::string reason) {
+  const std::string_view remedy = !trait.remedy.empty() ? trait.remedy : other.remedy;
+  return {std::string(one.about.name),
+          std::string(two.about.name),
+          trait,
+          other,
+          std::move(reason),
+          std::string(remedy.empty() ? "leave out one of them" : remedy)};
 }
-bool is_weight(const EffectsSpec& effects) { return effects.charge->density.empty(); }
 
 /// The rules about a pair, whichever of the two is named first.
-std::vector<const EffectRule*> rules_of(std::string_view one, std::string_view two) {
-  std::vector<const EffectRule*> found;
+std::vector<EffectRule> rules_of(std::string_view one, std::string_view two) {
+  std::vector<EffectRule> found;
   for (const EffectRule& rule : effect_rules())
-    if ((rule.effect == one && rule.other == two) || (rule.effect == two && rule.other == one)) found.push_back(&rule);
+    if ((rule.effect == one && rule.other == two) || (rule.effect == two && rule.other == one)) found.push_back(rule);
   return found;
 }
 
 /// "yes", "no", or "if ...".
 std::string verdict(std::string_view one, std::string_view two) {
-  std::vector<std::string_view> conditions;
-  for (const EffectRule* rule : rules_of(one, two)) {
-    if (rule->unless.empty()) return "no";
-    conditions.push_back(rule->unless);
+  std::vector<std::string> conditions;
+  for (const EffectRule& rule : rules_of(one, two)) {
+    if (rule.unless().empty()) return "no";
+    conditions.push_back(rule.unless());
   }
   return conditions.empty() ? "yes" : fmt::format("if {}", fmt::join(conditions, " and "));
 }
 
 }  // namespace
 
-const std::vector<EffectRule>& effect_rules() {
-  static const std::vector<EffectRule> rules = {
-      {"charge", "reaction", "the charge has a density of its own",
-       "the reaction changes the weights, and these are the charges that move the particles",
-       "give the charge a density of its own: effects.charge.density",
-       [](const EffectsSpec& effects, int) { return is_weight(effects); }},
-      {"charge", "diffusion", "`method = \"core-spreading\"`",
-       "particle-exchange adds particles during the run, and they cannot be carried from the start",
-       "method = \"core-spreading\"", [](const EffectsSpec& effects, int) { return exchanges(effects); }},
-      {"charge", "diffusion", "the scene has two dimensions",
-       "charges are points in three dimensions, so their field would not spread with the density",
-       "leave out one of them", [](const EffectsSpec&, int dimension) { return dimension == 3; }},
-      {"charge", "remesh", "the charge is the weight",
-       "remeshing makes new particles, which have weights but no charge of their own",
-       "leave out one of them, or effects.charge.density",
-       [](const EffectsSpec& effects, int) { return !is_weight(effects); }},
-      {"vortex", "reaction", "",
-       "the reaction changes the weights, and these are the circulations that move the particles",
-       "leave out one of them", [](const EffectsSpec&, int) { return true; }},
-      {"vortex", "diffusion", "`method = \"core-spreading\"`",
-       "particle-exchange adds particles during the run, and they cannot be carried from the start",
-       "method = \"core-spreading\"", [](const EffectsSpec& effects, int) { return exchanges(effects); }},
-  };
+std::string EffectRule::unless() const {
+  if (trait.unless.empty() || trait_of_other.unless.empty())
+    return std::string(trait.unless.empty() ? trait_of_other.unless : trait.unless);
+  return fmt::format("{} or {}", trait.unless, trait_of_other.unless);
+}
+
+std::vector<EffectRule> effect_rules() {
+  std::vector<EffectRule> rules;
+  for (const NamedEffect& one : effects())
+    for (const NamedEffect& two : effects()) {
+      if (&one == &two) continue;
+      for (const Meeting& meeting : meetings) {
+        const Trait trait = meeting.one(one.traits), other = two.traits.*meeting.other;
+        if (!trait.words.empty() && !other.words.empty())
+          rules.push_back(
+              rule_of(one, two, trait, other, fmt::format(fmt::runtime(meeting.reason), trait.words, other.words)));
+      }
+      if (const Trait& blind = one.traits.blind_to_widths; !blind.words.empty() && two.traits.diffuses)
+        rules.push_back(rule_of(one, two, blind, {.words = "diffuses"}, std::string(blind.words)));
+    }
   return rules;
 }
 
 std::vector<std::string> effect_names() {
-  constexpr std::string_view prefix = "effects.";
   std::vector<std::string> names;
-  for (const std::string& name : table_names())
-    if (name.rfind(prefix, 0) == 0) names.push_back(name.substr(prefix.size()));
+  for (const NamedEffect& effect : effects()) names.emplace_back(effect.about.name);
   return names;
 }
 
@@ -93,7 +109,7 @@ std::string effects_markdown() {
   text += "\nWhy not:\n\n";
   for (const EffectRule& rule : effect_rules())
     text += fmt::format("* {} with {}{}: {}.\n", rule.effect, rule.other,
-                        rule.unless.empty() ? "" : fmt::format(" unless {}", rule.unless), rule.reason);
+                        rule.unless().empty() ? "" : fmt::format(" unless {}", rule.unless()), rule.reason);
   return text;
 }
 

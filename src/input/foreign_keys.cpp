@@ -1,36 +1,37 @@
 #include "input/foreign_keys.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cctype>
 #include <iterator>
 #include <string>
 
+#include "base/catalogue.hpp"
+#include "effect/catalogue.hpp"
+#include "time/tableau.hpp"
+
 namespace gaussdrift::input {
 namespace {
 
-constexpr std::string_view no_walls =
+constexpr const char* no_walls =
     "the domain has no walls: particles move through all of space, and what leaves the domain is not drawn; a velocity "
     "without flow through a wall keeps them inside, as a streamfunction that is constant along it";
-constexpr std::string_view not_periodic =
+constexpr const char* not_periodic =
     "the domain is not periodic: particles that leave it do not come back; the velocity may be periodic, as "
     "sin(2*pi*x), in a domain wide enough for what moves";
-constexpr std::string_view nothing_enters =
-    "all mass is there at the start, in [density]; [effects.reaction] lets it decay, or grow with a negative rate";
-constexpr std::string_view prescribed = "the velocity is prescribed, in [velocity]; no equation of motion is solved";
-constexpr std::string_view no_mesh =
+constexpr const char* prescribed = "the velocity is prescribed, in [velocity]; no equation of motion is solved";
+constexpr const char* no_mesh =
     "there is no mesh: particles.per_axis is the number of particles along the longest side, evaluate.per_axis that of "
     "points where density is written";
-constexpr std::string_view end_of_run = "a run goes from t = 0 to time.end";
-constexpr std::string_view steps = "time.step is the time step; method = \"dopri5\" chooses its own";
-constexpr std::string_view diffuses = "[effects.diffusion] with the coefficient D";
-constexpr std::string_view width = "particles.overlap is the core radius of a blob divided by the particles' spacing";
-constexpr std::string_view formats =
+constexpr const char* end_of_run = "a run goes from t = 0 to time.end";
+constexpr const char* width = "particles.overlap is the core radius of a blob divided by the particles' spacing";
+constexpr const char* formats =
     "output.vtk writes files for ParaView, series.csv has numbers for every output time, pictures are PNG";
-constexpr std::string_view no_random = "nothing is random here: the same case gives the same results";
-constexpr std::string_view again =
+constexpr const char* no_random = "nothing is random here: the same case gives the same results";
+constexpr const char* again =
     "[density] file = \"density/density_0004.vti\" starts from the density that an earlier run wrote";
 
-constexpr ForeignKey list[] = {
+const ForeignKey written[] = {
     {"boundary", "", no_walls},
     {"boundaries", "", no_walls},
     {"boundarycondition", "", no_walls},
@@ -47,15 +48,8 @@ constexpr ForeignKey list[] = {
     {"periodic", "", not_periodic},
     {"periodicity", "", not_periodic},
     {"wrap", "", not_periodic},
-    {"inflow", "", nothing_enters},
-    {"inlet", "", nothing_enters},
     {"outflow", "", no_walls},
     {"outlet", "", no_walls},
-    {"source", "", nothing_enters},
-    {"sources", "", nothing_enters},
-    {"sink", "", nothing_enters},
-    {"emission", "", nothing_enters},
-    {"emissions", "", nothing_enters},
     {"gravity", "", prescribed},
     {"pressure", "", prescribed},
     {"temperature", "", prescribed},
@@ -70,12 +64,6 @@ constexpr ForeignKey list[] = {
     {"dx", "", no_mesh},
     {"dy", "", no_mesh},
     {"dz", "", no_mesh},
-    {"dt", "time.step", steps},
-    {"deltat", "time.step", steps},
-    {"timestep", "time.step", steps},
-    {"stepsize", "time.step", steps},
-    {"cfl", "time.step", steps},
-    {"courant", "time.step", steps},
     {"tmax", "time.end", end_of_run},
     {"tend", "time.end", end_of_run},
     {"tfinal", "time.end", end_of_run},
@@ -88,11 +76,6 @@ constexpr ForeignKey list[] = {
     {"integrator", "time.method", "a Runge-Kutta method"},
     {"solver", "time.method", "a Runge-Kutta method"},
     {"scheme", "time.method", "a Runge-Kutta method"},
-    {"diffusivity", "", diffuses},
-    {"viscosity", "", diffuses},
-    {"nu", "", diffuses},
-    {"kappa", "", diffuses},
-    {"decay", "", "[effects.reaction] with its rate"},
     {"sigma", "particles.overlap", width},
     {"eps", "particles.overlap", width},
     {"epsilon", "particles.overlap", width},
@@ -117,17 +100,33 @@ constexpr ForeignKey list[] = {
     {"png", "", formats},
 };
 
+/// Words for the time step.
+constexpr std::string_view steps[] = {"dt", "deltat", "timestep", "stepsize", "cfl", "courant"};
+
+std::vector<ForeignKey> all_keys() {
+  std::vector<ForeignKey> all(std::begin(written), std::end(written));
+  const std::string answer =
+      fmt::format("time.step is the time step; method = {} chooses its own", time::adaptive_names());
+  for (const std::string_view word : steps) all.push_back({word, "time.step", answer});
+  for (const NamedEffect& effect : effects())
+    for (const auto& [word, meant] : effect.elsewhere) all.push_back({word, "", std::string(meant)});
+  return all;
+}
+
 }  // namespace
 
-std::span<const ForeignKey> foreign_keys() { return list; }
+const std::vector<ForeignKey>& foreign_keys() {
+  static base::FromCatalogues<std::vector<ForeignKey>> list;
+  return list.get(all_keys);
+}
 
 const ForeignKey* find_foreign_key(std::string_view word) {
   std::string bare;
   for (const char c : word)
     if (c != '_' && c != '-') bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto found =
-      std::find_if(std::begin(list), std::end(list), [&](const ForeignKey& known) { return known.word == bare; });
-  return found == std::end(list) ? nullptr : found;
+  for (const ForeignKey& known : foreign_keys())
+    if (known.word == bare) return &known;
+  return nullptr;
 }
 
 }  // namespace gaussdrift::input

@@ -16,6 +16,7 @@
 #include "base/printable.hpp"
 #include "base/suggest.hpp"
 #include "base/text_file.hpp"
+#include "effect/catalogue.hpp"
 #include "expression/expression.hpp"
 #include "field/density/shapes.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
@@ -26,8 +27,10 @@
 #include "input/foreign_keys.hpp"
 #include "input/gaussian_table.hpp"
 #include "input/registry.hpp"
+#include "particle/cutoff.hpp"
 #include "read/grid_file.hpp"
 #include "render/styles.hpp"
+#include "time/tableau.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::input {
@@ -888,51 +891,44 @@ class Reader {
       particles.per_axis = to_int(*count);
     }
     particles.cutoff = choice("particles", "cutoff");
-    // Reactions can raise weights that are next to nothing at the start.
+    // Where weights can grow, those that are next to nothing at the start count.
+    const bool grow = std::any_of(effects().begin(), effects().end(), [&](const NamedEffect& effect) {
+      return !effect.traits.grows_weights.words.empty() && table(table_of(effect));
+    });
     if (const auto threshold = number("particles", "threshold"))
-      particles.threshold = threshold->written || !table("effects.reaction") ? threshold->number : 0;
-    read_width_ratio(particles);
+      particles.threshold = threshold->written || !grow ? threshold->number : 0;
+    const bool valid = read_cutoff_arguments(particles);
     if (const auto overlap = number("particles", "overlap")) {
       particles.overlap = overlap->number;
-      const double narrowest = particles.cutoff == "two-gauss" ? std::min(1.0, particles.width_ratio) : 1;
-      if (overlap->written && narrowest * particles.overlap < 1) warn_small_overlap(particles, *overlap);
+      if (overlap->written && valid) warn_small_overlap(particles, *overlap);
     }
   }
 
-  void read_width_ratio(ParticleSpec& particles) {
-    const Entry* entry = find("particles", "width_ratio");
-    if (entry && particles.cutoff != "two-gauss") {
-      diagnostics_.error(entry->place, fmt::format("\"width_ratio\" goes with cutoff = \"two-gauss\", not with \"{}\"",
-                                                   particles.cutoff));
-      return;
-    }
-    const auto ratio = number("particles", "width_ratio");
-    if (!ratio) return;
-    particles.width_ratio = ratio->number;
-    // Close to 1 the two Gaussians cancel: their weights are 1/(a^2 - 1).
-    if (std::abs(ratio->number - 1) < 1e-3)
-      diagnostics_.error(
-          ratio->written->place,
-          fmt::format("particles.width_ratio = {} makes both Gaussians of two-gauss the same", ratio->number),
-          "2 is usual; gauss4 is the limit at 1");
+  /// False if the cutoff cannot be made from them.
+  bool read_cutoff_arguments(ParticleSpec& particles) {
+    const NamedCutoff& chosen = find_cutoff(particles.cutoff);
+    for (const NamedCutoff& other : cutoffs())
+      for (const NamedParameter& parameter : other.parameters)
+        if (const Entry* entry = find("particles", parameter.name); entry && &other != &chosen)
+          diagnostics_.error(entry->place, fmt::format("\"{}\" goes with cutoff = \"{}\", not with \"{}\"",
+                                                       parameter.name, other.name, particles.cutoff));
+    for (const NamedParameter& parameter : chosen.parameters)
+      if (const auto value = number("particles", parameter.name))
+        particles.cutoff_arguments.emplace_back(parameter.name, std::vector{value->number});
+    if (!chosen.problems) return true;
+    const auto problems = chosen.problems(complete(chosen.name, chosen.parameters, particles.cutoff_arguments, {}));
+    for (const Complaint& problem : problems)
+      diagnostics_.error(find("particles", problem.key)->value.place, problem.message, problem.remedy);
+    return problems.empty();
   }
 
   /// The density of equal blobs on a lattice ripples by 2 d zeta^(2 pi c), zeta^ the Fourier transform of the cutoff
-  /// (Poisson's sum) at q = k^2/4: e^{-q} (1 + q + ... + q^{m-1}/(m-1)!) for order 2m, (a^2 e^{-q} - e^{-a^2 q})/(a^2 -
-  /// 1) for two-gauss.
-  static double cutoff_transform(const ParticleSpec& particles, double q) {
-    if (particles.cutoff == "two-gauss") {
-      const double square = particles.width_ratio * particles.width_ratio;
-      return std::abs((square * std::exp(-q) - std::exp(-square * q)) / (square - 1));
-    }
-    double sum = 0, term = 1;
-    for (int j = 0; 2 * j < particles.cutoff.back() - '0'; term *= q / ++j) sum += term;
-    return sum * std::exp(-q);
-  }
-
+  /// (Poisson's sum).
   void warn_small_overlap(const ParticleSpec& particles, const Number& overlap) {
-    const double q = std::pow(std::numbers::pi * particles.overlap, 2);
-    const double ripple = 2 * (dimension_ ? dimension_ : 2) * cutoff_transform(particles, q);
+    const Cutoff cutoff = make_cutoff(particles.cutoff, 1, 1, particles.cutoff_arguments);
+    if (narrowest_width(cutoff) * particles.overlap >= 1) return;
+    const double ripple =
+        2 * (dimension_ ? dimension_ : 2) * std::abs(fourier(cutoff, 1, 2 * std::numbers::pi * particles.overlap));
     diagnostics_.warning(overlap.written->place,
                          fmt::format("overlap = {} leaves gaps between the blobs: a constant density ripples by {:.1g}",
                                      particles.overlap, ripple),
@@ -1006,12 +1002,13 @@ class Reader {
   void read_time(TimeSpec& time) {
     const auto end = number("time", "end");
     time.method = choice("time", "method");
-    const bool adaptive = time.method == "dopri5";
+    const bool adaptive = time::is_adaptive(time::find_tableau(time.method));
     if (!adaptive) require(find_key("time", "step"));
     if (const Entry* tolerance = find("time", "tolerance"); tolerance && !adaptive)
-      diagnostics_.error(tolerance->place,
-                         fmt::format("\"tolerance\" goes with method = \"dopri5\", not with \"{}\"", time.method),
-                         "a method with fixed steps takes them as time.step says");
+      diagnostics_.error(
+          tolerance->place,
+          fmt::format("\"tolerance\" goes with method = {}, not with \"{}\"", time::adaptive_names(), time.method),
+          "a method with fixed steps takes them as time.step says");
     const auto step = number("time", "step");
     if (const auto tolerance = number("time", "tolerance")) time.tolerance = tolerance->number;
     if (end) time.end = end->number, end_ = end->number;
@@ -1133,10 +1130,8 @@ class Reader {
     std::string chosen = choice("reference", "kind");
     // With these no path knows the density.
     std::string without;
-    for (const auto& [name, present] :
-         {std::pair{"diffusion", scene.effects.diffusion.has_value()},
-          std::pair{"charge", scene.effects.charge.has_value()}, std::pair{"vortex", scene.effects.vortex.has_value()}})
-      if (present && without.empty()) without = name;
+    for (const auto& [effect, spec] : effects_of(scene.effects))
+      if (without.empty() && !effect->keeps_paths()) without = spec.name;
     if (!without.empty() && kind && chosen == "characteristics")
       diagnostics_.error(kind->value.place,
                          fmt::format("with [effects.{}] the exact density cannot be traced along paths", without),
@@ -1178,16 +1173,13 @@ class Reader {
     const auto target = number("accuracy", "target");
     if (!target) return;
     scene.accuracy.target = target->number;
-    const EffectsSpec& effects = scene.effects;
-    if (const Entry* written = find("accuracy", "target");
-        written && (effects.diffusion || effects.remesh || effects.drifts()))
-      diagnostics_.error(
-          written->value.place,
-          fmt::format("no settings can be chosen for a target with [effects.{}]", effects.diffusion ? "diffusion"
-                                                                                  : effects.charge  ? "charge"
-                                                                                  : effects.vortex  ? "vortex"
-                                                                                                    : "remesh"),
-          "the error is predicted for transport and reaction; leave out accuracy.target");
+    std::string without;
+    for (const auto& [effect, spec] : effects_of(scene.effects))
+      if (without.empty() && effect->decay_rate.empty()) without = spec.name;
+    if (const Entry* written = find("accuracy", "target"); written && !without.empty())
+      diagnostics_.error(written->value.place,
+                         fmt::format("no settings can be chosen for a target with [effects.{}]", without),
+                         "the error is predicted for transport and reaction; leave out accuracy.target");
   }
 
   void read_checks(Case& scene) {
@@ -1270,83 +1262,113 @@ class Reader {
   }
 
   void read_effects(Case& scene) {
-    EffectsSpec& effects = scene.effects;
-    if (table("effects.reaction")) {
-      ReactionSpec reaction;
-      if (const Entry* rate = require(find_key("effects.reaction", "rate")))
-        reaction.rate = field_expression(rate->value, "effects.reaction.rate", true);
-      effects.reaction = reaction;
-    }
-    if (table("effects.diffusion")) {
-      DiffusionSpec diffusion;
-      if (const auto coefficient = number("effects.diffusion", "D")) diffusion.coefficient = coefficient->number;
-      const bool exchanges = choice("effects.diffusion", "method") == "particle-exchange";
-      if (exchanges) diffusion.method = DiffusionSpec::Method::particle_exchange;
-      if (const auto tolerance = number("effects.diffusion", "tolerance")) {
-        diffusion.tolerance = tolerance->number;
-        if (tolerance->written && !exchanges)
-          diagnostics_.error(tolerance->written->place, "\"tolerance\" goes with method = \"particle-exchange\"");
-      }
-      if (exchanges && scene.particles.overlap < 1)
-        diagnostics_.error(
-            find("effects.diffusion", "method")->value.place,
-            fmt::format("particle-exchange needs particles.overlap of at least 1, found {}", scene.particles.overlap),
-            "below, the sum over neighbours is no Laplacian; 2 is usual");
-      const Entry* method = find("time", "method");
-      if (exchanges && method && method->value.text == "dopri5")
-        diagnostics_.error(method->value.place,
-                           "steps that are chosen by their error do not go with [effects.diffusion] method = "
-                           "\"particle-exchange\"",
-                           "method = \"rk4\" with a step of at most about eps^2 / (2 D)");
-      effects.diffusion = diffusion;
-    }
-    if (table("effects.remesh")) effects.remesh = remesh_spec();
-    read_drifts(effects, scene.particles);
+    std::vector<std::pair<const NamedEffect*, EffectSpec>> read;
+    for (const NamedEffect& effect : effects())
+      if (table(table_of(effect))) read.emplace_back(&effect, effect_values(effect));
+    for (const auto& [effect, spec] : read) scene.effects.list.push_back(spec);
+    refuse_effects(read, scene);
   }
 
-  /// [effects.charge] and [effects.vortex], and what does not go with them.
-  void read_drifts(EffectsSpec& effects, const ParticleSpec& particles) {
+  static bool is_complete(const NamedEffect& effect, const EffectSpec& spec) {
+    return std::all_of(effect.about.parameters.begin(), effect.about.parameters.end(),
+                       [&](const NamedParameter& parameter) {
+                         return parameter.optional || spec.has(parameter.name) || !applies(parameter, spec);
+                       });
+  }
+
+  /// What its keys say, with defaults.
+  EffectSpec effect_values(const NamedEffect& effect) {
+    const std::string home = table_of(effect);
+    EffectSpec given{.name = std::string(effect.about.name)};
+    for (const NamedParameter& parameter : effect.about.parameters) {
+      const Key& key = find_key(home, parameter.name);
+      const Entry* entry = key.required ? require(key) : find(home, key.name);
+      if (!entry) continue;
+      read_value(parameter, key, *entry, given);
+      if (!parameter.replaced_by.empty())
+        refuse_both(home, parameter);
+      else if (!applies(parameter, complete_effect(effect, given)))
+        diagnostics_.error(entry->value.place, fmt::format("\"{}\" goes with {} = \"{}\"", parameter.name,
+                                                           parameter.with, parameter.value));
+    }
+    return complete_effect(effect, given);
+  }
+
+  void read_value(const NamedParameter& parameter, const Key& key, const Entry& entry, EffectSpec& given) {
+    const auto take_number = [&] {
+      if (const auto value = number_of(key, entry)) given.numbers.emplace_back(key.name, std::vector{*value});
+    };
+    switch (parameter.kind) {
+      case NamedParameter::Kind::number:
+      case NamedParameter::Kind::whole:
+        return take_number();
+      case NamedParameter::Kind::point:
+        if (const auto values = point_of(key, entry)) given.numbers.emplace_back(key.name, *values);
+        return;
+      case NamedParameter::Kind::choice:
+        given.texts.emplace_back(key.name, choice(key.table, key.name));
+        return;
+      case NamedParameter::Kind::expression:
+      case NamedParameter::Kind::expression_in_time:
+        given.texts.emplace_back(
+            key.name,
+            field_expression(entry.value, label_of(key), parameter.kind == NamedParameter::Kind::expression_in_time));
+        return;
+    }
+  }
+
+  /// A parameter that another one replaces.
+  void refuse_both(const std::string& home, const NamedParameter& parameter) {
+    const Entry *one = find(home, parameter.replaced_by), *two = find(home, parameter.name);
+    if (!one || !two) return;
+    diagnostics_.error(
+        comes_before(one->place, two->place) ? two->place : one->place,
+        fmt::format("[{}] has both \"{}\" and \"{}\"", home, one->name, two->name),
+        fmt::format("{}; {}", meaning_note(find_key(home, one->name)), meaning_note(find_key(home, two->name))));
+  }
+
+  /// What does not go with the scene, or with another effect.
+  void refuse_effects(const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& scene) {
     const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
       diagnostics_.error(table("effects." + name)->place, fmt::format("[effects.{}] {}", name, what), remedy);
     };
-    if (table("effects.charge")) {
-      ChargeSpec charge;
-      if (const auto mobility = number("effects.charge", "mobility")) charge.mobility = mobility->number;
-      if (const Entry* density = find("effects.charge", "density"))
-        charge.density = field_expression(density->value, "effects.charge.density", false);
-      if (const auto tolerance = number("effects.charge", "tolerance")) charge.tolerance = tolerance->number;
-      effects.charge = charge;
-    }
-    if (table("effects.vortex")) {
-      VortexSpec vortex;
-      if (const auto tolerance = number("effects.vortex", "tolerance")) vortex.tolerance = tolerance->number;
-      effects.vortex = vortex;
-      if (dimension_ == 3) refuse("vortex", "is for two dimensions, the domain has three", "");
-      if (particles.cutoff != "gauss2")
-        refuse("vortex", fmt::format("needs particles.cutoff = \"gauss2\", found \"{}\"", particles.cutoff),
-               "the velocity of a blob is known for the Gaussian alone");
+    for (const auto& [effect, spec] : read) {
+      const NamedFormula& about = effect->about;
+      if (dimension_ && (dimension_ < about.least_dimension || dimension_ > about.most_dimension))
+        refuse(spec.name,
+               dimension_ == 3 ? "is for two dimensions, the domain has three"
+                               : "is for three dimensions, the domain has two",
+               "");
+      check_steps(*effect, spec, scene);
+      if (!effect->problems || !is_complete(*effect, spec)) continue;
+      for (const Complaint& problem : effect->problems(spec, scene)) {
+        const Entry* entry = find(table_of(*effect), problem.key);
+        if (entry)
+          diagnostics_.error(entry->value.place, problem.message, problem.remedy);
+        else
+          refuse(spec.name, problem.message, problem.remedy);
+      }
     }
     for (const EffectRule& rule : effect_rules()) {
-      const std::string effect(rule.effect), other(rule.other);
-      if (!table("effects." + effect) || !table("effects." + other) || !rule.apart(effects, dimension_)) continue;
-      const std::string unless = rule.unless.empty() ? "" : fmt::format(" unless {}", without_backticks(rule.unless));
-      refuse(effect, fmt::format("does not go with [effects.{}]{}: {}", other, unless, rule.reason),
-             fmt::format("{}; {}", rule.remedy, goes_with(effect)));
+      const EffectSpec *one = scene.effects.find(rule.effect), *two = scene.effects.find(rule.other);
+      if (!one || !two || !rule.apart(*one, *two, dimension_)) continue;
+      const std::string unless =
+          rule.unless().empty() ? "" : fmt::format(" unless {}", without_backticks(rule.unless()));
+      refuse(rule.effect, fmt::format("does not go with [effects.{}]{}: {}", rule.other, unless, rule.reason),
+             fmt::format("{}; {}", rule.remedy, goes_with(rule.effect)));
     }
   }
 
-  RemeshSpec remesh_spec() {
-    RemeshSpec remesh;
-    if (const auto every = number("effects.remesh", "every")) remesh.every = to_int(*every);
-    if (const auto stretch = number("effects.remesh", "stretch")) remesh.stretch = stretch->number;
-    remesh.kernel = choice("effects.remesh", "kernel");
-    if (const auto tolerance = number("effects.remesh", "tolerance")) remesh.tolerance = tolerance->number;
-    const Entry *every = find("effects.remesh", "every"), *stretch = find("effects.remesh", "stretch");
-    if (every && stretch)
-      diagnostics_.error(comes_before(every->place, stretch->place) ? stretch->place : every->place,
-                         "[effects.remesh] has both \"every\" and \"stretch\"",
-                         "\"every\" remeshes at fixed steps, \"stretch\" where particles have moved apart");
-    return remesh;
+  /// Effects that need to know their steps do not go with a method that chooses them.
+  void check_steps(const NamedEffect& effect, const EffectSpec& spec, const Case& scene) {
+    const Trait& fixed = effect.traits.needs_fixed_steps;
+    const Entry* method = find("time", "method");
+    if (!method || !fixed.of(spec, dimension_) || !time::is_adaptive(time::find_tableau(scene.time.method))) return;
+    diagnostics_.error(
+        method->value.place,
+        fmt::format("steps that are chosen by their error do not go with [{}] {}", table_of(effect), fixed.words),
+        fmt::format("method = \"{}\"{}{}", time::tableaux().front().name, fixed.remedy.empty() ? "" : " with ",
+                    fixed.remedy));
   }
 
   const Value& root_;

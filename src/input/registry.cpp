@@ -10,13 +10,16 @@
 #include <stdexcept>
 
 #include "base/catalogue.hpp"
+#include "effect/catalogue.hpp"
 #include "expression/expression.hpp"
 #include "field/density/shapes.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/grid_data.hpp"
 #include "field/named/named_fields.hpp"
+#include "particle/cutoff.hpp"
 #include "read/missing_data.hpp"
 #include "render/styles.hpp"
+#include "time/tableau.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::input {
@@ -35,8 +38,10 @@ std::string quoted_list(const std::vector<std::string_view>& words) {
 
 }  // namespace
 
-const std::vector<Table>& tables() {
-  static const std::vector<Table> list = {
+namespace {
+
+std::vector<Table> written_tables() {
+  return {
       {.name = "case", .required = false, .meaning = "the title of the case and where it comes from"},
       {.name = "params",
        .required = false,
@@ -73,31 +78,65 @@ const std::vector<Table>& tables() {
        .meaning = "a bound that the results have to keep. If they break it, the run ends with exit code 5. Several "
                   "`[[check]]` are possible",
        .kinds = {"what"}},
-      {.name = "effects.reaction",
-       .required = false,
-       .meaning = "the weights of the particles decay or grow along their paths: alpha' = -rate alpha. The density "
-                  "then obeys d_t rho + div(rho u) + rate rho = 0"},
-      {.name = "effects.diffusion",
-       .required = false,
-       .meaning = "the density diffuses: d_t rho + div(rho u) = D Laplacian rho. `reference.kind` is then `none`, "
-                  "unless it is `exact`"},
-      {.name = "effects.charge",
-       .required = false,
-       .meaning = "the particles are charged and repel each other: X' = u + mobility E(X) with E = sum_k q_k (X - X_k) "
-                  "/ r^d. `reference.kind` is then `none`, unless it is `exact`"},
-      {.name = "effects.vortex",
-       .required = false,
-       .meaning = "the density is a vorticity, and its blobs move each other as vortices do. It needs two dimensions "
-                  "and `cutoff = \"gauss2\"`. `reference.kind` is then `none`, unless it is `exact`"},
-      {.name = "effects.remesh",
-       .required = false,
-       .meaning = "the weights move to particles on a fresh lattice: whenever old neighbours have drifted apart, or "
-                  "every so many steps"},
   };
-  return list;
+}
+
+}  // namespace
+
+const std::vector<Table>& tables() {
+  static base::FromCatalogues<std::vector<Table>> list;
+  return list.get([] {
+    std::vector<Table> all = written_tables();
+    for (const NamedEffect& effect : effects())
+      all.push_back({.name = table_of(effect), .required = false, .meaning = std::string(effect.about.meaning)});
+    return all;
+  });
 }
 
 namespace {
+
+Type type_of(NamedParameter::Kind kind) {
+  switch (kind) {
+    case NamedParameter::Kind::number:
+      return Type::number;
+    case NamedParameter::Kind::whole:
+      return Type::whole;
+    case NamedParameter::Kind::point:
+      return Type::point;
+    case NamedParameter::Kind::choice:
+      return Type::choice;
+    case NamedParameter::Kind::expression:
+    case NamedParameter::Kind::expression_in_time:
+      return Type::expression;
+  }
+  return Type::number;
+}
+
+/// "how weights are shared. `gauss8` is smooth. ...".
+template <class Thing>
+std::string with_choices(std::string_view meaning, const std::vector<Thing>& things) {
+  std::string text(meaning);
+  for (const Thing& thing : things) text += fmt::format(". `{}` {}", thing.name, thing.meaning);
+  return text;
+}
+
+/// The key of a parameter. `with`, `value`: what it goes with in a table of several kinds.
+Key key_of(std::string_view table, const NamedParameter& parameter, std::string_view with = {},
+           std::string_view value = {}) {
+  const auto choices = parameter.choices ? parameter.choices() : std::vector<NamedChoice>{};
+  return {.table = std::string(table),
+          .name = parameter.name,
+          .type = type_of(parameter.kind),
+          .required = parameter.fallback.empty() && !parameter.optional,
+          .fallback = parameter.fallback,
+          .range = parameter.range,
+          .choices = base::names_of(choices),
+          .unit = parameter.unit,
+          .symbol = parameter.symbol,
+          .meaning = with_choices(parameter.meaning, choices),
+          .with = with,
+          .value = value};
+}
 
 /// The parameters of the named formulas that a key chooses from.
 template <class Named>
@@ -105,24 +144,14 @@ void add_parameters(std::vector<Key>& list, std::string_view table, std::string_
                     const std::vector<Named>& all) {
   for (const Named& one : all)
     for (const NamedParameter& parameter : one.about.parameters)
-      list.push_back({.table = table,
-                      .name = parameter.name,
-                      .type = parameter.kind == NamedParameter::Kind::point ? Type::point : Type::number,
-                      .required = parameter.fallback.empty(),
-                      .fallback = parameter.fallback,
-                      .range = parameter.range,
-                      .unit = parameter.unit,
-                      .symbol = parameter.symbol,
-                      .meaning = parameter.meaning,
-                      .with = with,
-                      .value = one.about.name});
+      list.push_back(key_of(table, parameter, with, one.about.name));
 }
 
-template <class Named>
-std::vector<std::string_view> names_of(const std::vector<Named>& all) {
-  std::vector<std::string_view> names;
-  for (const Named& one : all) names.push_back(one.about.name);
-  return names;
+std::string tables_that_grow_weights() {
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : effects())
+    if (!effect.traits.grows_weights.words.empty()) names.push_back(fmt::format("`[{}]`", table_of(effect)));
+  return fmt::format("{}", fmt::join(names, " or "));
 }
 
 /// A text that is made, kept as long as the program runs.
@@ -207,7 +236,7 @@ std::vector<Key> written_keys() {
       {.table = "velocity",
        .name = "field",
        .type = Type::choice,
-       .choices = names_of(named_fields()),
+       .choices = base::names_of(named_fields()),
        .meaning = "name of a velocity field. Its parameters stand beside it"},
 
       {.table = "velocity",
@@ -310,7 +339,7 @@ std::vector<Key> written_keys() {
       {.table = "density",
        .name = "shape",
        .type = Type::choice,
-       .choices = names_of(named_shapes()),
+       .choices = base::names_of(named_shapes()),
        .meaning = "name of a shape. Its parameters stand beside it"},
 
       {.table = "density",
@@ -366,28 +395,20 @@ std::vector<Key> written_keys() {
       {.table = "particles",
        .name = "cutoff",
        .type = Type::choice,
-       .fallback = "gauss2",
-       .choices = {"gauss2", "gauss4", "gauss6", "gauss8", "two-gauss"},
+       .fallback = cutoffs().front().name,
+       .choices = base::names_of(cutoffs()),
        .symbol = "zeta",
-       .meaning = "shape of the blob. `gauss2` is a Gaussian, of order 2. `gauss4`, `gauss6` and `gauss8` combine it "
-                  "with its derivatives and have the orders 4, 6 and 8. `two-gauss` is a pair of Gaussians, of order "
-                  "4. A higher order blurs less"},
-      {.table = "particles",
-       .name = "width_ratio",
-       .type = Type::number,
-       .fallback = "2",
-       .range = {0.01, 100},
-       .symbol = "a",
-       .meaning = "for `two-gauss`: its two Gaussians have the widths eps and a eps. It may not be 1"},
+       .meaning = with_choices("shape of the blob. A higher order blurs less", cutoffs())},
       {.table = "particles",
        .name = "threshold",
        .type = Type::number,
        .fallback = "1e-12",
        .range = {0, 0.01},
-       .meaning =
+       .meaning = fmt::format(
            "lattice points that carry less than this part of the largest weight, and of the largest charge, get no "
-           "particle. The run says how many they are and how much they would carry. With `[effects.reaction]`, which "
-           "can raise small weights, the default is 0: every point that carries anything gets a particle"},
+           "particle. The run says how many they are and how much they would carry. With {}, which can raise small "
+           "weights, the default is 0: every point that carries anything gets a particle",
+           tables_that_grow_weights())},
 
       {.table = "time",
        .name = "end",
@@ -408,18 +429,16 @@ std::vector<Key> written_keys() {
       {.table = "time",
        .name = "method",
        .type = Type::choice,
-       .fallback = "rk4",
-       .choices = {"rk4", "euler", "heun", "rk4-38", "dopri5"},
-       .meaning = "Runge-Kutta method. `rk4` is the classical one, of order 4. `euler` (Euler) has order 1, `heun` "
-                  "(Heun) order 2, and `rk4-38` (Kutta's 3/8 rule) order 4. `dopri5` (Dormand and Prince) has order 5 "
-                  "and chooses its own steps"},
+       .fallback = time::tableaux().front().name,
+       .choices = base::names_of(time::tableaux()),
+       .meaning = with_choices("Runge-Kutta method", time::tableaux())},
       {.table = "time",
        .name = "tolerance",
        .type = Type::number,
        .fallback = "1e-08",
        .range = {1e-13, 1, false, true},
-       .meaning = "for `method = \"dopri5\"`: the error of position that one step may make, relative to the longest "
-                  "side of the domain"},
+       .meaning = "for a `method` that chooses its own steps: the error of position that one step may make, relative "
+                  "to the longest side of the domain"},
 
       {.table = "evaluate",
        .name = "per_axis",
@@ -472,7 +491,7 @@ std::vector<Key> written_keys() {
        .type = Type::choices,
        .fallback = kept(joined(default_names(render::styles()))),
        .choices = base::names_of(render::styles()),
-       .meaning = kept(meaning_of_images())},
+       .meaning = meaning_of_images()},
       {.table = "output",
        .name = "report",
        .type = Type::choice,
@@ -535,94 +554,6 @@ std::vector<Key> written_keys() {
        .type = Type::number,
        .unit = "time",
        .meaning = "the output time to check. Without it every output is checked"},
-
-      {.table = "effects.reaction",
-       .name = "rate",
-       .type = Type::expression,
-       .required = true,
-       .unit = "1 / time",
-       .symbol = "u_0",
-       .meaning = "rate of decay, an expression in x, y, z, t and params; weights grow where it is negative"},
-      {.table = "effects.diffusion",
-       .name = "D",
-       .type = Type::number,
-       .required = true,
-       .range = {0, infinity, true},
-       .unit = "length^2 / time",
-       .symbol = "D",
-       .meaning = "coefficient of diffusion, constant in space and time"},
-      {.table = "effects.diffusion",
-       .name = "method",
-       .type = Type::choice,
-       .fallback = "core-spreading",
-       .choices = {"core-spreading", "particle-exchange"},
-       .meaning =
-           "how the density diffuses. `core-spreading` widens the blobs: eps(t)^2 = eps^2 + 4 D t. It is exact where "
-           "the flow does not strain, and a warning says how much it does. `particle-exchange` moves weight between "
-           "neighbours. Its error is of order eps^2 in any flow, and its steps are at most about eps^2 / (2 D)"},
-      {.table = "effects.diffusion",
-       .name = "tolerance",
-       .type = Type::number,
-       .fallback = "1e-06",
-       .range = {1e-10, 0.1},
-       .meaning = "for `method = \"particle-exchange\"`: a particle with more than this part of the largest density is "
-                  "surrounded with others, which receive what diffuses"},
-      {.table = "effects.charge",
-       .name = "mobility",
-       .type = Type::number,
-       .required = true,
-       .range = {-infinity, infinity},
-       .unit = "length^d / (charge time)",
-       .symbol = "mu",
-       .meaning = "velocity of a particle in a field of size 1. Equal charges attract each other where it is negative"},
-      {.table = "effects.charge",
-       .name = "density",
-       .type = Type::expression,
-       .unit = "charge / length^d",
-       .symbol = "rho_q",
-       .meaning = "density of charge at the start, an expression in x, y, z and params. Every particle keeps its "
-                  "charge. Without this key the charge of a particle is its weight"},
-      {.table = "effects.charge",
-       .name = "tolerance",
-       .type = Type::number,
-       .fallback = "1e-06",
-       .range = {1e-14, 0.1},
-       .meaning = "error allowed in E, relative to the sum of the sizes of all single fields at that place. The "
-                  "library farfield promises it"},
-      {.table = "effects.vortex",
-       .name = "tolerance",
-       .type = Type::number,
-       .fallback = "1e-06",
-       .range = {1e-14, 0.1},
-       .meaning = "error allowed in the velocity, relative to the sum of the sizes of all single velocities at that "
-                  "place. The library farfield promises it"},
-      {.table = "effects.remesh",
-       .name = "every",
-       .type = Type::whole,
-       .range = {1, 1e9},
-       .meaning = "number of steps from one remeshing to the next. Without it, `stretch` decides"},
-      {.table = "effects.remesh",
-       .name = "stretch",
-       .type = Type::number,
-       .fallback = "1.5",
-       .range = {1, infinity, true},
-       .meaning =
-           "remesh as soon as particles that were neighbours are farther apart than this many spacings h. The overlap "
-           "has then fallen to `particles.overlap` divided by this number. A case gives either this or `every`"},
-      {.table = "effects.remesh",
-       .name = "kernel",
-       .type = Type::choice,
-       .fallback = "gauss8",
-       .choices = {"gauss8", "lambda44", "lambda66", "m4prime"},
-       .meaning = "how weights are shared among the new nodes. `gauss8` keeps moments up to order 7 and tolerates a "
-                  "stretch of 1.5. The piecewise polynomials `lambda44`, `lambda66` and `m4prime` keep moments up to "
-                  "the orders 4, 6 and 2. They are cheaper but want a stretch of at most 1.1"},
-      {.table = "effects.remesh",
-       .name = "tolerance",
-       .type = Type::number,
-       .fallback = "1e-09",
-       .range = {0, 0.01},
-       .meaning = "nodes with less than this part of the largest weight are left out. Their weight goes to the others"},
   };
 }
 
@@ -634,11 +565,18 @@ const std::vector<Key>& keys() {
     std::vector<Key> all;
     for (Key& key : written_keys()) {
       all.push_back(std::move(key));
-      if (all.back().table == "velocity" && all.back().name == "field")
-        add_parameters(all, "velocity", "field", named_fields());
-      if (all.back().table == "density" && all.back().name == "shape")
-        add_parameters(all, "density", "shape", named_shapes());
+      const auto is = [&](std::string_view table, std::string_view name) {
+        return all.back().table == table && all.back().name == name;
+      };
+      if (is("velocity", "field")) add_parameters(all, "velocity", "field", named_fields());
+      if (is("density", "shape")) add_parameters(all, "density", "shape", named_shapes());
+      if (is("particles", "cutoff"))
+        for (const NamedCutoff& cutoff : cutoffs())
+          for (const NamedParameter& parameter : cutoff.parameters) all.push_back(key_of("particles", parameter));
     }
+    for (const NamedEffect& effect : effects())
+      for (const NamedParameter& parameter : effect.about.parameters)
+        all.push_back(key_of(table_of(effect), parameter));
     return all;
   });
 }

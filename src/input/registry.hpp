@@ -24,7 +24,7 @@ enum class Type {
 };
 
 struct Key {
-  std::string_view table;  // empty: the top of the file
+  std::string table;  // empty: the top of the file
   std::string_view name;
   Type type = Type::text;
   bool required = false;
@@ -33,7 +33,7 @@ struct Key {
   std::vector<std::string_view> choices = {};
   std::string_view unit = {};
   std::string_view symbol = {};  // in the thesis
-  std::string_view meaning = {};
+  std::string meaning = {};
   std::string_view with = {};   // the key that it goes with: "file", "field", ...; empty: it stands by itself
   std::string_view value = {};  // and the value of that key: "rotation", ...; empty: any
 
@@ -44,9 +44,9 @@ struct Key {
 };
 
 struct Table {
-  std::string_view name;
+  std::string name;
   bool required = false;
-  std::string_view meaning = {};
+  std::string meaning = {};
   std::vector<std::string_view> kinds = {};  // keys of which a table has exactly one; the table may then be repeated,
                                              // [[velocity]], and its parts add up
 };

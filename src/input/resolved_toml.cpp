@@ -5,10 +5,13 @@
 #include <cmath>
 #include <set>
 
+#include "effect/catalogue.hpp"
 #include "expression/expression.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "input/read_case.hpp"
 #include "input/registry.hpp"
+#include "particle/cutoff.hpp"
+#include "time/tableau.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -42,6 +45,28 @@ std::string written(const std::vector<Item>& list) {
 
 std::string written_point(const std::array<double, 3>& point, int dimension) {
   return written(std::vector<double>(point.begin(), point.begin() + dimension));
+}
+
+bool is_expression(const NamedParameter& parameter) {
+  return parameter.kind == NamedParameter::Kind::expression ||
+         parameter.kind == NamedParameter::Kind::expression_in_time;
+}
+
+/// The value of an effect's key.
+std::string written_value(const NamedParameter& parameter, const EffectSpec& effect) {
+  switch (parameter.kind) {
+    case NamedParameter::Kind::number:
+      return written(effect.number(parameter.name));
+    case NamedParameter::Kind::whole:
+      return fmt::format("{:.0f}", effect.number(parameter.name));
+    case NamedParameter::Kind::point:
+      return written(effect.point(parameter.name));
+    case NamedParameter::Kind::choice:
+    case NamedParameter::Kind::expression:
+    case NamedParameter::Kind::expression_in_time:
+      return written(effect.text(parameter.name));
+  }
+  return "";
 }
 
 /// The names of enumerators are the choices of the key, in the same order.
@@ -113,8 +138,9 @@ Params params_in_use(const Case& scene) {
   for (const auto& part : scene.density)
     if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
   if (scene.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(scene.reference.rho);
-  if (scene.effects.reaction) texts.push_back(scene.effects.reaction->rate);
-  if (scene.effects.charge && !scene.effects.charge->density.empty()) texts.push_back(scene.effects.charge->density);
+  for (const auto& [effect, spec] : effects_of(scene.effects))
+    for (const NamedParameter& parameter : effect->about.parameters)
+      if (is_expression(parameter) && spec.has(parameter.name)) texts.push_back(spec.text(parameter.name));
   std::set<std::string> mentioned;
   for (const std::string& text : texts) {
     const Expression expression(text, {"x", "y", "z", "t"}, scene.params);
@@ -171,13 +197,15 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
   out.entry("per_axis", fmt::format("{}", scene.particles.per_axis));
   out.entry("overlap", written(scene.particles.overlap));
   out.entry("cutoff", written(scene.particles.cutoff));
-  if (scene.particles.cutoff == "two-gauss") out.entry("width_ratio", written(scene.particles.width_ratio));
+  const Arguments cutoff_arguments = complete(scene.particles.cutoff, find_cutoff(scene.particles.cutoff).parameters,
+                                              scene.particles.cutoff_arguments, {});
+  for (const auto& [name, values] : cutoff_arguments) out.entry(name, written(values.at(0)));
   out.entry("threshold", written(scene.particles.threshold));
   out.table("time");
   out.entry("end", written(scene.time.end));
   if (scene.time.step > 0) out.entry("step", written(scene.time.step));
   out.entry("method", written(scene.time.method));
-  if (scene.time.method == "dopri5") out.entry("tolerance", written(scene.time.tolerance));
+  if (time::is_adaptive(time::find_tableau(scene.time.method))) out.entry("tolerance", written(scene.time.tolerance));
   out.table("evaluate");
   if (scene.evaluate.spacing > 0)
     out.entry("spacing", written(scene.evaluate.spacing));
@@ -190,35 +218,10 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
   out.entry("vtk", written_names(scene.output.files));
   out.entry("images", written_names(scene.output.images));
   out.entry("report", written(std::string(scene.output.report ? "html" : "none")));
-  if (const auto& reaction = scene.effects.reaction) {
-    out.table("effects.reaction");
-    out.entry("rate", written(reaction->rate));
-  }
-  if (const auto& diffusion = scene.effects.diffusion) {
-    out.table("effects.diffusion");
-    out.entry("D", written(diffusion->coefficient));
-    out.entry("method", written(choice("effects.diffusion", "method", diffusion->method)));
-    if (diffusion->method == DiffusionSpec::Method::particle_exchange)
-      out.entry("tolerance", written(diffusion->tolerance));
-  }
-  if (const auto& charge = scene.effects.charge) {
-    out.table("effects.charge");
-    out.entry("mobility", written(charge->mobility));
-    if (!charge->density.empty()) out.entry("density", written(charge->density));
-    out.entry("tolerance", written(charge->tolerance));
-  }
-  if (const auto& vortex = scene.effects.vortex) {
-    out.table("effects.vortex");
-    out.entry("tolerance", written(vortex->tolerance));
-  }
-  if (const auto& remesh = scene.effects.remesh) {
-    out.table("effects.remesh");
-    if (remesh->every > 0)
-      out.entry("every", fmt::format("{}", remesh->every));
-    else
-      out.entry("stretch", written(remesh->stretch));
-    out.entry("kernel", written(remesh->kernel));
-    out.entry("tolerance", written(remesh->tolerance));
+  for (const auto& [effect, written_effect] : effects_of(scene.effects)) {
+    out.table(fmt::format("effects.{}", written_effect.name));
+    for (const NamedParameter& parameter : effect->about.parameters)
+      if (written_effect.has(parameter.name)) out.entry(parameter.name, written_value(parameter, written_effect));
   }
   out.table("reference");
   out.entry("kind", written(choice("reference", "kind", scene.reference.kind)));

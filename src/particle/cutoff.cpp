@@ -1,8 +1,8 @@
 #include "particle/cutoff.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 namespace gaussdrift {
 
@@ -10,66 +10,7 @@ namespace {
 
 double factorial(int n) { return std::tgamma(n + 1.0); }
 
-// Order 2m from one width: zeta = sum_{j<m} (-Laplacian/4)^j / j!  of  G = pi^{-d/2} exp(-|x|^2). The Fourier transform
-// of G is exp(-s), s = |xi|^2/4, and that of -Laplacian/4 is s, so zeta^ = e^{-s} (1 + s + ... + s^{m-1}/(m-1)!) = 1 +
-// O(s^m): all moments below 2m vanish. Laplacian^j = sum_{|beta|=j} j!/beta! D^{2 beta}.
-Cutoff laplacians_of_gaussian(int order, int dimension, double eps) {
-  Cutoff terms;
-  const double peak = std::pow(std::sqrt(std::numbers::pi) * eps, -dimension);
-  for (int j = 0; j < order / 2; ++j) {
-    const double factor = peak * std::pow(-eps * eps / 4, j) / factorial(j);
-    for (int bx = j; bx >= 0; --bx) {
-      for (int by = j - bx; by >= 0; --by) {
-        const int bz = j - bx - by;
-        if ((dimension < 3 && bz > 0) || (dimension < 2 && by > 0)) continue;
-        const double multinomial = factorial(j) / (factorial(bx) * factorial(by) * factorial(bz));
-        terms.push_back({eps, {2 * bx, 2 * by, 2 * bz}, factor * multinomial});
-      }
-    }
-  }
-  return terms;
-}
-
-// A G_1 + B G_a with G_a(x) = (sqrt(pi) a)^-d exp(-|x|^2/a^2) integrates to A + B = 1, and its second moments are
-// A/2 + B a^2/2 = 0 an axis: A = a^2/(a^2 - 1), B = -1/(a^2 - 1) in every dimension. Odd moments vanish by symmetry.
-Cutoff two_gaussians(int dimension, double eps, double a) {
-  if (!(a > 0) || a == 1) throw std::invalid_argument("the width ratio of two-gauss must be positive and not 1");
-  const auto peak = [&](double width) { return std::pow(std::sqrt(std::numbers::pi) * width, -dimension); };
-  const double square = a * a;
-  return {{eps, {}, peak(eps) * square / (square - 1)}, {a * eps, {}, -peak(a * eps) / (square - 1)}};
-}
-
-struct Named {
-  std::string name;
-  int order;
-};
-const std::vector<Named>& cutoffs() {
-  static const std::vector<Named> list{{"gauss2", 2}, {"gauss4", 4}, {"gauss6", 6}, {"gauss8", 8}, {"two-gauss", 4}};
-  return list;
-}
-
 }  // namespace
-
-const std::vector<std::string>& cutoff_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> list;
-    for (const Named& cutoff : cutoffs()) list.push_back(cutoff.name);
-    return list;
-  }();
-  return names;
-}
-
-int cutoff_order(std::string_view name) {
-  for (const Named& cutoff : cutoffs())
-    if (cutoff.name == name) return cutoff.order;
-  throw std::out_of_range("no cutoff is called " + std::string(name));
-}
-
-Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, double width_ratio) {
-  const int order = cutoff_order(name);
-  return name == "two-gauss" ? two_gaussians(dimension, core_radius, width_ratio)
-                             : laplacians_of_gaussian(order, dimension, core_radius);
-}
 
 double peak(const Cutoff& cutoff) {
   double sum = 0;
@@ -83,6 +24,25 @@ double peak(const Cutoff& cutoff) {
     sum += value;
   }
   return sum;
+}
+
+double fourier(const Cutoff& cutoff, int dimension, double wave_number) {
+  double sum = 0;
+  for (const CutoffTerm& term : cutoff) {
+    if (term.derivative[1] != 0 || term.derivative[2] != 0 || term.derivative[0] % 2 != 0) continue;
+    // Of exp(-|x|^2/w^2): (sqrt(pi) w)^d exp(-k^2 w^2/4). A derivative is a factor i k; odd ones cancel.
+    const double sign = term.derivative[0] / 2 % 2 != 0 ? -1 : 1;
+    sum += sign * term.coefficient * std::pow(wave_number, term.derivative[0]) *
+           std::pow(std::sqrt(std::numbers::pi) * term.width, dimension) *
+           std::exp(-std::pow(wave_number * term.width, 2) / 4);
+  }
+  return sum;
+}
+
+double narrowest_width(const Cutoff& cutoff) {
+  return std::min_element(cutoff.begin(), cutoff.end(),
+                          [](const CutoffTerm& a, const CutoffTerm& b) { return a.width < b.width; })
+      ->width;
 }
 
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/catalogue.hpp"
+#include "base/named.hpp"
 #include "base/points.hpp"
 
 namespace gaussdrift {
@@ -21,26 +23,47 @@ struct CutoffTerm {
 /// zeta_eps as a sum of terms.
 using Cutoff = std::vector<CutoffTerm>;
 
-/// Names that make_cutoff() knows.
-const std::vector<std::string>& cutoff_names();
+/// A cutoff as a case names it, `particles.cutoff = "..."`. method.md, equations 4 and 4a.
+struct NamedCutoff {
+  std::string_view name;
+  std::string_view meaning;  // as of a NamedChoice: what it is, and its order
+  int order = 2;             // moments 1 .. order - 1 vanish
+  bool is_gaussian = false;  // it is G(x) = pi^{-d/2} exp(-|x|^2)
+  /// Keys of [particles] that go with it: numbers with defaults, named as no other key there. Searches for good
+  /// settings try only cutoffs without any.
+  std::vector<NamedParameter> parameters = {};
+  /// zeta_eps(x) = eps^-d zeta(x / eps) for core radius eps > 0, from complete arguments. Throws std::invalid_argument
+  /// for arguments that problems() complains about.
+  Cutoff (*make)(int dimension, double core_radius, const Arguments& arguments) = nullptr;
+  /// What is wrong with complete arguments that are each in range.
+  std::vector<Complaint> (*problems)(const Arguments& arguments) = nullptr;
+};
 
-/// zeta_eps(x) = eps^-d zeta(x / eps) for core radius eps > 0. Throws std::out_of_range for an unknown name and
-/// std::invalid_argument for a width ratio that is not positive or is 1. method.md, equations 4 and 4a.
-///   gauss2      G(x) = pi^{-d/2} exp(-|x|^2)
-///   gauss4      (1 - Laplacian/4) G; in 2D (2 - r^2) exp(-r^2) / pi
-///   gauss6      (1 - Laplacian/4 + Laplacian^2/32) G
-///   gauss8      (1 - Laplacian/4 + Laplacian^2/32 - Laplacian^3/384) G
-///   two-gauss   (a^2 G(x) - a^-d G(x/a)) / (a^2 - 1), of order 4; a = width_ratio [Sch06, 5.2.2 for d = 2]
-Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, double width_ratio = 2);
+/// In the order of docs/cases.md; the first is the default.
+const std::vector<NamedCutoff>& cutoffs();
 
-/// Order of the cutoff of that name (moments 1 .. order - 1 vanish). Throws std::out_of_range.
-int cutoff_order(std::string_view name);
+/// Throws std::out_of_range for an unknown name.
+const NamedCutoff& find_cutoff(std::string_view name);
+
+/// zeta_eps of that name, with defaults for what is not given. Throws as find_cutoff, complete and NamedCutoff::make do.
+Cutoff make_cutoff(std::string_view name, int dimension, double core_radius, const Arguments& given = {});
 
 /// zeta_eps(0), the largest |zeta_eps|: the Fourier transforms of all cutoffs are positive.
 double peak(const Cutoff& cutoff);
+
+/// The Fourier transform zeta_eps^(k), 1 at k = 0, for a wave vector k of this size along the first axis.
+double fourier(const Cutoff& cutoff, int dimension, double wave_number);
+
+/// The smallest of its widths.
+double narrowest_width(const Cutoff& cutoff);
 
 /// The cutoff convolved with the Gaussian of variance spread/2 an axis. The square of every width grows by `spread`.
 /// Its integral and the coefficients of the derivatives stay (method.md, equation 11).
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread);
 
 }  // namespace gaussdrift
+
+namespace gaussdrift::base {
+template <>
+std::vector<NamedCutoff>& catalogue();
+}

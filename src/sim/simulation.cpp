@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "effect/catalogue.hpp"
 #include "particle/seeding.hpp"
 #include "reference/characteristics.hpp"
 #include "reference/formula.hpp"
@@ -84,6 +85,22 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
   }
 }
 
+void make_effect_fields(const Case& description, Scene& scene) {
+  const int dimension = description.domain.dimension;
+  std::vector<std::unique_ptr<ScalarField>> decays;
+  for (const auto& [effect, spec] : effects_of(description.effects)) {
+    const auto field_of = [&, &spec = spec](std::string_view key) -> std::unique_ptr<ScalarField> {
+      if (key.empty() || !spec.has(key)) return nullptr;
+      return std::make_unique<WrittenScalar>(spec.text(key), dimension, description.params);
+    };
+    if (auto decay = field_of(effect->decay_rate)) decays.push_back(std::move(decay));
+    scene.effect_fields.push_back({spec.name, field_of(effect->decay_rate), field_of(effect->carried),
+                                   fmt::format("effects.{}.{}", spec.name, effect->carried)});
+  }
+  if (decays.size() == 1) scene.decay_rate = std::move(decays.front());
+  if (decays.size() > 1) scene.decay_rate = std::make_unique<SumOfScalars>(std::move(decays));
+}
+
 }  // namespace
 
 Scene make_scene(const Case& description, int threads) {
@@ -91,10 +108,7 @@ Scene make_scene(const Case& description, int threads) {
   const Domain& domain = description.domain;
   scene.velocity = make_velocity(description, threads);
   scene.density = make_density(description);
-  if (const auto& reaction = description.effects.reaction)
-    scene.reaction_rate = std::make_unique<WrittenScalar>(reaction->rate, domain.dimension, description.params);
-  if (const auto& charge = description.effects.charge; charge && !charge->density.empty())
-    scene.charge = std::make_unique<WrittenScalar>(charge->density, domain.dimension, description.params);
+  make_effect_fields(description, scene);
   scene.threshold = description.particles.threshold;
   scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
   const EvaluateSpec& evaluate = description.evaluate;
@@ -102,8 +116,8 @@ Scene make_scene(const Case& description, int threads) {
                          ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, evaluate.spacing)
                          : make_lattice(domain.dimension, domain.min, domain.max, evaluate.per_axis);
   scene.core_radius = description.particles.overlap * scene.seeding.spacing;
-  scene.cutoff =
-      make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius, description.particles.width_ratio);
+  scene.cutoff = make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius,
+                             description.particles.cutoff_arguments);
   return scene;
 }
 
@@ -123,7 +137,7 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
     case ReferenceSpec::Kind::characteristics: {
       ScalarRate growth;
       const VelocityField* diverging = scene.velocity->is_solenoidal() ? nullptr : scene.velocity.get();
-      const ScalarField* decay = scene.reaction_rate.get();
+      const ScalarField* decay = scene.decay_rate.get();
       if (diverging || decay)
         growth = [diverging, decay](double t, const PointsView& x, double* values) {
           if (diverging) diverging->add_divergence(t, x, values);
@@ -147,7 +161,7 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
 }
 
 bool has_smooth_paths(const Scene& scene) {
-  return scene.velocity->is_smooth() && (!scene.reaction_rate || scene.reaction_rate->is_smooth());
+  return scene.velocity->is_smooth() && (!scene.decay_rate || scene.decay_rate->is_smooth());
 }
 
 namespace {
@@ -156,8 +170,7 @@ namespace {
 /// 18 widths are summed pair by pair.
 double work_of_drift(const Case& description, const Scene& scene, double particles) {
   if (description.domain.dimension == 3) return std::min(0.04 * particles, 250.0);
-  const auto& diffusion = description.effects.diffusion;
-  const double spread = diffusion ? 4 * diffusion->coefficient * description.time.end : 0;
+  const double spread = spreading(description.effects) * description.time.end;
   const double width = std::sqrt(scene.core_radius * scene.core_radius + spread);
   double area = 1;
   for (int k = 0; k < 2; ++k)
@@ -169,7 +182,8 @@ double work_of_drift(const Case& description, const Scene& scene, double particl
 
 double work_of_rate(const Case& description, const Scene& scene, std::size_t particles) {
   const auto n = static_cast<double>(particles);
-  return n * (scene.velocity->cost() + (description.effects.drifts() ? work_of_drift(description, scene, n) : 0));
+  return n * (scene.velocity->cost() +
+              (particles_interact(description.effects) ? work_of_drift(description, scene, n) : 0));
 }
 
 Work work_of(const Case& description, const Scene& scene, std::size_t particles) {
@@ -188,7 +202,7 @@ Work work_of(const Case& description, const Scene& scene, std::size_t particles)
 
 double work_of_exact_rate(const Scene& scene) {
   const double divergence = scene.velocity->is_solenoidal() ? 0 : std::max(0.5, scene.velocity->cost() / 2);
-  return scene.velocity->cost() + 0.3 + (scene.reaction_rate ? scene.reaction_rate->cost() : 0) + divergence;
+  return scene.velocity->cost() + 0.3 + (scene.decay_rate ? scene.decay_rate->cost() : 0) + divergence;
 }
 
 Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads) {
@@ -246,7 +260,7 @@ Comparison plan_comparison(const Case& description, const Scene& scene, std::siz
   constexpr double share = 0.15, few = 2.5e6;
   const auto& times = description.output.times;
   const bool shown = has_one(description.output.files, &OutputFile::shows_density);
-  const bool steady = scene.velocity->is_steady() && (!scene.reaction_rate || scene.reaction_rate->is_steady());
+  const bool steady = scene.velocity->is_steady() && (!scene.decay_rate || scene.decay_rate->is_steady());
   // Steady: the last output goes on from the feet of those before, if all points do; else each is traced to the start.
   const double outputs = times.back() > 0 ? std::accumulate(times.begin(), times.end(), 0.0) / times.back() : 0.0;
   const double allowed = std::max(few, share * work_of(description, scene, particles).total());
@@ -280,9 +294,10 @@ Comparison plan_comparison(const Case& description, const Scene& scene, std::siz
 Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report) {
   std::vector<Carried> carried{
       {"the initial density", [&](const PointsView& x, double* values) { scene.density->add(x, values); }}};
-  if (scene.charge)
-    carried.push_back(
-        {"effects.charge.density", [&](const PointsView& x, double* values) { scene.charge->add(0, x, values); }});
+  for (const EffectFields& fields : scene.effect_fields)
+    if (fields.carried)
+      carried.push_back(
+          {fields.carried_key, [&](const PointsView& x, double* values) { fields.carried->add(0, x, values); }});
   return seed(lattice, carried, scene.threshold, threads, report);
 }
 

@@ -24,16 +24,24 @@
 
 namespace gaussdrift {
 
+/// The fields that keys of an effect give, see NamedEffect.
+struct EffectFields {
+  std::string effect;
+  std::unique_ptr<ScalarField> decay;
+  std::unique_ptr<ScalarField> carried;
+  std::string carried_key;  // "effects.charge.density"
+};
+
 /// The parts of a case that are made from its text and numbers, shared by `run` and `check`.
 struct Scene {
   std::unique_ptr<VelocityField> velocity;
   std::unique_ptr<InitialDensity> density;
-  std::unique_ptr<ScalarField> reaction_rate;  // u0; null without [effects.reaction]
-  std::unique_ptr<ScalarField> charge;         // its density at the start; null where the charge is the weight
-  Lattice seeding;                             // where particles start
-  Lattice evaluation;                          // where rho is summed
-  double core_radius = 0;                      // eps = c h
-  double threshold = 0;                        // particles.threshold
+  std::unique_ptr<ScalarField> decay_rate;  // of all weights along their paths, u0; null if none decays
+  std::vector<EffectFields> effect_fields;
+  Lattice seeding;         // where particles start
+  Lattice evaluation;      // where rho is summed
+  double core_radius = 0;  // eps = c h
+  double threshold = 0;    // particles.threshold
   Cutoff cutoff;
 };
 

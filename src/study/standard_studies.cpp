@@ -13,6 +13,8 @@
 #include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
+#include "effect/catalogue.hpp"
+#include "particle/cutoff.hpp"
 #include "reference/exact_paths.hpp"
 #include "sim/simulation.hpp"
 #include "study/study.hpp"
@@ -177,12 +179,12 @@ Paths paths_in_the_flow(const Case& scene, const Scene& parts, const Particles& 
   return paths;
 }
 
-/// Particles that move each other: all of them, and steps of rk4 that are halved until they change nothing more that
+/// Particles that move each other: all of them, and steps of the usual method that are halved until they change nothing more that
 /// matters, or too much time is gone.
 Paths paths_of_each_other(Case scene, const Scene& parts, const Particles& all, int threads, double seconds) {
   const double time = scene.output.times.back(), enough = 1e-6;
   Paths paths{all, all, 1, std::numeric_limits<double>::infinity(), ""};
-  scene.time.method = "rk4";
+  scene.time.method = time::tableaux().front().name;
   const base::Stopwatch watch;
   double last = 0;
   for (int k = 0; k < 12 && watch.seconds() + 2 * last < seconds; ++k) {
@@ -203,8 +205,8 @@ Paths paths_of_each_other(Case scene, const Scene& parts, const Particles& all, 
     last = one.seconds();
     if (paths.known < enough) break;
   }
-  paths.note = fmt::format("compared with rk4 at time.step = {:.3g}, whose own error is about {:.1g}", scene.time.step,
-                           paths.known);
+  paths.note = fmt::format("compared with {} at time.step = {:.3g}, whose own error is about {:.1g}", scene.time.method,
+                           scene.time.step, paths.known);
   return paths;
 }
 
@@ -259,10 +261,15 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
   // Only positions are studied. Effects that do not move particles are left out, but the steps that they forbid stay
   // forbidden.
   Case moving = scene;
-  moving.effects.reaction.reset();
-  moving.effects.remesh.reset();
-  if (!moving.effects.drifts()) moving.effects = {};
-  const bool each_other = moving.effects.drifts();
+  const bool each_other = particles_interact(scene.effects);
+  const int dimension = scene.domain.dimension;
+  bool tried = false;  // weights that go from particle to particle may ask for shorter steps later on
+  for (const auto& [effect, written] : effects_of(scene.effects)) {
+    const bool moves = effect->traits.particles_interact || effect->spreading;
+    if (each_other && moves) continue;
+    moving.effects.remove(written.name);
+    tried = tried || effect->traits.moves_weight.of(written, dimension);
+  }
   const Scene parts = make_scene(moving, threads);
   const double time = scene.output.times.back();
   const Particles all = seed_scene(parts, threads);
@@ -272,7 +279,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
   }
   // The steps that `run` accepts, by the run's own rules for the whole case.
   const Scene whole = make_scene(scene, threads);
-  const Case asked = with_steps(scene, time::find_tableau("rk4"), scene.time.end, 0);
+  const Case asked = with_steps(scene, time::tableaux().front(), scene.time.end, 0);
   Carrier rules(asked, whole, threads);
   try {
     Particles seen = all;
@@ -354,8 +361,6 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
   if (!paths.note.empty()) experiment.notes.push_back(paths.note);
   if (left_out) experiment.notes.push_back("shorter steps were left out to stay within --seconds");
 
-  // Weights that go from particle to particle may ask for shorter steps later on, so such a run is tried to its end.
-  const bool tried = scene.effects.remesh || (scene.effects.diffusion && !moving.effects.diffusion);
   Sample* enough = nullptr;
   while ((enough = cheapest_below(experiment, 1e-3))) {
     const bool adaptive = time::is_adaptive(time::find_tableau(enough->values[0]));
@@ -392,21 +397,25 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   const double c = scene.particles.overlap;
   double dearest = 0;
   std::size_t left_out = 0;
-  std::vector<std::string> cutoffs;  // that the case may have
-  for (const std::string cutoff : {"gauss2", "gauss4", "gauss6", "gauss8"}) {
+  std::vector<std::string> possible;  // cutoffs that the case may have
+  for (const NamedCutoff& named : cutoffs()) {
+    if (!named.parameters.empty()) continue;
+    const std::string cutoff(named.name);
     Case varied = scene;
     varied.particles.cutoff = cutoff;
+    varied.particles.cutoff_arguments.clear();
     if (const std::string reason = accuracy::why_not_read(varied); reason.empty())
-      cutoffs.push_back(cutoff);
+      possible.push_back(cutoff);
     else
       experiment.notes.push_back(fmt::format("{} is not for this case: {}", cutoff, reason));
   }
   // Coarse lattices of all cutoffs come before finer ones of any, so that only the finest are left out for time.
   for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0})
     for (const double overlap : {c, 1.5 * c}) {
-      for (const std::string& cutoff : cutoffs) {
+      for (const std::string& cutoff : possible) {
         Case varied = scene;
         varied.particles.cutoff = cutoff;
+        varied.particles.cutoff_arguments.clear();
         varied.particles.overlap = *base::read_number<double>(fmt::format("{:g}", overlap));  // as it is told
         varied.particles.per_axis = std::max(8, static_cast<int>(std::lround(factor * scene.particles.per_axis)));
         if (watch.seconds() + 3 * dearest > seconds) {

@@ -146,8 +146,8 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
 
 std::optional<double> expected_order(const std::string& key, const Case& scene) {
   if (key == "time.step") return time::find_tableau(scene.time.method).time_order;
-  if (key == "particles.overlap") return cutoff_order(scene.particles.cutoff);
-  if (key == "particles.per_axis") return cutoff_order(scene.particles.cutoff);
+  if (key == "particles.overlap") return find_cutoff(scene.particles.cutoff).order;
+  if (key == "particles.per_axis") return find_cutoff(scene.particles.cutoff).order;
   return std::nullopt;
 }
 

@@ -217,7 +217,7 @@ TEST(SwirlRemesh, KeepsTheFilamentWhole) {
                                   {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
                      .scene;
     scene.reference = {}, scene.checks.clear();
-    if (!remesh) scene.effects.remesh.reset();
+    if (!remesh) scene.effects.remove("remesh");
     return Simulation(scene).run().frames.back().second.maximum;
   };
   EXPECT_LE(height(true), 1.0);

@@ -92,7 +92,7 @@ TEST(Trial, IsThinnedOutToSelfSimilarOnes) {
   EXPECT_EQ(trial.carried, carried);
   const double times = static_cast<double>(trial.part.stride);
   EXPECT_NEAR(trial.scene.core_radius, 2 * trial.scene.seeding.spacing, 1e-15);
-  EXPECT_NEAR(trial.spec.effects.diffusion->coefficient, 1e-4 * times * times, 1e-18);  // D/eps^2 stays
+  EXPECT_NEAR(trial.spec.effects.find("diffusion")->number("D"), 1e-4 * times * times, 1e-18);  // D/eps^2 stays
 }
 
 TEST(Check, OfALargeCaseSamplesAndSaysSo) {

@@ -15,15 +15,15 @@
 namespace gaussdrift {
 namespace {
 
-class EveryKernel : public ::testing::TestWithParam<std::string> {};
+class EveryKernel : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(EveryKernel, KeepsItsMoments) {
-  const RemeshKernel kernel(GetParam());
+  const RemeshKernel& kernel = find_remesh_kernel(GetParam());
   std::vector<double> w;
   std::int64_t first = 0;
   for (const double x : {0.0, 0.1, -0.37, 0.5, 7.92, 1 - 1e-12}) {
     kernel.share(x, 0, first, w);
-    for (int k = 0; k <= kernel.moments(); ++k) {
+    for (int k = 0; k <= kernel.moments; ++k) {
       double moment = 0, size = 0;
       for (std::size_t i = 0; i < w.size(); ++i) {
         const double term = w[i] * std::pow(static_cast<double>(first) + static_cast<double>(i) - x, k);
@@ -39,11 +39,11 @@ TEST_P(EveryKernel, KeepsItsMoments) {
 }
 
 TEST_P(EveryKernel, TakesUpASpread) {
-  const RemeshKernel kernel(GetParam());
+  const RemeshKernel& kernel = find_remesh_kernel(GetParam());
   std::vector<double> w;
   std::int64_t first = 0;
   const double spread = 3;
-  ASSERT_GE(spread, kernel.takes_spread());
+  ASSERT_GE(spread, kernel.takes_spread);
   kernel.share(0.3, spread, first, w);
   double sum = 0, second = 0, fourth = 0;
   for (std::size_t i = 0; i < w.size(); ++i) {
@@ -57,7 +57,7 @@ TEST_P(EveryKernel, TakesUpASpread) {
 
 TEST(RemeshKernel, PiecewiseOnesInterpolateAndAreContinuous) {
   for (const char* name : {"lambda44", "lambda66", "m4prime"}) {
-    const RemeshKernel kernel(name);
+    const RemeshKernel& kernel = find_remesh_kernel(name);
     std::vector<double> at, before;
     std::int64_t first = 0, first_before = 0;
     kernel.share(5, 0, first, at);
@@ -73,11 +73,11 @@ TEST(RemeshKernel, PiecewiseOnesInterpolateAndAreContinuous) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryKernel, ::testing::ValuesIn(remesh_kernel_names()),
-                         [](const auto& name) { return name.param; });
+INSTANTIATE_TEST_SUITE_P(, EveryKernel, ::testing::ValuesIn(base::names_of(remesh_kernels())),
+                         [](const auto& name) { return std::string(name.param); });
 
 TEST(RemeshKernel, M4PrimeIsMonaghans) {
-  const RemeshKernel kernel("m4prime");
+  const RemeshKernel& kernel = find_remesh_kernel("m4prime");
   const auto monaghan = [](double x) {
     x = std::abs(x);
     return x < 1 ? 1 - 2.5 * x * x + 1.5 * x * x * x : 0.5 * (2 - x) * (2 - x) * (1 - x);
@@ -116,15 +116,15 @@ double moment(const Particles& particles, const std::array<int, 3>& power) {
 TEST(Remesh, KeepsMassAndMomentsOfAnyParticles) {
   for (const int dimension : {2, 3}) {
     const Lattice lattice = make_lattice(dimension, {-1, -1, -1}, {1, 1, 1}, 12);
-    for (const std::string& kernel : remesh_kernel_names()) {
-      Remesh remesh(lattice, {.kernel = kernel, .tolerance = 0});
+    for (const RemeshKernel& kernel : remesh_kernels()) {
+      Remesh remesh(lattice, {.kernel = std::string(kernel.name), .tolerance = 0});
       Particles particles = scattered(dimension, 300);
       const Particles before = particles;
       remesh.remesh(particles);
-      for (int a = 0; a <= RemeshKernel(kernel).moments(); ++a)
-        for (int b = 0; a + b <= RemeshKernel(kernel).moments(); ++b)
+      for (int a = 0; a <= kernel.moments; ++a)
+        for (int b = 0; a + b <= kernel.moments; ++b)
           EXPECT_NEAR(moment(particles, {a, b, 0}), moment(before, {a, b, 0}), 7e-10)
-              << kernel << a << b;  // 300 weights, powers up to 3^7 at the far nodes, kernels right to 1e-12
+              << kernel.name << a << b;  // 300 weights, powers up to 3^7 at the far nodes, kernels right to 1e-12
       EXPECT_NEAR(moment(particles, {0, 0, 0}), moment(before, {0, 0, 0}),
                   3.8e-13);  // rounding of 300 weights: 1.3e-13
     }

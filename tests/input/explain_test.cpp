@@ -35,8 +35,8 @@ TEST(Explain, KnowsTheSymbolsOfTheThesis) {
 
 TEST(Explain, TellsTablesFieldsShapesFunctionsAndValues) {
   const std::vector<std::pair<const char*, const char*>> words = {
-      {"time", "Runge-Kutta method. `rk4` is the classical one"},
-      {"[time]", "Runge-Kutta method. `rk4` is the classical one"},
+      {"time", "Runge-Kutta method. `rk4` is the classical method"},
+      {"[time]", "Runge-Kutta method. `rk4` is the classical method"},
       {"rotation", "exact flow"},
       {"slotted_disk", "width of the slot"},
       {"hypot", "without overflow"},

@@ -59,34 +59,8 @@ void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.particles.threshold, b.particles.threshold);
   EXPECT_EQ(a.time.end, b.time.end);
   EXPECT_EQ(a.time.step, b.time.step);
-  ASSERT_EQ(a.effects.reaction.has_value(), b.effects.reaction.has_value());
-  if (a.effects.reaction) {
-    EXPECT_EQ(a.effects.reaction->rate, b.effects.reaction->rate);
-  }
-  ASSERT_EQ(a.effects.diffusion.has_value(), b.effects.diffusion.has_value());
-  if (a.effects.diffusion) {
-    EXPECT_EQ(a.effects.diffusion->coefficient, b.effects.diffusion->coefficient);
-    EXPECT_EQ(a.effects.diffusion->method, b.effects.diffusion->method);
-    EXPECT_EQ(a.effects.diffusion->tolerance, b.effects.diffusion->tolerance);
-  }
-  ASSERT_EQ(a.effects.charge.has_value(), b.effects.charge.has_value());
-  if (a.effects.charge) {
-    EXPECT_EQ(a.effects.charge->mobility, b.effects.charge->mobility);
-    EXPECT_EQ(a.effects.charge->density, b.effects.charge->density);
-    EXPECT_EQ(a.effects.charge->tolerance, b.effects.charge->tolerance);
-  }
-  ASSERT_EQ(a.effects.vortex.has_value(), b.effects.vortex.has_value());
-  if (a.effects.vortex) {
-    EXPECT_EQ(a.effects.vortex->tolerance, b.effects.vortex->tolerance);
-  }
-  ASSERT_EQ(a.effects.remesh.has_value(), b.effects.remesh.has_value());
-  if (a.effects.remesh) {
-    EXPECT_EQ(a.effects.remesh->every, b.effects.remesh->every);
-    EXPECT_EQ(a.effects.remesh->stretch, b.effects.remesh->stretch);
-    EXPECT_EQ(a.effects.remesh->kernel, b.effects.remesh->kernel);
-    EXPECT_EQ(a.effects.remesh->tolerance, b.effects.remesh->tolerance);
-  }
-  EXPECT_EQ(a.particles.width_ratio, b.particles.width_ratio);
+  EXPECT_EQ(a.effects, b.effects);
+  EXPECT_EQ(a.particles.cutoff_arguments, b.particles.cutoff_arguments);
   EXPECT_EQ(a.time.tolerance, b.time.tolerance);
   EXPECT_EQ(a.time.method, b.time.method);
   EXPECT_EQ(a.evaluate.per_axis, b.evaluate.per_axis);

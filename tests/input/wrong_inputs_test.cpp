@@ -199,7 +199,8 @@ const std::vector<Wrong> wrongs = {
      "\"tolerance\" goes with method = \"particle-exchange\""},
     {"[time]\nend", "[effects.remesh]\nevery = 5\nstretch = 2\n[time]\nend", 31, "stretch",
      "[effects.remesh] has both \"every\" and \"stretch\"",
-     "\"every\" remeshes at fixed steps, \"stretch\" where particles have moved apart"},
+     "every: number of steps from one remeshing to the next; stretch: remesh as soon as particles that were neighbours "
+     "are farther apart than this many spacings h"},
     {"[time]\nend", "[effects.remesh]\nkernel = \"lambda45\"\n[time]\nend", 30, "\"lambda45\"",
      "unknown value \"lambda45\" for effects.remesh.kernel; did you mean \"lambda44\"?",
      "known values: \"gauss8\", \"lambda44\", \"lambda66\", \"m4prime\""},

@@ -80,7 +80,7 @@ TEST_P(EveryCutoff, HasExactlyItsOrder) {
   // The moment of order k does not vanish: the name promises no more than it keeps.
   const Cutoff cutoff = make_cutoff(GetParam().name, 2, 1.0);
   EXPECT_GT(std::abs(moment(cutoff, 2, 1.0, {GetParam().cutoff_order, 0, 0})), 0.1);
-  EXPECT_EQ(cutoff_order(GetParam().name), GetParam().cutoff_order);
+  EXPECT_EQ(find_cutoff(GetParam().name).order, GetParam().cutoff_order);
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryCutoff,
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(, EveryCutoff,
 
 TEST(CutoffTwoGauss, IsThePublishedPairInTwoDimensions) {
   for (const double a : {0.5, 2.0, 3.0}) {
-    const Cutoff cutoff = make_cutoff("two-gauss", 2, 1.0, a);
+    const Cutoff cutoff = make_cutoff("two-gauss", 2, 1.0, {{"width_ratio", {a}}});
     for (const double r : {0.0, 0.4, 1.0, 2.5}) {
       const double pi = std::numbers::pi, square = a * a;  // [Sch06, 5.2.2]
       const double published =
@@ -107,12 +107,12 @@ TEST(CutoffTwoGauss, IsThePublishedPairInTwoDimensions) {
 TEST(CutoffTwoGauss, HasItsMomentsForEveryRatioAndDimension) {
   for (const double a : {0.7, 1.5})
     for (const int dimension : {1, 2, 3}) {
-      const Cutoff cutoff = make_cutoff("two-gauss", dimension, 1.0, a);
+      const Cutoff cutoff = make_cutoff("two-gauss", dimension, 1.0, {{"width_ratio", {a}}});
       EXPECT_NEAR(moment(cutoff, dimension, 0.7, {0, 0, 0}), 1, 2.6e-15);  // widths from 0.7: rounding of the sum
       EXPECT_NEAR(moment(cutoff, dimension, 0.7, {2, 0, 0}), 0, 2.4e-15);
     }
-  EXPECT_THROW(make_cutoff("two-gauss", 2, 1.0, 1.0), std::invalid_argument);
-  EXPECT_THROW(make_cutoff("two-gauss", 2, 1.0, -2.0), std::invalid_argument);
+  EXPECT_THROW(make_cutoff("two-gauss", 2, 1.0, {{"width_ratio", {1.0}}}), std::invalid_argument);
+  EXPECT_THROW(make_cutoff("two-gauss", 2, 1.0, {{"width_ratio", {-2.0}}}), std::invalid_argument);
 }
 
 TEST_P(EveryCutoff, SpreadIsTheConvolutionWithAGaussian) {
@@ -135,19 +135,44 @@ TEST(CutoffGauss4, IsTheClosedFormInTwoDimensions) {
 }
 
 TEST(Cutoff, EveryNameCanBeMadeAndOthersCannot) {
-  for (const auto& name : cutoff_names()) EXPECT_FALSE(make_cutoff(name, 3, 0.1).empty());
+  for (const NamedCutoff& cutoff : cutoffs()) EXPECT_FALSE(make_cutoff(cutoff.name, 3, 0.1).empty());
   EXPECT_THROW(make_cutoff("gauss3", 2, 0.1), std::out_of_range);
 }
 
+// zeta^ = e^{-q} (1 + q + ... + q^{m-1}/(m-1)!) for order 2m, (a^2 e^{-q} - e^{-a^2 q}) / (a^2 - 1) for the pair of
+// widths 1 and a, at q = (k eps)^2 / 4.
+TEST(Fourier, IsTheClosedForm) {
+  const double eps = 0.4;
+  for (const int dimension : {1, 2, 3})
+    for (const double q : {0.0, 0.2, 1.0, 7.0}) {
+      const double k = 2 * std::sqrt(q) / eps;
+      double sum = 0, term = 1;
+      int order = 0;
+      for (const char* name : {"gauss2", "gauss4", "gauss6", "gauss8"}) {
+        sum += term;
+        term *= q / ((order += 2) / 2);
+        EXPECT_NEAR(fourier(make_cutoff(name, dimension, eps), dimension, k), sum * std::exp(-q), 2e-14) << name << q;
+      }
+      const double pair = (2.25 * std::exp(-q) - std::exp(-2.25 * q)) / 1.25;
+      const Cutoff two = make_cutoff("two-gauss", dimension, eps, {{"width_ratio", {1.5}}});
+      EXPECT_NEAR(fourier(two, dimension, k), pair, 2e-14) << q;
+      EXPECT_EQ(narrowest_width(two), eps);
+    }
+  EXPECT_DOUBLE_EQ(narrowest_width(make_cutoff("two-gauss", 2, eps, {{"width_ratio", {0.5}}})), 0.2);
+}
+
 TEST(Peak, IsTheLargestValueOfEveryCutoff) {
-  for (const std::string& name : cutoff_names())
+  for (const NamedCutoff& named : cutoffs())
     for (const int dimension : {2, 3})
       for (const double ratio : {0.5, 2.0}) {
-        const Cutoff cutoff = make_cutoff(name, dimension, 0.3, ratio);
+        Arguments arguments;
+        for (const NamedParameter& parameter : named.parameters)
+          arguments.emplace_back(parameter.name, std::vector{ratio});
+        const Cutoff cutoff = make_cutoff(named.name, dimension, 0.3, arguments);
         const double top = peak(cutoff);
-        EXPECT_NEAR(value(cutoff, {0, 0, 0}), top, 1e-12 * top) << name;
+        EXPECT_NEAR(value(cutoff, {0, 0, 0}), top, 1e-12 * top) << named.name;
         for (int i = 1; i < 40; ++i)
-          EXPECT_LT(std::abs(value(cutoff, {0.03 * i, 0.02 * i, 0})), top) << name << " at " << i;
+          EXPECT_LT(std::abs(value(cutoff, {0.03 * i, 0.02 * i, 0})), top) << named.name << " at " << i;
       }
 }
 
