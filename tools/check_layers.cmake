@@ -1,17 +1,18 @@
 # Reads the include lines of src/ and include/ and fails if one points up the module order, or at a header that another module
 # keeps to itself:
 #   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
-#     -> (particle, read, field, blockmatrix, farfield) -> fgtd -> base
+#     -> (particle, read, field, blockmatrix, farfield) -> fgtd -> core -> base
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
 # What each module may include besides itself. "case" is include/gaussdrift/case.hpp, plain data that anybody above may read.
 set(may_base "")
 set(may_expression base)
-set(may_fgtd base/parallel.hpp)
-set(may_farfield base/parallel.hpp)
+set(may_core base/parallel.hpp)
+set(may_fgtd base/parallel.hpp core)
+set(may_farfield base/parallel.hpp core)
 set(may_case "")
 set(may_time base)
-set(may_field base expression fgtd)
+set(may_field base core expression fgtd)
 set(may_read base field)
 set(may_particle base fgtd)
 set(may_effect base expression fgtd field particle farfield case)
@@ -26,12 +27,12 @@ set(may_report base read sim render write case)
 set(may_study base expression fgtd field particle effect reference time sim accuracy write render input case)
 set(may_reproduce base fgtd farfield blockmatrix field particle time sim write render input case)
 set(may_sum base fgtd farfield input)
-set(may_cli base expression reference accuracy report reproduce study sum sim write render read input time case fgtd)
+set(may_cli base core expression reference accuracy report reproduce study sum sim write render read input time case fgtd)
 
 # Headers of src/ that other modules may include, by their names in the module's folder. All others are the module's own. Those of
 # base are for everybody. One that no other module includes any more must go from its list.
 set(public_expression expression foreign_names)
-set(public_fgtd kernels/kernels kernels/vector)
+set(public_core arguments buffer dispatch simd/functions simd/product_block simd/vector)
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/shapes gaussians/divergence_free gaussians/gaussian_velocity gridded/grid_data gridded/gridded
   named/named_fields scalar velocity/differences velocity/value_seconds

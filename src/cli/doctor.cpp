@@ -11,7 +11,7 @@
 #include "base/parallel.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "fgtd/kernels/kernels.hpp"
+#include "core/dispatch.hpp"
 #include "read/grid_file.hpp"
 #include "render/styles.hpp"
 #include "write/vtk_files.hpp"
@@ -74,9 +74,9 @@ ExitCode doctor(const DoctorOptions& options) {
                                                EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, FMT_VERSION / 10000,
                                                FMT_VERSION / 100 % 100, FMT_VERSION % 100, read::vtk_version())});
   findings.push_back({"threads", std::to_string(base::resolve_threads(0))});
-  const fgtd::detail::Kernels& kernels = fgtd::detail::kernels();
+  const core::InstructionSet& vectors = core::fastest_instruction_set();
   findings.push_back(
-      {"vectors", fmt::format("{}: {} numbers at once in the Gauss transform", kernels.name, kernels.lanes)});
+      {"vectors", fmt::format("{}: {} numbers at once in the Gauss transform", vectors.name, vectors.lanes)});
   std::string pattern = (fs::temp_directory_path() / "gaussdrift-doctor.XXXXXX").string();
   if (!mkdtemp(pattern.data()))
     throw FileError(fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));

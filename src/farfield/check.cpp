@@ -1,32 +1,9 @@
 // Refuses bad arguments; see check.hpp.
 #include "farfield/check.hpp"
 
-#include <charconv>
 #include <cmath>
 
 namespace farfield::detail {
-
-std::string text(double value) {
-  char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return std::string(buffer, end);
-}
-
-namespace {
-
-/// x - x is 0 for finite x and else not a number, which no sum loses again.
-bool row_is_finite(const double* row, std::size_t count) {
-  double sum[8] = {};
-  std::size_t i = 0;
-  for (; i + 8 <= count; i += 8)
-    for (std::size_t k = 0; k < 8; ++k) sum[k] += row[i + k] - row[i + k];
-  for (; i < count; ++i) sum[0] += row[i] - row[i];
-  double all = 0;
-  for (const double part : sum) all += part;
-  return all == 0;
-}
-
-}  // namespace
 
 void check_options(Kernel kernel, const Options& options, int dimension) {
   const auto refuse = [](const std::string& what) { throw InvalidArgument("farfield: " + what); };
@@ -51,16 +28,10 @@ void check_options(Kernel kernel, const Options& options, int dimension) {
     refuse("Options::threads = " + std::to_string(options.threads) + ", must be positive, or 0 for all");
 }
 
-void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count,
-                  std::size_t stride) {
-  if (stride == dimension && row_is_finite(points, dimension * count)) return;
-  for (std::size_t j = 0; j < count; ++j)
-    for (std::size_t l = 0; l < dimension; ++l) {
-      const double value = points[j * stride + l];
-      if (!std::isfinite(value))
-        throw InvalidArgument("farfield: " + std::string(kind) + " " + std::to_string(j) + ", coordinate " +
-                              std::to_string(l) + " is " + text(value) + "; " + kind + "s must be finite");
-    }
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride,
+                  int threads) {
+  const auto wrong = gaussdrift::core::point_that_is_not_finite(kind, points, dimension, count, stride, threads);
+  if (wrong) throw InvalidArgument("farfield: " + *wrong);
 }
 
 void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t sources) {
@@ -68,7 +39,7 @@ void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t
   if (count != sources)
     throw InvalidArgument("farfield: there are " + std::to_string(count) + " charges for " + std::to_string(sources) +
                           " sources; there must be one for every source");
-  if (row_is_finite(charges.data(), count)) return;
+  if (gaussdrift::core::all_finite(charges.data(), count, 1, count, 1)) return;
   for (std::size_t j = 0; j < count; ++j) {
     const double value = charges.data()[j];
     if (!std::isfinite(value))
@@ -93,7 +64,7 @@ void check_seconds(Method method, double seconds, double most) {
 }
 
 void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target) {
-  if (row_is_finite(values, count * numbers_a_target)) return;
+  if (gaussdrift::core::all_finite(values, count * numbers_a_target, 1, count * numbers_a_target, 1)) return;
   for (std::size_t i = 0; i < count * numbers_a_target; ++i)
     if (!std::isfinite(values[i]))
       throw RangeError("farfield: the " + std::string(what) + " at target " + std::to_string(i / numbers_a_target) +

@@ -4,18 +4,19 @@
 #include <cstddef>
 #include <string>
 
+#include "core/arguments.hpp"
 #include "farfield/farfield.hpp"
 
 namespace farfield::detail {
 
-/// Shortest decimal text that names the number: "2", "0.1", "nan", "1e-15".
-std::string text(double value);
+using gaussdrift::core::text;
 
 /// The kernel exists in that dimension, and the options suit it.
 void check_options(Kernel kernel, const Options& options, int dimension);
 
 /// Every entry of `points` (dimension x count) is finite; `kind` is "source" or "target".
-void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride);
+void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride,
+                  int threads);
 
 /// Finite, and one for every source.
 void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t sources);

@@ -74,9 +74,11 @@ Engine<d>::Engine(Kernel kernel, const Eigen::Ref<const Points<d>>& sources, con
                   const Options& options)
     : options_(options) {
   check_options(kernel, options, d);
-  check_points("source", sources.data(), d, static_cast<std::size_t>(sources.cols()), stride<d>(sources));
+  check_points("source", sources.data(), d, static_cast<std::size_t>(sources.cols()), stride<d>(sources),
+               options.threads);
   if (targets)
-    check_points("target", targets->data(), d, static_cast<std::size_t>(targets->cols()), stride<d>(*targets));
+    check_points("target", targets->data(), d, static_cast<std::size_t>(targets->cols()), stride<d>(*targets),
+                 options.threads);
 
   Box box;
   box.include<d>(sources);

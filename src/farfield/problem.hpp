@@ -6,11 +6,13 @@
 #include <chrono>
 #include <cstddef>
 
-#include "farfield/buffer.hpp"
+#include "core/buffer.hpp"
 #include "farfield/farfield.hpp"
 #include "farfield/kernels/kernels.hpp"
 
 namespace farfield::detail {
+
+using gaussdrift::core::Buffer;
 
 /// Coordinates by axis, each readable `padding` numbers past its end.
 using Coordinates = std::array<Buffer<double>, 3>;

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "fgtd/buffer.hpp"
+#include "core/buffer.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 template <int d>
 using BoxIndex = std::array<std::int64_t, d>;

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <string>
 
+#include "core/arguments.hpp"
 #include "fgtd/fgtd.hpp"
 
 namespace fgtd::detail {
 
-/// Shortest decimal text that names the number: "2", "0.1", "nan", "1e-15".
-std::string text(double value);
+using gaussdrift::core::text;
 
 /// Every entry of `points` (d x m) is finite; `kind` is "source" or "target".
 void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride,

@@ -8,12 +8,14 @@
 #include <optional>
 #include <vector>
 
-#include "fgtd/buffer.hpp"
+#include "core/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/situation.hpp"
 #include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 template <int d>
 struct Proposal {

@@ -5,11 +5,15 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "fgtd/buffer.hpp"
+#include "core/buffer.hpp"
 #include "fgtd/check.hpp"
 #include "fgtd/choose.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
+using gaussdrift::core::prefer_huge_pages;
+
 namespace {
 
 /// Numbers from one point to the next. One-dimensional points are a row, which Eigen keeps row-major.

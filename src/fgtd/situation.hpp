@@ -7,10 +7,12 @@
 #include <limits>
 #include <vector>
 
-#include "fgtd/buffer.hpp"
+#include "core/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 template <int d>
 struct Situation {

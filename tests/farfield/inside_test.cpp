@@ -5,6 +5,7 @@
 #include "farfield/clouds.hpp"
 #include "farfield/interpolation/measured_error.hpp"
 #include "farfield/interpolation/operators.hpp"
+#include "farfield/kernels/dispatch.hpp"
 #include "farfield/naive.hpp"
 #include "farfield/near/near_field.hpp"
 #include "farfield/tree/partition.hpp"
@@ -164,8 +165,7 @@ TEST(FarfieldKernels, EveryInstructionSetKeepsItsDigits) {
   std::vector<double> padded(333 + detail::padding);
   for (std::size_t j = 0; j < 333; ++j) padded[j] = charges[static_cast<Eigen::Index>(j)];
   const detail::Range all{0, 333};
-  const detail::KernelSets sets = detail::supported_kernels();
-  for (int set = 0; set < sets.count; ++set)
+  for (const detail::Kernels* const kernels : detail::supported_kernels())
     for (const auto precision :
          {detail::Precision::full, detail::Precision::ten_digits, detail::Precision::six_digits}) {
       farfield::Values<3> values;
@@ -188,7 +188,7 @@ TEST(FarfieldKernels, EveryInstructionSetKeepsItsDigits) {
       job.quantum = 0x1p-29;
       job.closest = 0x1p-8;
       job.potential = potential.data();
-      sets.set[set]->pairs(job);
+      kernels->pairs(job);
       values.field.resize(3, 333);
       for (Eigen::Index i = 0; i < 333; ++i) {
         values.potential[i] = potential[static_cast<std::size_t>(i)];
@@ -201,7 +201,7 @@ TEST(FarfieldKernels, EveryInstructionSetKeepsItsDigits) {
                            : precision == detail::Precision::ten_digits ? 1.4e-11
                                                                         : 1.7e-7;
       EXPECT_LE(std::max(errors.field, errors.potential), std::min(usual, detail::error_of(precision)))
-          << sets.set[set]->name << ", precision " << static_cast<int>(precision);
+          << kernels->name << ", precision " << static_cast<int>(precision);
     }
 }
 

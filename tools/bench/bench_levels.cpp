@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "fgtd/buffer.hpp"
+#include "core/buffer.hpp"
 #include "fgtd/hermite/hermite.hpp"
 #include "workloads.hpp"
 

@@ -8,10 +8,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "farfield/buffer.hpp"
+#include "core/buffer.hpp"
 #include "farfield/interpolation/interpolation.hpp"
 
 namespace farfield::detail {
+
+using gaussdrift::core::Buffer;
 
 constexpr int farthest = 3;  // |k_l| of clusters whose parents touch
 

@@ -1,8 +1,8 @@
-// Harmonic polynomials of harmonics.hpp at many points; see farfield/kernels/vector.hpp for what may stand here.
+// Harmonic polynomials of harmonics.hpp at many points; see core/simd/vector.hpp for what may stand here.
+#include "core/simd/functions.hpp"
 #include "farfield/kernels/set.hpp"
-#include "farfield/kernels/vector.hpp"
 
-namespace farfield::detail::FARFIELD_ISA {
+namespace farfield::detail::CORE_ISA {
 namespace {
 
 constexpr std::size_t vectors = 2;  // of points at a time
@@ -10,7 +10,7 @@ constexpr std::size_t group = vectors * lanes;
 
 /// Calls use(k, values) for every function k, values being those at `vectors` vectors of points.
 template <class Use>
-FARFIELD_INLINE void for_each_function(int degree, const Vector (*t)[3], const Use& use) {
+CORE_INLINE void for_each_function(int degree, const Vector (*t)[3], const Use& use) {
   Vector re[vectors], im[vectors];
   for (std::size_t v = 0; v < vectors; ++v) {
     re[v] = broadcast(1);
@@ -29,8 +29,8 @@ FARFIELD_INLINE void for_each_function(int degree, const Vector (*t)[3], const U
 }
 
 template <class Use>
-FARFIELD_INLINE void for_each_function(int degree, const Vector (*t)[3], const double* up, const double* back,
-                                       const Use& use) {
+CORE_INLINE void for_each_function(int degree, const Vector (*t)[3], const double* up, const double* back,
+                                   const Use& use) {
   Vector squared[vectors], re[vectors], im[vectors];
   for (std::size_t v = 0; v < vectors; ++v) {
     squared[v] = t[v][0] * t[v][0] + t[v][1] * t[v][1] + t[v][2] * t[v][2];
@@ -68,14 +68,14 @@ FARFIELD_INLINE void for_each_function(int degree, const Vector (*t)[3], const d
 }
 
 template <class Job>
-FARFIELD_INLINE void local_coordinates(const Job& job, std::size_t first, Vector (*t)[3]) {
+CORE_INLINE void local_coordinates(const Job& job, std::size_t first, Vector (*t)[3]) {
   for (std::size_t v = 0; v < vectors; ++v)
     for (int l = 0; l < job.dimension; ++l)
       t[v][l] = (load(job.point[l] + first + v * lanes) - job.centre[l]) * job.scale;
 }
 
 template <int outputs, int d>
-FARFIELD_INLINE void expand(const ExpansionJob& job, std::size_t first) {
+CORE_INLINE void expand(const ExpansionJob& job, std::size_t first) {
   Vector t[vectors][3];
   local_coordinates(job, first, t);
   Vector sum[4][vectors] = {};
@@ -147,4 +147,4 @@ void expansion(const ExpansionJob& job) {
   }
 }
 
-}  // namespace farfield::detail::FARFIELD_ISA
+}  // namespace farfield::detail::CORE_ISA

@@ -1,42 +1,23 @@
-// Products of small matrices; see farfield/kernels/vector.hpp for what may stand here.
+// Products of small matrices; see core/simd/vector.hpp for what may stand here.
+#include "core/simd/product_block.hpp"
 #include "farfield/kernels/set.hpp"
-#include "farfield/kernels/vector.hpp"
 
-namespace farfield::detail::FARFIELD_ISA {
+namespace farfield::detail::CORE_ISA {
 namespace {
 
 constexpr int rows_together = lanes == 8 ? 8 : 4;  // as many sums as there are registers for
 constexpr int widest = 3;                          // vectors
 constexpr std::size_t deepest = 128;               // rows of B that stay in the first cache
 
-/// `rows` rows of C, `columns` vectors wide, of which the last has `valid` numbers. What is read of B beyond them is
-/// the next row or the padding; what comes of it is not stored.
+/// `rows` rows of C, `columns` vectors wide.
 template <int rows, int columns>
-FARFIELD_INLINE void block(const ProductJob& job, const double* a, const double* b, double* c, std::size_t valid) {
-  Vector sum[rows][columns] = {};
-  for (std::size_t k = 0; k < job.depth; ++k) {
-    Vector right[columns];
-    for (int v = 0; v < columns; ++v) right[v] = load(b + k * job.b_stride + static_cast<std::size_t>(v) * lanes);
-    for (int i = 0; i < rows; ++i) {
-      const double left = a[static_cast<std::size_t>(i) * job.a_stride + k];
-      for (int v = 0; v < columns; ++v) sum[i][v] += right[v] * left;
-    }
-  }
-  for (int i = 0; i < rows; ++i)
-    for (int v = 0; v < columns; ++v) {
-      double* const to = c + static_cast<std::size_t>(i) * job.c_stride + static_cast<std::size_t>(v) * lanes;
-      if (v + 1 < columns || valid == lanes) {
-        store(to, load(to) + sum[i][v]);
-      } else {
-        for (std::size_t x = 0; x < valid; ++x) to[x] += sum[i][v][x];
-      }
-    }
+CORE_INLINE void block(const ProductJob& job, const double* a, const double* b, double* c, std::size_t valid) {
+  product_block<rows, columns>(job.depth, a, job.a_stride, b, job.b_stride, c, job.c_stride, valid);
 }
 
 /// The rows that are left, fewer than `rows`.
 template <int rows, int columns>
-FARFIELD_INLINE void last_rows(const ProductJob& job, std::size_t count, const double* a, double* c,
-                               std::size_t valid) {
+CORE_INLINE void last_rows(const ProductJob& job, std::size_t count, const double* a, double* c, std::size_t valid) {
   if constexpr (rows > 0) {
     if (count == rows)
       block<rows, columns>(job, a, job.b, c, valid);
@@ -46,7 +27,7 @@ FARFIELD_INLINE void last_rows(const ProductJob& job, std::size_t count, const d
 }
 
 template <int columns>
-FARFIELD_INLINE void panel(ProductJob job, std::size_t valid) {
+CORE_INLINE void panel(ProductJob job, std::size_t valid) {
   constexpr std::size_t together = rows_together, width = columns * lanes;
   alignas(64) double packed[deepest * width];  // B's rows may be pages apart
   if (job.rows > together) {
@@ -83,4 +64,4 @@ void product(const ProductJob& job) {
     }
 }
 
-}  // namespace farfield::detail::FARFIELD_ISA
+}  // namespace farfield::detail::CORE_ISA

@@ -1,10 +1,13 @@
-// The kernels of the instruction set FARFIELD_ISA, each defined in the source of its method; farfield/kernels/table.cpp lists
+// The kernels of the instruction set CORE_ISA, each defined in the source of its method; table.cpp lists
 // them.
 #pragma once
 
+#include "core/simd/vector.hpp"
 #include "farfield/kernels/kernels.hpp"
 
-namespace farfield::detail::FARFIELD_ISA {
+namespace farfield::detail::CORE_ISA {
+
+using namespace gaussdrift::core::CORE_ISA;
 
 void pairs(const PairsJob& job);
 void product(const ProductJob& job);
@@ -14,4 +17,4 @@ void inverse_roots(const InverseRootsJob& job);
 
 extern const Kernels kernels;
 
-}  // namespace farfield::detail::FARFIELD_ISA
+}  // namespace farfield::detail::CORE_ISA

@@ -1,11 +1,10 @@
 // All kernels of one instruction set.
 #include "farfield/kernels/set.hpp"
 
-namespace farfield::detail::FARFIELD_ISA {
+namespace farfield::detail::CORE_ISA {
 
-#define FARFIELD_TEXT_OF(x) #x
-#define FARFIELD_TEXT(x) FARFIELD_TEXT_OF(x)
-const Kernels kernels = {
-    FARFIELD_TEXT(FARFIELD_ISA), FARFIELD_LANES, pairs, product, moments, expansion, inverse_roots};
+#define CORE_TEXT_OF(x) #x
+#define CORE_TEXT(x) CORE_TEXT_OF(x)
+const Kernels kernels = {CORE_TEXT(CORE_ISA), CORE_LANES, pairs, product, moments, expansion, inverse_roots};
 
-}  // namespace farfield::detail::FARFIELD_ISA
+}  // namespace farfield::detail::CORE_ISA

@@ -1,8 +1,8 @@
-// All pairs of a range of targets and some ranges of sources; see farfield/kernels/vector.hpp for what may stand here.
+// All pairs of a range of targets and some ranges of sources; see core/simd/vector.hpp for what may stand here.
+#include "core/simd/functions.hpp"
 #include "farfield/kernels/set.hpp"
-#include "farfield/kernels/vector.hpp"
 
-namespace farfield::detail::FARFIELD_ISA {
+namespace farfield::detail::CORE_ISA {
 namespace {
 
 constexpr std::size_t source_chunk = 256;  // partial sums of so many terms, then added: rounding grows with N/256 + 256
@@ -17,7 +17,7 @@ template <Interaction interaction>
 constexpr int dimension_of = interaction == Interaction::inverse ? 3 : 2;
 
 /// (1 - exp(-s)) / s = sum_n (-s)^n / (n+1)! for 0 <= s <= 1/2; s^13/14! < 2e-15
-FARFIELD_INLINE Vector blob_series(Vector s) {
+CORE_INLINE Vector blob_series(Vector s) {
   Vector sum = broadcast(1.0 / 6227020800.0);
   constexpr double factorials[] = {479001600., 39916800., 3628800., 362880., 40320., 5040.,
                                    720.,       120.,      24.,      6.,      2.,     1.};
@@ -26,7 +26,7 @@ FARFIELD_INLINE Vector blob_series(Vector s) {
 }
 
 template <class Work>
-FARFIELD_INLINE void for_each_vector(const Work& work) {
+CORE_INLINE void for_each_vector(const Work& work) {
   static_assert(vectors == 2);
   work.template operator()<0>();
   work.template operator()<1>();
@@ -39,7 +39,7 @@ struct Sums {
 /// One source at one vector of targets. `divide` is set for every second vector: square roots with divisions keep other
 /// parts of the processor busy than estimates with series.
 template <Interaction interaction, bool full, bool potential, bool field, bool divide>
-FARFIELD_INLINE void add_pair(const PairsJob& job, const Vector* distance, double charge, Bits& seen, Sums& sums) {
+CORE_INLINE void add_pair(const PairsJob& job, const Vector* distance, double charge, Bits& seen, Sums& sums) {
   constexpr int d = dimension_of<interaction>;
   Vector squared = distance[0] * distance[0];
   for (int l = 1; l < d; ++l) squared += distance[l] * distance[l];
@@ -61,7 +61,7 @@ FARFIELD_INLINE void add_pair(const PairsJob& job, const Vector* distance, doubl
     if (!any_true(s < job.point_beyond)) {
       factor = charge / squared;
     } else {
-      factor = (1.0 - exp_nonpositive(-s)) / squared * charge;
+      factor = (1.0 - exp_taylor(-s)) / squared * charge;
       const Signed near = s < 0.5;
       if (any_true(near)) factor = near ? blob_series(s) * job.inverse_squared_core * charge : factor;
     }
@@ -71,7 +71,7 @@ FARFIELD_INLINE void add_pair(const PairsJob& job, const Vector* distance, doubl
 }
 
 /// Adds the first `valid` lanes.
-FARFIELD_INLINE void add_to(double* out, Vector value, std::size_t valid) {
+CORE_INLINE void add_to(double* out, Vector value, std::size_t valid) {
   if (valid >= lanes) {
     store(out, load(out) + value);
   } else {
@@ -130,7 +130,7 @@ bool some_unseen(const PairsJob& job, std::size_t first, Range sources) {
 
 /// Targets first .. first + tile, of which `valid` count, and one chunk of sources.
 template <Interaction interaction, bool full, bool potential, bool field>
-FARFIELD_INLINE void pairs_of_tile(const PairsJob& job, std::size_t first, std::size_t valid, Range sources) {
+CORE_INLINE void pairs_of_tile(const PairsJob& job, std::size_t first, std::size_t valid, Range sources) {
   constexpr int d = dimension_of<interaction>;
   Vector x[vectors][d];
   for (std::size_t v = 0; v < vectors; ++v)
@@ -189,20 +189,20 @@ constexpr std::size_t wide_tile = vectors * wide_lanes;
 constexpr std::size_t wide_chunk = 64;     // float sums of so many terms, then added in double
 constexpr std::size_t target_block = 256;  // targets whose coordinates are turned into integers at a time
 
-using Floats = float __attribute__((vector_size(8 * FARFIELD_LANES)));
-using Integers = int __attribute__((vector_size(8 * FARFIELD_LANES)));
-using HalfFloats = float __attribute__((vector_size(4 * FARFIELD_LANES)));
-typedef float HalfUnaligned __attribute__((vector_size(4 * FARFIELD_LANES), aligned(4), may_alias));
-typedef int UnalignedIntegers __attribute__((vector_size(8 * FARFIELD_LANES), aligned(4), may_alias));
-static_assert(alignof(HalfUnaligned) == 4 && alignof(UnalignedIntegers) == 4);  // as in farfield/kernels/vector.hpp
+using Floats = float __attribute__((vector_size(8 * CORE_LANES)));
+using Integers = int __attribute__((vector_size(8 * CORE_LANES)));
+using HalfFloats = float __attribute__((vector_size(4 * CORE_LANES)));
+typedef float HalfUnaligned __attribute__((vector_size(4 * CORE_LANES), aligned(4), may_alias));
+typedef int UnalignedIntegers __attribute__((vector_size(8 * CORE_LANES), aligned(4), may_alias));
+static_assert(alignof(HalfUnaligned) == 4 && alignof(UnalignedIntegers) == 4);  // as in core/simd/vector.hpp
 
 /// 1/sqrt(x) to 3e-7: an estimate and one step of Newton's method.
-FARFIELD_INLINE Floats wide_rsqrt(Floats x) {
-#if FARFIELD_LANES == 8 && defined(__AVX512F__)
+CORE_INLINE Floats wide_rsqrt(Floats x) {
+#if CORE_LANES == 8 && defined(__AVX512F__)
   const Floats y = reinterpret_cast<Floats>(_mm512_maskz_rsqrt14_ps(0xffff, reinterpret_cast<__m512>(x)));
-#elif FARFIELD_LANES == 4 && defined(__AVX2__)
+#elif CORE_LANES == 4 && defined(__AVX2__)
   const Floats y = reinterpret_cast<Floats>(_mm256_rsqrt_ps(reinterpret_cast<__m256>(x)));
-#elif FARFIELD_LANES == 2 && defined(__SSE2__)
+#elif CORE_LANES == 2 && defined(__SSE2__)
   const Floats y = reinterpret_cast<Floats>(_mm_rsqrt_ps(reinterpret_cast<__m128>(x)));
 #else
   Floats y;
@@ -212,7 +212,7 @@ FARFIELD_INLINE Floats wide_rsqrt(Floats x) {
   return (y * 0.5f) * h + y;
 }
 
-FARFIELD_INLINE void add_wide(double* out, Floats value, double scale, std::size_t valid) {
+CORE_INLINE void add_wide(double* out, Floats value, double scale, std::size_t valid) {
   float numbers[wide_lanes];
   for (std::size_t i = 0; i < wide_lanes; ++i) numbers[i] = value[i];
   if (valid >= wide_lanes) {
@@ -226,19 +226,18 @@ FARFIELD_INLINE void add_wide(double* out, Floats value, double scale, std::size
   }
 }
 
-FARFIELD_INLINE Floats wide_select(Integers mask, Floats x) {
+CORE_INLINE Floats wide_select(Integers mask, Floats x) {
   return reinterpret_cast<Floats>(mask & reinterpret_cast<Integers>(x));
 }
 
-FARFIELD_INLINE std::size_t equal_pairs(Integers counted) {
+CORE_INLINE std::size_t equal_pairs(Integers counted) {
   std::size_t sum = 0;
   for (std::size_t i = 0; i < wide_lanes; ++i) sum += static_cast<std::size_t>(counted[i]);
   return sum;
 }
 
 /// Pairs of a point with itself among a tile's targets, lanes past its end being copies of its last, and the sources.
-FARFIELD_INLINE std::size_t pairs_of_one_point(const PairsJob& job, std::size_t first, std::size_t valid,
-                                               Range sources) {
+CORE_INLINE std::size_t pairs_of_one_point(const PairsJob& job, std::size_t first, std::size_t valid, Range sources) {
   if (!job.same_points) return 0;
   const std::size_t last = first + valid - 1, low = first > sources.begin ? first : sources.begin,
                     high = last + 1 < sources.end ? last + 1 : sources.end;
@@ -328,4 +327,4 @@ void pairs(const PairsJob& job) {
   pairs_by_output<Interaction::inverse, false>(job);
 }
 
-}  // namespace farfield::detail::FARFIELD_ISA
+}  // namespace farfield::detail::CORE_ISA

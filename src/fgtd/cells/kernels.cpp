@@ -1,11 +1,11 @@
-// The kernel of `cells`: sums over runs of sources; see fgtd/kernels/vector.hpp for what may stand here. Vectors run over
+// The kernel of `cells`: sums over runs of sources; see core/simd/vector.hpp for what may stand here. Vectors run over
 // the targets of a group.
+#include "core/simd/vector.hpp"
 #include "fgtd/cells/job.hpp"
 #include "fgtd/kernels/power.hpp"
 #include "fgtd/kernels/set.hpp"
-#include "fgtd/kernels/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
 namespace {
 
 constexpr std::size_t source_chunk = 256;  // partial sums of so many terms, then added: rounding grows with N/256 + 256
@@ -13,7 +13,7 @@ constexpr std::size_t max_outputs = 16;    // sums kept at a time
 
 /// The runs of a group in chunks: chunk(begin, end).
 template <class Chunk>
-FGTD_INLINE void for_each_chunk(const CellsJob& job, const CellsGroup& group, const Chunk& chunk) {
+CORE_INLINE void for_each_chunk(const CellsJob& job, const CellsGroup& group, const Chunk& chunk) {
   for (std::size_t run = group.first_run; run < group.end_run; ++run) {
     const std::size_t last = job.run[2 * run + 1];
     for (std::size_t begin = job.run[2 * run]; begin < last; begin += source_chunk)
@@ -24,7 +24,7 @@ FGTD_INLINE void for_each_chunk(const CellsJob& job, const CellsGroup& group, co
 /// The plain Gaussian at `vectors` vectors of targets from `first` on, `columns` columns of weights from k on. |y - x|
 /// is scaled by sqrt(sigma log2 e), so that the exponential is 2^-squared.
 template <int d, int degree, int columns, int vectors>
-FGTD_INLINE void cells_values(const CellsJob& job, const CellsGroup& group, std::size_t first, std::size_t k) {
+CORE_INLINE void cells_values(const CellsJob& job, const CellsGroup& group, std::size_t first, std::size_t k) {
   const double scale = job.sigma * log2_e, limit = job.squared_reach / job.sigma;
   Vector y[d][vectors];
   for (std::size_t l = 0; l < d; ++l)
@@ -52,7 +52,7 @@ FGTD_INLINE void cells_values(const CellsJob& job, const CellsGroup& group, std:
 }
 
 template <int d, int degree, int columns>
-FGTD_INLINE void cells_columns(const CellsJob& job, std::size_t k) {
+CORE_INLINE void cells_columns(const CellsJob& job, std::size_t k) {
   for (std::size_t g = 0; g < job.groups; ++g) {
     const CellsGroup& group = job.group[g];
     std::size_t i = 0;
@@ -186,4 +186,4 @@ void cells(const CellsJob& job) {
   }
 }
 
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

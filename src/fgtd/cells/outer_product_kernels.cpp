@@ -1,16 +1,16 @@
 // The kernel of `outer`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as matrices;
-// see fgtd/kernels/vector.hpp for what may stand here.
+// see core/simd/vector.hpp for what may stand here.
+#include "core/simd/vector.hpp"
 #include "fgtd/cells/job.hpp"
 #include "fgtd/kernels/power.hpp"
 #include "fgtd/kernels/product.hpp"
 #include "fgtd/kernels/set.hpp"
-#include "fgtd/kernels/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
 namespace {
 
 /// exp(-t^2) by a polynomial of one of the degrees of `exponentials`.
-FGTD_INLINE Vector gaussian(Vector t, int degree) {
+CORE_INLINE Vector gaussian(Vector t, int degree) {
   const Vector squared = t * t;
   constexpr double limit = 690;  // 2^-1000
   switch (degree) {
@@ -26,7 +26,7 @@ FGTD_INLINE Vector gaussian(Vector t, int degree) {
 }
 
 /// rows[n stride] = h~_n(t), n = 0 .. highest.
-FGTD_INLINE void hermite_rows(Vector t, int degree, int highest, const Recurrence& recurrence, double* rows,
+CORE_INLINE void hermite_rows(Vector t, int degree, int highest, const Recurrence& recurrence, double* rows,
                               std::size_t stride) {
   t = clamp(t, 27.0);
   Vector previous{}, current = gaussian(t, degree);
@@ -152,4 +152,4 @@ void outer(const OuterJob& job) {
   }
 }
 
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

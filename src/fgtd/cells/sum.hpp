@@ -9,14 +9,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/buffer.hpp"
 #include "fgtd/boxes.hpp"
-#include "fgtd/buffer.hpp"
 #include "fgtd/direct/sum.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
 #include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 /// Cells of one side that start at the lower corner of the sources; occupied ones only, sorted with the last axis
 /// slowest.

@@ -1,23 +1,23 @@
-// The kernels of `chebyshev` (jobs: fgtd/chebyshev/jobs.hpp); see fgtd/kernels/vector.hpp for what may stand here.
+// The kernels of `chebyshev` (jobs: fgtd/chebyshev/jobs.hpp); see core/simd/vector.hpp for what may stand here.
+#include "core/simd/vector.hpp"
 #include "fgtd/chebyshev/jobs.hpp"
 #include "fgtd/kernels/contract.hpp"
 #include "fgtd/kernels/set.hpp"
-#include "fgtd/kernels/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
 namespace {
 
 // ---------------------------------------------------------------------------------------------------------------
 // locate
 
 /// The largest whole number <= x, for |x| < 2^50: adding `shift` rounds to a whole number.
-FGTD_INLINE Vector floor_of(Vector x) {
+CORE_INLINE Vector floor_of(Vector x) {
   constexpr double shift = 0x1.8p52;
   const Vector whole = (x + shift) - shift;
   return whole - select(reinterpret_cast<Bits>(whole > x), broadcast(1.0));
 }
 
-FGTD_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, double* local) {
+CORE_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, double* local) {
   Vector i = clamp((x - job.origin) * job.inverse_side, 0x1p45);
   i = floor_of(i);
   i = i < job.first ? broadcast(job.first) : i;
@@ -69,11 +69,11 @@ using Quad = double __attribute__((vector_size(32)));
 using QuadIndex = long long __attribute__((vector_size(32)));
 using QuadKey = int __attribute__((vector_size(16)));
 typedef double UnalignedQuad __attribute__((vector_size(32), aligned(8), may_alias));
-static_assert(alignof(UnalignedQuad) == 8);  // as in fgtd/kernels/vector.hpp
+static_assert(alignof(UnalignedQuad) == 8);  // as in core/simd/vector.hpp
 
-FGTD_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
-FGTD_INLINE void store_quad(double* to, Quad x) { *reinterpret_cast<UnalignedQuad*>(to) = x; }
-FGTD_INLINE Quad every(double x) { return Quad{x, x, x, x}; }
+CORE_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
+CORE_INLINE void store_quad(double* to, Quad x) { *reinterpret_cast<UnalignedQuad*>(to) = x; }
+CORE_INLINE Quad every(double x) { return Quad{x, x, x, x}; }
 
 #if __has_builtin(__builtin_shufflevector)
 #define FGTD_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
@@ -81,7 +81,7 @@ FGTD_INLINE Quad every(double x) { return Quad{x, x, x, x}; }
 #define FGTD_SHUFFLE(a, b, ...) __builtin_shuffle(a, b, QuadIndex{__VA_ARGS__})
 #endif
 
-FGTD_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
+CORE_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
   const Quad ab0 = FGTD_SHUFFLE(a, b, 0, 4, 2, 6), ab1 = FGTD_SHUFFLE(a, b, 1, 5, 3, 7);
   const Quad cd0 = FGTD_SHUFFLE(c, d, 0, 4, 2, 6), cd1 = FGTD_SHUFFLE(c, d, 1, 5, 3, 7);
   a = FGTD_SHUFFLE(ab0, cd0, 0, 1, 4, 5);
@@ -98,7 +98,7 @@ FGTD_INLINE void transpose(Quad& a, Quad& b, Quad& c, Quad& d) {
 namespace {
 
 /// Coordinates of four points, the last point repeated.
-FGTD_INLINE Quad coordinates(const SortBlockJob& job, std::size_t l, std::size_t j) {
+CORE_INLINE Quad coordinates(const SortBlockJob& job, std::size_t l, std::size_t j) {
   const double* from = job.coordinate + l * job.axis_stride;
   const std::size_t step = job.point_stride;
   if (j + quad <= job.count) {
@@ -112,7 +112,7 @@ FGTD_INLINE Quad coordinates(const SortBlockJob& job, std::size_t l, std::size_t
 }
 
 /// All points are in the one box there is.
-FGTD_INLINE void keep_order(const SortBlockJob& job) {
+CORE_INLINE void keep_order(const SortBlockJob& job) {
   const std::size_t count = job.count;
   job.first[1] = job.first[2] = static_cast<std::uint32_t>(count);
   const double* unsorted = job.unsorted;
@@ -229,7 +229,7 @@ void sort_block(const SortBlockJob& job) {
 namespace {
 
 template <int rows, int vectors>
-FGTD_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x, std::size_t valid) {
+CORE_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x, std::size_t valid) {
   Vector sum[rows][vectors] = {};
   for (std::size_t link = 0; link < job.links; ++link) {
     const double* b = job.b[link] + row * job.b_stride;
@@ -260,7 +260,7 @@ FGTD_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x
 /// Cuts rows into blocks of nearly the same height. They are so tall that no addition waits for the one before, and
 /// small enough for the registers.
 template <int vectors>
-FGTD_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t valid) {
+CORE_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t valid) {
   constexpr std::size_t tall = vectors == 1 ? 8 : 4;
   std::size_t blocks = (job.rows + tall - 1) / tall;
   for (std::size_t row = 0; row < job.rows; --blocks) {
@@ -303,7 +303,7 @@ namespace {
 // moments and interpolate
 
 /// to[i stride] = T_i(z).
-FGTD_INLINE void polynomials(int count, Vector z, double* to, std::size_t stride) {
+CORE_INLINE void polynomials(int count, Vector z, double* to, std::size_t stride) {
   Vector before = broadcast(1.0), now = z;
   const Vector twice = z + z;
   store(to, before);
@@ -316,7 +316,7 @@ FGTD_INLINE void polynomials(int count, Vector z, double* to, std::size_t stride
 }
 
 /// to[i stride] = l_i(z): products of the factors before i and of those after it; or T_i(z).
-FGTD_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, std::size_t stride) {
+CORE_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, std::size_t stride) {
   if (basis.node == nullptr) {
     polynomials(basis.nodes, z, to, stride);
     return;
@@ -337,7 +337,7 @@ FGTD_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, st
 /// Coordinates of the points first .. first + count as rows to[l][j], l < d, and behind them the weight that records
 /// carry. The last point is repeated up to a whole vector of 8.
 template <int d>
-FGTD_INLINE void bring_apart(const double* local, std::size_t step, std::size_t count, double* to, std::size_t stride) {
+CORE_INLINE void bring_apart(const double* local, std::size_t step, std::size_t count, double* to, std::size_t stride) {
   const std::size_t padded = (count + 7) / 8 * 8;
   std::size_t j = 0;
   if (step == record_numbers) {
@@ -464,7 +464,7 @@ void moments(const MomentsJob& job) {
 namespace {
 
 template <int d, int vectors>
-FGTD_INLINE void interpolate_at(const InterpolateJob& job, std::size_t first, std::size_t size) {
+CORE_INLINE void interpolate_at(const InterpolateJob& job, std::size_t first, std::size_t size) {
   const std::size_t p = static_cast<std::size_t>(job.basis.nodes);
   const double* g[d];
   double* point = job.scratch + d * p * vectors * lanes;
@@ -517,4 +517,4 @@ void interpolate(const InterpolateJob& job) {
   }
 }
 
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/buffer.hpp"
 #include "fgtd/boxes.hpp"
-#include "fgtd/buffer.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 /// Box i of axis l covers origin + [i side, (i+1) side). Sides have 12 significant binary digits and origins are
 /// multiples of the last of them, so that origin + i side is exact for |i| < 2^41.

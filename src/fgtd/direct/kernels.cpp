@@ -1,8 +1,8 @@
-// The kernel of `direct`; see fgtd/kernels/vector.hpp for what may stand here.
+// The kernel of `direct`; see core/simd/vector.hpp for what may stand here.
+#include "core/simd/functions.hpp"
 #include "fgtd/kernels/set.hpp"
-#include "fgtd/kernels/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
 namespace {
 
 constexpr std::size_t source_chunk = 256;  // partial sums of so many terms, then added: rounding grows with N/256 + 256
@@ -29,7 +29,7 @@ void direct_values(const DirectJob& job, const double* weights, double* out) {
             const Vector distance = y[l][v] - job.position[static_cast<std::size_t>(l) * job.sources + j];
             squared += distance * distance;
           }
-          const Vector gaussian = exp_nonpositive(squared * -job.sigma);
+          const Vector gaussian = exp_interpolated(squared * -job.sigma);
           for (int k = 0; k < columns; ++k)
             partial[k][v] += gaussian * weights[static_cast<std::size_t>(k) * job.sources + j];
         }
@@ -92,7 +92,7 @@ void direct_terms(const DirectJob& job, std::size_t q0, std::size_t q1, std::siz
             polynomial[l][n + 1] = next;
           }
         }
-        const Vector gaussian = exp_nonpositive(-squared);
+        const Vector gaussian = exp_interpolated(-squared);
         std::size_t output = 0;
         for (std::size_t q = q0; q < q1; ++q) {
           Vector sum{};
@@ -147,4 +147,4 @@ void direct(const DirectJob& job) {
   }
 }
 
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

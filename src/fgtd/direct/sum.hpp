@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "fgtd/buffer.hpp"
+#include "core/buffer.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
 #include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 /// Sources as the sums need them: one array an axis, one array a column of weights.
 template <int d>

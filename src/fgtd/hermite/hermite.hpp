@@ -8,14 +8,16 @@
 #include <limits>
 #include <vector>
 
+#include "core/buffer.hpp"
 #include "fgtd/boxes.hpp"
-#include "fgtd/buffer.hpp"
 #include "fgtd/direct/sum.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/request.hpp"
 #include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 /// r, p, n with the distance beyond which a box is left out.
 struct HermitePlan {

@@ -1,10 +1,10 @@
 // The kernels of `hermite`: expansions at targets, and tables of Hermite functions for its grids; see
-// fgtd/kernels/vector.hpp for what may stand here.
+// core/simd/vector.hpp for what may stand here.
+#include "core/simd/functions.hpp"
 #include "fgtd/kernels/contract.hpp"
 #include "fgtd/kernels/set.hpp"
-#include "fgtd/kernels/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
 namespace {
 
 template <int d, int vectors>
@@ -47,7 +47,7 @@ void expansion_at(const ExpansionJob& job, std::size_t first) {
     for (int l = 0; l < d; ++l)
       for (int v = 0; v < vectors; ++v) {
         Vector previous{};
-        Vector current = exp_nonpositive(-(t[l][v] * t[l][v]));
+        Vector current = exp_interpolated(-(t[l][v] * t[l][v]));
         if (l == 0) current = select(reinterpret_cast<Bits>(gap[v] <= job.squared_reach), current);
         double* row = hermite[l] + static_cast<std::size_t>(v) * lanes;
         const int highest = job.terms - 1 + job.highest[l];
@@ -115,7 +115,7 @@ void table(const TableJob& job) {
   for (std::size_t i = 0; i < job.count; i += lanes) {
     const Vector t = clamp(load(job.t + i), 1e3);
     Vector previous{};
-    Vector current = exp_nonpositive(-(t * t));
+    Vector current = exp_interpolated(-(t * t));
     store(job.rows + i, current);
     for (int n = 0; n + 1 < job.orders; ++n) {
       const Vector next = t * job.recurrence.up[n] * current - previous * job.recurrence.back[n];
@@ -126,4 +126,4 @@ void table(const TableJob& job) {
   }
 }
 
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

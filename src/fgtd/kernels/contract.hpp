@@ -1,16 +1,19 @@
 // Contracts tensors of coefficients with factors of every axis: the inner loop of `hermite` and `chebyshev` at targets.
-// Included in the way of fgtd/kernels/vector.hpp.
+// For the sources that may include core/simd/vector.hpp.
 #pragma once
 
-#include "fgtd/kernels/vector.hpp"
+#include "core/simd/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
+
+using namespace gaussdrift::core::CORE_ISA;
+
 namespace {
 
 /// sums[i] = sum_b moments[i terms + b] g[b] for `rows` rows; g[b] is `vectors` vectors. Several rows side by side keep
 /// the multipliers busy; a single sum would make them wait for its last addition.
 template <int rows, int vectors>
-FGTD_INLINE void contract_rows(std::size_t terms, const double* moments, const double* g,
+CORE_INLINE void contract_rows(std::size_t terms, const double* moments, const double* g,
                                Vector (&sums)[rows][vectors]) {
   for (int i = 0; i < rows; ++i)
     for (int v = 0; v < vectors; ++v) sums[i][v] = Vector{};
@@ -26,7 +29,7 @@ FGTD_INLINE void contract_rows(std::size_t terms, const double* moments, const d
 
 /// Rows b .. b+rows of the second axis, added to `sum`.
 template <int rows, int vectors>
-FGTD_INLINE void contract_plane_rows(std::size_t terms, std::size_t b, const double* moments, const double* const* g,
+CORE_INLINE void contract_plane_rows(std::size_t terms, std::size_t b, const double* moments, const double* const* g,
                                      Vector (&sum)[vectors]) {
   Vector inner[rows][vectors];
   contract_rows<rows, vectors>(terms, moments + b * terms, g[0], inner);
@@ -38,7 +41,7 @@ FGTD_INLINE void contract_plane_rows(std::size_t terms, std::size_t b, const dou
 
 /// sum_beta moments[beta] prod_{l <= axis} g_l[beta_l], first axis fastest; advances `moments` past what was read.
 template <int axis, int vectors>
-FGTD_INLINE void contract(std::size_t terms, const double*& moments, const double* const* g, Vector (&sum)[vectors]) {
+CORE_INLINE void contract(std::size_t terms, const double*& moments, const double* const* g, Vector (&sum)[vectors]) {
   if constexpr (axis == 0) {
     Vector row[1][vectors];
     contract_rows<1, vectors>(terms, moments, g[0], row);
@@ -66,4 +69,4 @@ FGTD_INLINE void contract(std::size_t terms, const double*& moments, const doubl
 }
 
 }  // namespace
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

@@ -1,4 +1,4 @@
-// The inner loops. They are plain loops over raw pointers, compiled once for every instruction set (*_kernels.cpp) and
+// The inner loops. They are plain loops over raw pointers, compiled once for every instruction set (*kernels.cpp) and
 // picked at run time. So one program runs on every processor and uses the fastest instructions that it has.
 #pragma once
 
@@ -152,14 +152,7 @@ struct Kernels {
   void (*chain)(const ChainJob&);
 };
 
-/// The sets that this processor runs, slowest first; at least one.
-struct KernelSets {
-  const Kernels* set[3];
-  int count;
-};
-KernelSets supported_kernels();
-
-/// The fastest of them.
+/// Those of the fastest instruction set that this processor runs.
 const Kernels& kernels();
 
 }  // namespace fgtd::detail

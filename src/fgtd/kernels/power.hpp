@@ -1,10 +1,13 @@
-// Powers of two by polynomials whose degree suits the tolerance: the exponentials of `cells` and `outer`. Included in
-// the way of fgtd/kernels/vector.hpp.
+// Powers of two by polynomials whose degree suits the tolerance: the exponentials of `cells` and `outer`. For the sources
+// that may include core/simd/vector.hpp.
 #pragma once
 
-#include "fgtd/kernels/vector.hpp"
+#include "core/simd/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
+
+using namespace gaussdrift::core::CORE_ISA;
+
 namespace {
 
 /// Coefficients of 2^r, |r| <= 1/2; errors in `exponentials`.
@@ -55,7 +58,7 @@ struct PowerOfTwo<11> {
 
 /// 2^-s, s = scale squared, where squared >= 0, squared <= limit and s <= 1000; exactly 0 for larger squared and NaN.
 template <int degree>
-FGTD_INLINE Vector power_of_half(Vector squared, double scale, double limit) {
+CORE_INLINE Vector power_of_half(Vector squared, double scale, double limit) {
   constexpr double shift = 0x1.8p52;  // adding it rounds to an integer that then stands in the low bits
   Vector k = squared * scale + shift;
   const Bits exponent = reinterpret_cast<Bits>(k) << 52;
@@ -68,4 +71,4 @@ FGTD_INLINE Vector power_of_half(Vector squared, double scale, double limit) {
 }
 
 }  // namespace
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

@@ -1,40 +1,17 @@
-// Small products of matrices in registers: the inner loop of `hermite`, `outer` and the filters of `spread`. Included
-// in the way of fgtd/kernels/vector.hpp.
+// Small products of matrices in registers: the inner loop of `hermite`, `outer` and the filters of `spread`.
+// For the sources that may include core/simd/vector.hpp.
 #pragma once
 
-#include "fgtd/kernels/vector.hpp"
+#include "core/simd/product_block.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
+
+using namespace gaussdrift::core::CORE_ISA;
+
 namespace {
 
-/// A block of `rows` rows and `vectors` vectors of C, the last vector of which holds `valid` numbers.
-template <int rows, int vectors>
-FGTD_INLINE void product_block(std::size_t depth, const double* b, std::size_t b_stride, const double* d,
-                               std::size_t d_stride, double* c, std::size_t c_stride, std::size_t valid) {
-  Vector sum[rows][vectors] = {};
-  for (std::size_t k = 0; k < depth; ++k) {
-    Vector right[vectors];
-    for (int v = 0; v < vectors; ++v) right[v] = load(d + k * d_stride + static_cast<std::size_t>(v) * lanes);
-    for (int i = 0; i < rows; ++i) {
-      const double left = b[static_cast<std::size_t>(i) * b_stride + k];
-      for (int v = 0; v < vectors; ++v) sum[i][v] += right[v] * left;
-    }
-  }
-  for (int i = 0; i < rows; ++i) {
-    double* row = c + static_cast<std::size_t>(i) * c_stride;
-    for (int v = 0; v < vectors; ++v) {
-      double* at = row + static_cast<std::size_t>(v) * lanes;
-      if (v + 1 < vectors || valid == lanes) {
-        store(at, load(at) + sum[i][v]);
-      } else {
-        for (std::size_t x = 0; x < valid; ++x) at[x] += sum[i][v][x];
-      }
-    }
-  }
-}
-
 template <int vectors>
-FGTD_INLINE void product_columns(std::size_t rows, std::size_t depth, const double* b, std::size_t b_stride,
+CORE_INLINE void product_columns(std::size_t rows, std::size_t depth, const double* b, std::size_t b_stride,
                                  const double* d, std::size_t d_stride, double* c, std::size_t c_stride,
                                  std::size_t valid) {
   std::size_t i = 0;
@@ -48,7 +25,7 @@ FGTD_INLINE void product_columns(std::size_t rows, std::size_t depth, const doub
 }
 
 /// C(rows x width) += B(rows x depth) D(depth x width), all row-major; see ProductJob for what must be readable.
-FGTD_INLINE void multiply_add(std::size_t rows, std::size_t depth, std::size_t width, const double* b,
+CORE_INLINE void multiply_add(std::size_t rows, std::size_t depth, std::size_t width, const double* b,
                               std::size_t b_stride, const double* d, std::size_t d_stride, double* c,
                               std::size_t c_stride) {
   std::size_t x = 0;
@@ -63,4 +40,4 @@ FGTD_INLINE void multiply_add(std::size_t rows, std::size_t depth, std::size_t w
 }
 
 }  // namespace
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

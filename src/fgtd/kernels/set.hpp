@@ -1,9 +1,12 @@
-// The kernels of the instruction set FGTD_ISA, each defined in the source of its method; fgtd/kernels/table.cpp lists them.
+// The kernels of the instruction set CORE_ISA, each defined in the source of its method; table.cpp lists them.
 #pragma once
 
+#include "core/simd/vector.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
+
+using namespace gaussdrift::core::CORE_ISA;
 
 void direct(const DirectJob& job);
 void product(const ProductJob& job);
@@ -20,4 +23,4 @@ void chain(const ChainJob& job);
 
 extern const Kernels kernels;
 
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

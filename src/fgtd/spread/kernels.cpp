@@ -1,8 +1,8 @@
-// The kernels of `spread`: particles to a lattice and back; see fgtd/kernels/vector.hpp for what may stand here.
+// The kernels of `spread`: particles to a lattice and back; see core/simd/vector.hpp for what may stand here.
+#include "core/simd/vector.hpp"
 #include "fgtd/kernels/set.hpp"
-#include "fgtd/kernels/vector.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
+namespace fgtd::detail::CORE_ISA {
 namespace {
 
 /// Places a point on the lattice: the first of its w nodes along each axis, found as an offset, and phi at
@@ -13,7 +13,7 @@ struct Placement {
   double outer[d][16] = {};    // phi along the others
 
   /// theta is taken from x - k h, exact up to the rounding of its result: h in two parts, the first of few digits.
-  FGTD_INLINE std::size_t find(const SpreadJob& job, std::size_t j) {
+  CORE_INLINE std::size_t find(const SpreadJob& job, std::size_t j) {
     constexpr double shift = 0x1.8p52;  // adding it rounds to an integer
     std::size_t offset = 0;
     double zeta[d];
@@ -45,7 +45,7 @@ struct Placement {
 
 /// row[k] += factor phi_k along axis 0, for all w nodes of the axes above.
 template <int axis, int vectors, class Placed>
-FGTD_INLINE void spread_rows(const SpreadJob& job, const Placed& placed, double factor, double* row) {
+CORE_INLINE void spread_rows(const SpreadJob& job, const Placed& placed, double factor, double* row) {
   if constexpr (axis == 0) {
     for (int v = 0; v < vectors; ++v) {
       double* at = row + static_cast<std::size_t>(v) * lanes;
@@ -69,7 +69,7 @@ void spread_points(const SpreadJob& job) {
 }
 
 template <int axis, int vectors, class Placed>
-FGTD_INLINE void gather_rows(const SpreadJob& job, const Placed& placed, const double* row, Vector factor,
+CORE_INLINE void gather_rows(const SpreadJob& job, const Placed& placed, const double* row, Vector factor,
                              Vector (&sum)[vectors]) {
   if constexpr (axis == 0) {
     for (int v = 0; v < vectors; ++v) sum[v] += load(row + static_cast<std::size_t>(v) * lanes) * factor;
@@ -124,4 +124,4 @@ void spread(const SpreadJob& job) {
   }
 }
 
-}  // namespace fgtd::detail::FGTD_ISA
+}  // namespace fgtd::detail::CORE_ISA

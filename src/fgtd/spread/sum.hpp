@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "fgtd/buffer.hpp"
+#include "core/buffer.hpp"
 #include "fgtd/cost.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/kernels/kernels.hpp"
@@ -27,6 +27,8 @@
 #include "fgtd/summation.hpp"
 
 namespace fgtd::detail {
+
+using gaussdrift::core::Buffer;
 
 /// The positions k h of the lattice's nodes. Coordinates are taken from an anchor that leaves them exact, and h in two
 /// parts of which the first has so few digits that its multiples are exact.

@@ -2,38 +2,22 @@
 #include "field/gaussians/pairs.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include "base/parallel.hpp"
 #include "base/points.hpp"
-#include "fgtd/kernels/kernels.hpp"
+#include "core/dispatch.hpp"
 #include "field/gaussians/pairs_job.hpp"
 
 namespace gaussdrift {
 
 namespace detail {
-namespace baseline {
-extern const PairsKernels pairs_kernels;
-}
-#ifdef GAUSSDRIFT_X86_VARIANTS
-namespace avx2 {
-extern const PairsKernels pairs_kernels;
-}
-namespace avx512 {
-extern const PairsKernels pairs_kernels;
-}
-#endif
+CORE_DECLARE_TABLES(PairsKernels, pairs_kernels)
 
 namespace {
 
-// The instruction set that fgtd picked.
-const PairsKernels& pairs_kernels() {
-#ifdef GAUSSDRIFT_X86_VARIANTS
-  const std::string_view name = fgtd::detail::kernels().name;
-  if (name == "avx512") return avx512::pairs_kernels;
-  if (name == "avx2") return avx2::pairs_kernels;
-#endif
-  return baseline::pairs_kernels;
+const PairsKernels& fastest_kernels() {
+  static const PairsKernels& fastest = *core::supported<PairsKernels>(CORE_TABLES(pairs_kernels)).back();
+  return fastest;
 }
 
 }  // namespace
@@ -41,7 +25,7 @@ const PairsKernels& pairs_kernels() {
 
 void sum_gaussian_pairs(const GaussianPairs& pairs, int threads) {
   using detail::target_group;
-  const auto kernel = detail::pairs_kernels()
+  const auto kernel = detail::fastest_kernels()
                           .sum[static_cast<std::size_t>(pairs.matrix)][static_cast<std::size_t>(pairs.dimension - 2)];
   const auto rows = static_cast<std::size_t>(gaussian_rows(pairs.matrix, pairs.dimension));
   const auto dimension = static_cast<std::size_t>(pairs.dimension);

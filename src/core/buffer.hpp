@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace farfield::detail {
+namespace gaussdrift::core {
 
 /// Call it before a block is first touched. It asks the system for huge pages: one page fault instead of 512. It does
 /// nothing for blocks smaller than a huge page, and on systems that take no such advice.
@@ -37,4 +37,4 @@ struct Uninitialised : std::allocator<T> {
 template <class T>
 using Buffer = std::vector<T, Uninitialised<T>>;
 
-}  // namespace farfield::detail
+}  // namespace gaussdrift::core

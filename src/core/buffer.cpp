@@ -1,4 +1,5 @@
-#include "farfield/buffer.hpp"
+// Advises the system; see buffer.hpp.
+#include "core/buffer.hpp"
 
 #include <cstdint>
 
@@ -6,12 +7,12 @@
 #include <sys/mman.h>
 #endif
 
-namespace farfield::detail {
+namespace gaussdrift::core {
 
 void prefer_huge_pages(void* begin, std::size_t bytes) {
 #ifdef __linux__
-  constexpr std::uintptr_t page = std::uintptr_t{1}
-                                  << 21;  // other sizes exist; whole ones of this size are whole there
+  // Other sizes of pages exist. A whole page of this size is a whole number of pages of a smaller one.
+  constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
   const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(begin);
   const std::uintptr_t from = (address + page - 1) / page * page, to = (address + bytes) / page * page;
   // The advice may be refused, which changes no result.
@@ -22,4 +23,4 @@ void prefer_huge_pages(void* begin, std::size_t bytes) {
 #endif
 }
 
-}  // namespace farfield::detail
+}  // namespace gaussdrift::core

@@ -1,13 +1,12 @@
-// The kernels of sum_gaussian_pairs(); one gaussian_pairs_*.cpp an instruction set includes this. As in
-// fgtd/kernels/vector.hpp, plain loops and nothing of the standard library.
-#include "fgtd/kernels/vector.hpp"
+// The kernels of sum_gaussian_pairs(); see core/simd/vector.hpp for what may stand here.
+#include "core/simd/functions.hpp"
 #include "field/gaussians/pairs_job.hpp"
 
-namespace fgtd::detail::FGTD_ISA {
-namespace {
+namespace gaussdrift::detail::CORE_ISA {
 
-using gaussdrift::detail::PairsJob;
-using gaussdrift::detail::target_group;
+using namespace core::CORE_ISA;
+
+namespace {
 
 constexpr std::size_t pairs_chunk = 256;  // partial sums of so many terms, then added: rounding grows with N/256 + 256
 
@@ -15,9 +14,9 @@ enum { field_matrix, curl_matrix, vorticity_matrix };  // GaussianMatrix
 
 /// The matrix at r times gamma, without a constant factor, added to `sum`; e = -sigma r^2, phi = exp(e).
 template <int matrix, int d, int columns, int rows>
-FGTD_INLINE void add_pair(const Vector (&r)[d], Vector e, double sigma, const double (&gamma)[columns],
+CORE_INLINE void add_pair(const Vector (&r)[d], Vector e, double sigma, const double (&gamma)[columns],
                           Vector (&sum)[rows]) {
-  const Vector phi = exp_nonpositive(e);
+  const Vector phi = exp_interpolated(e);
   if constexpr (matrix == curl_matrix) {
     if constexpr (d == 2) {  // grad phi x gamma e_z
       const Vector weight = phi * gamma[0];
@@ -73,13 +72,9 @@ void sum_pairs(const PairsJob& job) {
 }
 
 }  // namespace
-}  // namespace fgtd::detail::FGTD_ISA
-
-namespace gaussdrift::detail::FGTD_ISA {
-namespace isa = fgtd::detail::FGTD_ISA;
 extern const PairsKernels pairs_kernels;
-const PairsKernels pairs_kernels = {
-    {{isa::sum_pairs<isa::field_matrix, 2, 2, 2>, isa::sum_pairs<isa::field_matrix, 3, 3, 3>},
-     {isa::sum_pairs<isa::curl_matrix, 2, 1, 2>, isa::sum_pairs<isa::curl_matrix, 3, 3, 3>},
-     {isa::sum_pairs<isa::vorticity_matrix, 2, 1, 1>, isa::sum_pairs<isa::vorticity_matrix, 3, 3, 3>}}};
-}  // namespace gaussdrift::detail::FGTD_ISA
+const PairsKernels pairs_kernels = {{{sum_pairs<field_matrix, 2, 2, 2>, sum_pairs<field_matrix, 3, 3, 3>},
+                                     {sum_pairs<curl_matrix, 2, 1, 2>, sum_pairs<curl_matrix, 3, 3, 3>},
+                                     {sum_pairs<vorticity_matrix, 2, 1, 1>, sum_pairs<vorticity_matrix, 3, 3, 3>}}};
+
+}  // namespace gaussdrift::detail::CORE_ISA

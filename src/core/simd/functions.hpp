@@ -1,49 +1,22 @@
-// Vectors of FARFIELD_LANES doubles in namespace FARFIELD_ISA. Only *_kernels.cpp include it, which are compiled once
-// for every instruction set. An inline function that other sources include too would exist in several versions, and the
-// linker might keep one with instructions that the processor lacks. So kernels use nothing of the standard library, and
-// their helpers have internal linkage.
+// Functions of vectors: roots, exponential, logarithm. For the sources that may include vector.hpp.
 #pragma once
 
-#include <cstddef>
+#include "core/simd/vector.hpp"
 
 #ifdef __SSE2__
 #include <immintrin.h>
 #endif
 
-namespace farfield::detail::FARFIELD_ISA {
+namespace gaussdrift::core::CORE_ISA {
 namespace {
 
-constexpr std::size_t lanes = FARFIELD_LANES;
-
-using Vector = double __attribute__((vector_size(8 * FARFIELD_LANES)));
-using Bits = unsigned long long __attribute__((vector_size(8 * FARFIELD_LANES)));
-using Signed = long long __attribute__((vector_size(8 * FARFIELD_LANES)));
-typedef double Unaligned __attribute__((vector_size(8 * FARFIELD_LANES), aligned(8), may_alias));
-static_assert(alignof(Unaligned) == 8);  // clang ignores `aligned` where the name is given by `using`
-
-#define FARFIELD_INLINE inline __attribute__((always_inline))
-
-FARFIELD_INLINE Vector load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
-FARFIELD_INLINE void store(double* to, Vector x) { *reinterpret_cast<Unaligned*>(to) = x; }
-FARFIELD_INLINE Vector broadcast(double x) { return Vector{} + x; }
-FARFIELD_INLINE Vector select(Bits mask, Vector x) {
-  return reinterpret_cast<Vector>(mask & reinterpret_cast<Bits>(x));
-}
-template <class Mask>
-FARFIELD_INLINE bool any(Mask mask) {
-  unsigned long long words[sizeof(Mask) / 8], all = 0;
-  __builtin_memcpy(words, &mask, sizeof mask);
-  for (const unsigned long long word : words) all |= word;
-  return all != 0;
-}
-
 /// Is any lane of a comparison's result set?
-FARFIELD_INLINE bool any_true(Signed mask) {
-#if FARFIELD_LANES == 8 && defined(__AVX512F__)
+CORE_INLINE bool any_true(Signed mask) {
+#if CORE_LANES == 8 && defined(__AVX512F__)
   return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)) != 0;
-#elif FARFIELD_LANES == 4 && defined(__AVX2__)
+#elif CORE_LANES == 4 && defined(__AVX2__)
   return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
-#elif FARFIELD_LANES == 2 && defined(__SSE2__)
+#elif CORE_LANES == 2 && defined(__SSE2__)
   return _mm_movemask_pd(reinterpret_cast<__m128d>(mask)) != 0;
 #else
   return any(mask);
@@ -51,12 +24,12 @@ FARFIELD_INLINE bool any_true(Signed mask) {
 }
 
 /// 1/sqrt(x) to at least 11 bits for 1e-37 < x < 1e37.
-FARFIELD_INLINE Vector rsqrt_estimate(Vector x) {
-#if FARFIELD_LANES == 8 && defined(__AVX512F__)
+CORE_INLINE Vector rsqrt_estimate(Vector x) {
+#if CORE_LANES == 8 && defined(__AVX512F__)
   return reinterpret_cast<Vector>(_mm512_maskz_rsqrt14_pd(0xff, reinterpret_cast<__m512d>(x)));
-#elif FARFIELD_LANES == 4 && defined(__AVX2__)
+#elif CORE_LANES == 4 && defined(__AVX2__)
   return reinterpret_cast<Vector>(_mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(reinterpret_cast<__m256d>(x)))));
-#elif FARFIELD_LANES == 2 && defined(__SSE2__)
+#elif CORE_LANES == 2 && defined(__SSE2__)
   return reinterpret_cast<Vector>(_mm_cvtps_pd(_mm_rsqrt_ps(_mm_cvtpd_ps(reinterpret_cast<__m128d>(x)))));
 #else
   Vector y;
@@ -67,7 +40,7 @@ FARFIELD_INLINE Vector rsqrt_estimate(Vector x) {
 
 /// 1/sqrt(x) from an estimate y with h = 1 - x y^2: y (1 - h)^(-1/2), the series to h^4 (full) or h^2 (ten digits).
 template <bool full>
-FARFIELD_INLINE Vector rsqrt(Vector x) {
+CORE_INLINE Vector rsqrt(Vector x) {
   const Vector y = rsqrt_estimate(x);
   const Vector h = 1.0 - (x * y) * y;
   Vector p;
@@ -82,12 +55,12 @@ FARFIELD_INLINE Vector rsqrt(Vector x) {
 }
 
 /// The same by square root and division, which occupy other parts of the processor.
-FARFIELD_INLINE Vector divided_rsqrt(Vector x) {
-#if FARFIELD_LANES == 8 && defined(__AVX512F__)
+CORE_INLINE Vector divided_rsqrt(Vector x) {
+#if CORE_LANES == 8 && defined(__AVX512F__)
   const Vector root = reinterpret_cast<Vector>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(x)));
-#elif FARFIELD_LANES == 4 && defined(__AVX2__)
+#elif CORE_LANES == 4 && defined(__AVX2__)
   const Vector root = reinterpret_cast<Vector>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(x)));
-#elif FARFIELD_LANES == 2 && defined(__SSE2__)
+#elif CORE_LANES == 2 && defined(__SSE2__)
   const Vector root = reinterpret_cast<Vector>(_mm_sqrt_pd(reinterpret_cast<__m128d>(x)));
 #else
   Vector root;
@@ -96,9 +69,34 @@ FARFIELD_INLINE Vector divided_rsqrt(Vector x) {
   return 1.0 / root;
 }
 
+// Two exponentials, right to about one unit in the last place. They round differently: fgtd takes the first, farfield the
+// second, and their results stay the same to the last bit from version to version.
+
+/// exp(x) for x <= 0 to about one unit in the last place; exactly 0 for x < -708, so that no result is denormal.
+///   x = k ln 2 + r, |r| <= ln 2 / 2 (Cody and Waite: ln 2 in two parts),  exp(x) = 2^k (1 + r + r^2 q(r))
+/// q is of degree 9, interpolated at the Chebyshev points: relative error 1.6e-17.
+CORE_INLINE Vector exp_interpolated(Vector x) {
+  constexpr double shift = 0x1.8p52;  // adding it rounds to an integer that then stands in the low bits
+  Vector k = x * 0x1.71547652b82fep+0 + shift;
+  const Bits exponent = reinterpret_cast<Bits>(k) << 52;
+  k -= shift;
+  const Vector r = (x - k * 0x1.62e42fefa0000p-1) - k * 0x1.cf79abc9e3b3ap-40;
+  const Vector r2 = r * r;
+  const Vector r4 = r2 * r2;
+  const Vector q01 = r * 0x1.5555555555556p-3 + 0x1.0000000000001p-1;
+  const Vector q23 = r * 0x1.11111111109b3p-7 + 0x1.5555555553d63p-5;
+  const Vector q45 = r * 0x1.a01a01a7c41d5p-13 + 0x1.6c16c1788bd90p-10;
+  const Vector q67 = r * 0x1.71de0dae63bb3p-19 + 0x1.a019b90d2ae7ap-16;
+  const Vector q89 = r * 0x1.af38a9b0ec855p-26 + 0x1.289185613a3d6p-22;
+  const Vector q = (q89 * r4 + (q67 * r2 + q45)) * r4 + (q23 * r2 + q01);
+  const Vector mantissa = (q * r2 + r) + 1.0;
+  const Vector value = reinterpret_cast<Vector>(reinterpret_cast<Bits>(mantissa) + exponent);
+  return select(reinterpret_cast<Bits>(x >= -708.0), value);
+}
+
 /// exp(x) for x <= 0 to about one unit in the last place; 0 for x < -708.
 ///   x = k ln 2 + r, |r| <= ln 2 / 2 (Cody and Waite: ln 2 in two parts),  exp(x) = 2^k sum_n r^n / n!
-FARFIELD_INLINE Vector exp_nonpositive(Vector x) {
+CORE_INLINE Vector exp_taylor(Vector x) {
   constexpr double shift = 0x1.8p52;  // adding it rounds to an integer that then stands in the low bits
   Vector k = x * 0x1.71547652b82fep+0 + shift;
   const Bits exponent = reinterpret_cast<Bits>(k) << 52;
@@ -116,7 +114,7 @@ FARFIELD_INLINE Vector exp_nonpositive(Vector x) {
 /// ln(x) for normal x > 0 to about 2e-16 (1 + |ln x|).
 ///   x = 2^k m, sqrt(1/2) <= m < sqrt(2)
 ///   ln m = 2 atanh(f) = 2 f (1 + f^2/3 + f^4/5 + ...),  f = (m-1)/(m+1), |f| < 0.172
-FARFIELD_INLINE Vector log_positive(Vector x) {
+CORE_INLINE Vector log_positive(Vector x) {
   constexpr unsigned long long root_half = 0x3fe6a09e667f3bcdULL, one = 0x3ff0000000000000ULL;
   const Bits bits = reinterpret_cast<Bits>(x);
   const Bits above = bits - root_half + one;  // exponent field: that of x / sqrt(1/2)
@@ -133,4 +131,4 @@ FARFIELD_INLINE Vector log_positive(Vector x) {
 }
 
 }  // namespace
-}  // namespace farfield::detail::FARFIELD_ISA
+}  // namespace gaussdrift::core::CORE_ISA
