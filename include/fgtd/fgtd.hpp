@@ -5,12 +5,14 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <variant>
 #include <vector>
 
 /// Sums of Gaussians and of their derivatives in d = 1, 2, 3, 4 dimensions, to a promised accuracy:
@@ -98,13 +100,13 @@ struct TensorGrid {
 
 /// How the sum is computed; docs/fgtd.md, "Methods".
 enum class Method {
-  automatic,  ///< the method with the smallest predicted cost whose bound meets the tolerance
-  direct,     ///< every pair of a source and a target
-  hermite,    ///< the thesis's method: Hermite series of boxes of sources [Sch06, ch. 3 and 4]
-  cells,      ///< pairs within reach, found by cells: for sharp Gaussians
-  outer,      ///< outer products of a row of values an axis: for few sources on a tensor grid
-  chebyshev,  ///< interpolation at Chebyshev nodes of boxes: for wide Gaussians
-  spread      ///< a window spreads the sources to a lattice, where filters act axis by axis: for dense clouds
+  automatic,      ///< the method with the smallest predicted time whose bound meets the tolerance
+  direct,         ///< every pair of a source and a target: for few points
+  hermite,        ///< the thesis's method: Hermite series of boxes of sources [Sch06, ch. 3 and 4]
+  cells,          ///< pairs within reach, found by cells: for sharp Gaussians
+  outer_product,  ///< outer products of a row of values an axis: for few sources on a tensor grid
+  chebyshev,      ///< interpolation at Chebyshev nodes of boxes: for wide Gaussians
+  spread          ///< a window spreads the sources to a lattice, where filters act axis by axis: for dense clouds
 };
 
 /// Every method, `automatic` first.
@@ -112,6 +114,9 @@ const std::vector<Method>& methods();
 
 /// The name as it is written in files: "auto", "direct", "hermite", "cells", "outer", "chebyshev", "spread".
 std::string to_string(Method method);
+
+/// How the method sums and when it is good, in one line.
+std::string meaning(Method method);
 
 /// Parameters of `hermite` set by hand. The accuracy is then bound (3.5) of [Sch06, 3.7] and nothing else.
 struct HermiteParameters {
@@ -146,23 +151,70 @@ constexpr double smallest_tolerance = 1e-14;
 // ---------------------------------------------------------------------------------------------------------------
 // What was chosen
 
+// The parameters of every method, in its own words.
+
+/// `direct` has none.
+struct Direct {};
+
+/// Of `hermite` [Sch06, ch. 3].
+struct Hermite {
+  double box_scale = 0;     ///< r
+  double box_side = 0;      ///< r sqrt(2/sigma)
+  int expansion_order = 0;  ///< p: terms an axis
+  int neighbours = 0;       ///< n: boxes a side and axis that count; HermiteParameters::all_boxes if every box counts
+  std::size_t boxes = 0;    ///< that hold sources
+  double cost = 0;          ///< p^d N + (2n+1)^d p^d M [Sch06, 3.5]
+};
+
+/// Of `cells`.
+struct Cells {
+  double side = 0;           ///< of a cell
+  int within_reach = 0;      ///< cells a side and axis in which sources count
+  std::size_t occupied = 0;  ///< cells that hold sources
+};
+
+/// Of `outer_product`, which sorts sources into cells as `cells` does.
+struct OuterProduct {
+  double side = 0;           ///< of a cell
+  int within_reach = 0;      ///< cells a side and axis in which sources count
+  std::size_t occupied = 0;  ///< cells that hold sources
+};
+
+/// Of `chebyshev`.
+struct Chebyshev {
+  double box_side = 0;    ///< of the longest axis
+  int nodes = 0;          ///< an axis of a box
+  int neighbours = 0;     ///< boxes a side and axis that count
+  std::size_t boxes = 0;  ///< that hold sources
+};
+
+/// Of `spread`.
+struct Spread {
+  double spacing = 0;      ///< of the lattice
+  int window = 0;          ///< nodes an axis onto which a source is spread
+  std::size_t bricks = 0;  ///< pieces of the lattice
+};
+
 /// The method that a Plan has chosen, its parameters, and what it promises and predicts.
 struct Choice {
   Method method = Method::direct;  ///< never `automatic`
   double tolerance = 0;            ///< what was asked for; 0 if parameters were given by hand
   /// Proven error of one term, relative to |lambda| N_alpha, at the worst |alpha| <= derivative_order; none for r >= 1.
   std::optional<double> bound;
-  /// hermite: p^d N + (2n+1)^d p^d M [Sch06, 3.5]; else in pairs of `direct`. For comparison only.
-  double cost = 0;
-  double seconds = 0;       ///< the cost predicted in seconds on one thread
-  std::size_t sources = 0;  ///< N
-  std::size_t targets = 0;  ///< that the prediction is for
-  double box_scale = 0;     ///< hermite: r
-  double box_side = 0;      ///< hermite: r sqrt(2/sigma); side of a box or cell, or spacing of the lattice of `spread`
-  int expansion_order = 0;  ///< hermite: p; nodes an axis of `chebyshev`, or of the window of `spread`
-  int neighbours = 0;       ///< n, boxes a side and axis that count; HermiteParameters::all_boxes if every box counts
-  std::size_t boxes = 0;    ///< occupied boxes or cells; bricks of the lattice of `spread`
+  double seconds = 0;                                                                ///< predicted, on one thread
+  std::size_t sources = 0;                                                           ///< N
+  std::size_t targets = 0;                                                           ///< that the prediction is for
+  std::variant<Direct, Hermite, Cells, OuterProduct, Chebyshev, Spread> parameters;  ///< those of `method`
 };
+
+/// A parameter by its name, as in the structs above. A number without a bound is the text "all".
+struct Parameter {
+  std::string name;                                       ///< "spacing"
+  std::variant<double, std::int64_t, std::string> value;  ///< a length or factor, a count, or a word
+};
+
+/// The parameters of the method as a list, for a program that prints them.
+std::vector<Parameter> parameters(const Choice& choice);
 
 /// One line: method, parameters, bound and predicted seconds.
 std::ostream& operator<<(std::ostream& out, const Choice& choice);

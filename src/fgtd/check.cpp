@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "fgtd/catalogue.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {
@@ -59,6 +60,10 @@ void check_options(const Options& options, std::size_t dimension) {
     throw ToleranceError("fgtd: Options::tolerance = " + text(tolerance) +
                          " cannot be promised for derivatives above order " + std::to_string(any_tolerance_order) +
                          ", must be at most " + text(high_order_tolerance) + " there");
+  }
+  if (options.method != Method::automatic && !find_entry(options.method)) {
+    throw InvalidArgument("fgtd: Options::method = " + std::to_string(static_cast<int>(options.method)) +
+                          " is no method; fgtd::methods() lists them");
   }
   if (options.threads < 0) {
     throw InvalidArgument("fgtd: Options::threads = " + std::to_string(options.threads) +

@@ -19,7 +19,7 @@ constexpr double grid_value = 3.8e-9;       // one value of the result: fresh me
 
 // The seconds of a search for parameters. The search is left out if the best method so far is faster than that.
 constexpr double cells_search = 0.03e-3;
-constexpr double outer_search = 0.03e-3;
+constexpr double outer_product_search = 0.03e-3;
 constexpr double spread_search = 0.1e-3;
 constexpr double hermite_search = 1e-3;
 constexpr double chebyshev_search = 0.3e-3;
@@ -31,13 +31,13 @@ constexpr double cells_pair[4] = {0.68e-9, 1e-9, 1.1e-9, 1e-9};  // one source a
 constexpr double cells_derivative_factor = 3.7;                  // the same with derivatives
 constexpr double cells_column = 0.1;                             // one more column of weights, in pairs
 constexpr double cells_line = 26e-9;                             // one line of cells looked at for a group of targets
-constexpr double outer_source_sort = 76e-9;                      // one source of few brought to its cell
-constexpr double outer_group = 26e-9;                            // one group of sources
-constexpr double outer_table = 1.4e-9;                           // one value of a row
-constexpr double outer_step = 0.069e-9;                          // one multiplication and addition of rows
-constexpr double outer_update = 0.1e-9;                          // one node loaded and stored
-constexpr double outer_row = 0.69e-9;                            // one factor of the second axis
-constexpr double outer_value = 0.38e-9;                          // one value of the result set to zero
+constexpr double outer_product_source_sort = 76e-9;              // one source of few brought to its cell
+constexpr double outer_product_group = 26e-9;                    // one group of sources
+constexpr double outer_product_table = 1.4e-9;                   // one value of a row
+constexpr double outer_product_step = 0.069e-9;                  // one multiplication and addition of rows
+constexpr double outer_product_update = 0.1e-9;                  // one node loaded and stored
+constexpr double outer_product_row = 0.69e-9;                    // one factor of the second axis
+constexpr double outer_product_value = 0.38e-9;                  // one value of the result set to zero
 
 // chebyshev, with bench_chebyshev
 constexpr double chebyshev_sort = 54e-9;            // one source or target brought to its box

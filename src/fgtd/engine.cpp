@@ -64,7 +64,7 @@ Engine<d>::Engine(const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<c
   check_seconds(chosen.choice, options.most_seconds);
   choice_ = chosen.choice;
   summation_ = chosen.make(std::move(position));
-  choice_.boxes = summation_->boxes();
+  summation_->count(choice_);
   take_weights(weights);
 }
 

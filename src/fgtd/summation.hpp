@@ -1,8 +1,5 @@
 // The interface of every method: a sum that is prepared for one set of sources. All others are tested against `direct`.
-//
-// To add a method: a class derived from Summation, a function that proposes it (choose.hpp), its line in the list of
-// proposals (choose.cpp), its constants of cost (cost.hpp), and its name (Method in fgtd.hpp). The tests over all
-// methods then hold it to the promise.
+// catalogue.hpp says how to add one.
 #pragma once
 
 #include <cstddef>
@@ -33,8 +30,8 @@ class Summation {
   virtual double point_bytes(const Request<d>& request, std::size_t count) const = 0;
   virtual double grid_bytes(const Request<d>& request, const TensorGrid& grid) const = 0;
 
-  /// Occupied boxes, where the method has any.
-  virtual std::size_t boxes() const { return 0; }
+  /// Completes the parameters of the choice with what is counted when the sum is made: occupied boxes, bricks.
+  virtual void count(Choice&) const {}
 };
 
 /// The weights in another order: result[k][j] = weights[k][order[j]].

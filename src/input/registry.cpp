@@ -12,6 +12,7 @@
 #include "base/catalogue.hpp"
 #include "effect/catalogue.hpp"
 #include "expression/expression.hpp"
+#include "fgtd/fgtd.hpp"
 #include "field/density/shapes.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/grid_data.hpp"
@@ -34,6 +35,16 @@ std::string quoted_list(const std::vector<std::string_view>& words) {
   shown.reserve(words.size());
   for (const auto word : words) shown.push_back(in_quotes(word));
   return fmt::format("{}", fmt::join(shown, ", "));
+}
+
+/// The names of the methods that sum the Gauss transform.
+std::vector<std::string_view> summation_methods() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const fgtd::Method method : fgtd::methods()) list.push_back(fgtd::to_string(method));
+    return list;
+  }();
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -465,7 +476,7 @@ std::vector<Key> written_keys() {
        .name = "method",
        .type = Type::choice,
        .fallback = "auto",
-       .choices = {"auto", "direct", "hermite", "cells", "outer", "chebyshev", "spread"},
+       .choices = summation_methods(),
        .meaning = "algorithm that sums the Gauss transform. `auto` takes the cheapest"},
 
       {.table = "output",

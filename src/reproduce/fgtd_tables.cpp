@@ -287,6 +287,12 @@ namespace {
 
 constexpr double published_points_45 = 50000;
 
+/// Zeros if `direct` took the place of `hermite`.
+fgtd::Hermite parameters_of(const Measurement& measurement) {
+  const auto* const parameters = std::get_if<fgtd::Hermite>(&measurement.choice.parameters);
+  return parameters ? *parameters : fgtd::Hermite{};
+}
+
 template <int d>
 void add_dimension(std::size_t row, const FgtdOptions& options, Table& table) {
   const double n = std::min(published_points_45, options.most_points);
@@ -295,7 +301,8 @@ void add_dimension(std::size_t row, const FgtdOptions& options, Table& table) {
                            within_terms(options, terms * boxes_of(d, fine.nu), n), timed_threads(options));
   const Measurement hermite = sum.hermite(fine.nu, fine.p, all_boxes), automatic = sum.automatic(hermite.absolute);
   // Millions, for the points and boxes that the sums had.
-  const double pairs = n * n, steps = fgtd::hermite_cost(d, fine.p, static_cast<double>(hermite.choice.boxes), n, n);
+  const double boxes = static_cast<double>(parameters_of(hermite).boxes);
+  const double pairs = n * n, steps = fgtd::hermite_cost(d, fine.p, boxes, n, n);
   const auto counted = n == published_points_45 ? Comparison::arithmetic : Comparison::none;
   table.rows.push_back({fmt::format("d = {}", d),
                         row,
@@ -368,8 +375,8 @@ std::vector<Table> width_table(const FgtdOptions& options) {
         {fmt::format("sigma = {:g}", problem.sigma),
          row,
          {{hermite[0].absolute, {}}, {hermite[1].absolute, {}}, all, {automatic.allowed, {}}, {sum.largest(), {}}},
-         fmt::format("r = {:.4g}, {}; auto: {}", hermite[2].choice.box_scale, bound ? "bound holds" : "no bound",
-                     chosen(automatic))});
+         fmt::format("r = {:.4g}, {}; auto: {}", parameters_of(hermite[2]).box_scale,
+                     bound ? "bound holds" : "no bound", chosen(automatic))});
   }
   return {table};
 }

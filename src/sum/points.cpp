@@ -266,15 +266,8 @@ std::string to_json(const PointSums& sums) {
   std::ostringstream line;
   line << choice;
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-  // Those that the method has.
-  if (choice.box_scale > 0) parameters["box_scale"] = choice.box_scale;
-  if (choice.box_side > 0) parameters["box_side"] = number(choice.box_side);
-  if (choice.expansion_order > 0) parameters["expansion_order"] = choice.expansion_order;
-  if (choice.neighbours == fgtd::HermiteParameters::all_boxes)
-    parameters["neighbours"] = "all";
-  else if (choice.neighbours > 0)
-    parameters["neighbours"] = choice.neighbours;
-  if (choice.boxes > 0) parameters["boxes"] = choice.boxes;
+  for (const fgtd::Parameter& parameter : fgtd::parameters(choice))
+    std::visit([&](const auto& value) { parameters[parameter.name] = value; }, parameter.value);
   nlohmann::ordered_json errors = nlohmann::ordered_json::object();
   for (std::size_t k = 0; k < sums.columns.size(); ++k) errors[sums.columns[k]] = number(sums.error_bounds[k]);
   nlohmann::ordered_json measured = nullptr;

@@ -97,7 +97,7 @@ TYPED_TEST(Cells, AreExactlyZeroBeyondTheReach) {
   fgtd::Points<d> targets = naive::random_points<d>(50, 213);
   const fgtd::Plan<d> plan(sources, naive::random_weights(100, 1, 214), 1e4,
                            {.tolerance = 1e-6, .derivative_order = 1, .method = fgtd::Method::cells});
-  const double side = plan.choice().box_side;
+  const double side = std::get<fgtd::Cells>(plan.choice().parameters).side;
   for (const double cells : {1e2, 1e6, 1e12, 1e200}) {
     const fgtd::Points<d> far = targets.array() + 1 + cells * side, below = targets.array() - 1 - cells * side;
     EXPECT_TRUE((plan.evaluate(far).array() == 0).all()) << cells;
@@ -166,7 +166,7 @@ TEST(CellsPlan, HoldsNothingThatGrowsWithSigma) {
     const fgtd::Plan<3> plan(sources, Eigen::MatrixXd::Ones(100, 1), sigma,
                              {.method = fgtd::Method::cells, .threads = 1, .memory_limit = 2000000});
     EXPECT_EQ(plan.choice().method, fgtd::Method::cells);
-    EXPECT_LE(plan.choice().boxes, 100u);
+    EXPECT_LE(std::get<fgtd::Cells>(plan.choice().parameters).occupied, 100u);
     const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(100, 1);
     EXPECT_NEAR(plan.evaluate(sources)(0, 0), naive::sum<3>(sources, ones, sigma, sources.leftCols(1))(0, 0),
                 100 * 1e-6)

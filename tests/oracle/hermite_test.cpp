@@ -95,7 +95,7 @@ TYPED_TEST(Hermite, CountsPointsOnFacesOnceAndOnTheUpperCornerToo) {
   fgtd::Options options;
   options.hermite = by_hand;
   const fgtd::Plan<d> hermite(sources, weights, sigma, options);
-  EXPECT_EQ(hermite.choice().boxes, std::size_t{1} << d);
+  EXPECT_EQ(std::get<fgtd::Hermite>(hermite.choice().parameters).boxes, std::size_t{1} << d);
   const fgtd::Plan<d> direct(sources, weights, sigma, {.method = fgtd::Method::direct});
   const double allowed = hermite.choice().bound.value() * weights.sum();  // (3.5) with Q
   EXPECT_LE((direct.evaluate(sources) - hermite.evaluate(sources)).cwiseAbs().maxCoeff(), allowed);

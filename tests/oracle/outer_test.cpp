@@ -1,4 +1,4 @@
-// `outer` against `direct` and against its promise: tensor grids of every kind.
+// `outer_product` against `direct` and against its promise: tensor grids of every kind.
 #include <gtest/gtest.h>
 
 #include "oracle/promise.hpp"
@@ -36,10 +36,12 @@ void expect_equal(const fgtd::Points<d>& sources, const Eigen::MatrixXd& weights
   for (Eigen::Index k = 0; k < weights.cols(); ++k) weight = std::max(weight, weights.col(k).cwiseAbs().sum());
   for (const int order : orders) {
     const fgtd::Plan<d> direct(sources, weights, sigma, {.derivative_order = order, .method = fgtd::Method::direct});
-    const fgtd::Plan<d> outer(
-        sources, weights, sigma,
-        {.tolerance = tolerance, .derivative_order = order, .method = fgtd::Method::outer, .expected_grid = grid});
-    ASSERT_EQ(outer.choice().method, fgtd::Method::outer);
+    const fgtd::Plan<d> outer(sources, weights, sigma,
+                              {.tolerance = tolerance,
+                               .derivative_order = order,
+                               .method = fgtd::Method::outer_product,
+                               .expected_grid = grid});
+    ASSERT_EQ(outer.choice().method, fgtd::Method::outer_product);
     ASSERT_LE(outer.choice().bound.value(), tolerance);
     for (const auto& alpha : naive::derivatives_of_order<d>(order)) {
       const double allowed =
@@ -106,7 +108,7 @@ TYPED_TEST(Outer, EqualsDirectForSingleHighDerivatives) {
   alphas[1][0] = alphas[1][d - 1] = 5;
   alphas[2][d - 1] = 12;
   const fgtd::Options options{
-      .tolerance = 1e-8, .derivative_order = 12, .method = fgtd::Method::outer, .expected_grid = grid};
+      .tolerance = 1e-8, .derivative_order = 12, .method = fgtd::Method::outer_product, .expected_grid = grid};
   for (const double sigma : {5.0, 500.0}) {
     const fgtd::Plan<d> outer(sources, weights, sigma, options);
     const fgtd::Plan<d> direct(sources, weights, sigma, {.derivative_order = 12, .method = fgtd::Method::direct});
@@ -129,7 +131,7 @@ TYPED_TEST(Outer, KeepsThePromiseOfEveryTerm) {
       const fgtd::Plan<d> plan(scene.sources, scene.weights(), scene.sigma,
                                {.tolerance = tolerance,
                                 .derivative_order = order,
-                                .method = fgtd::Method::outer,
+                                .method = fgtd::Method::outer_product,
                                 .expected_grid = scene.grid});
       for (const auto& alpha : naive::derivatives_of_order<d>(order)) {
         const auto errors = naive::measure<d>(exact, plan.evaluate(scene.grid, alpha), scene.sigma, tolerance, alpha);
@@ -172,7 +174,7 @@ TYPED_TEST(Outer, GivesTheSameForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3, 4}) {
     const fgtd::Plan<d> plan(
         sources, weights, 300.0,
-        {.derivative_order = 2, .method = fgtd::Method::outer, .threads = threads, .expected_grid = grid});
+        {.derivative_order = 2, .method = fgtd::Method::outer_product, .threads = threads, .expected_grid = grid});
     auto combinations = naive::value_and_gradient<d>();
     combinations.push_back(naive::laplacian<d>());
     const Eigen::MatrixXd values = plan.evaluate_combinations(grid, combinations);
@@ -188,7 +190,7 @@ TYPED_TEST(Outer, ServesScatteredTargetsToo) {
   const fgtd::Plan<d> plan(sources, weights, 200.0,
                            {.tolerance = 1e-9,
                             .derivative_order = 1,
-                            .method = fgtd::Method::outer,
+                            .method = fgtd::Method::outer_product,
                             .expected_grid = naive::cube_grid<d>(grid_nodes<d>, 0, 1)});
   for (const auto& alpha : naive::derivatives_of_order<d>(1))
     EXPECT_LE(
@@ -209,7 +211,7 @@ TEST(OuterSum, IsChosenForFewParticlesOnAGrid) {
   const auto sources = naive::random_points<2>(300, 252, -0.25, 0.25);
   const auto grid = naive::cube_grid<2>(200, -1, 1);
   const fgtd::Plan<2> plan(sources, Eigen::MatrixXd::Ones(300, 1), 5600.0, {.expected_grid = grid});
-  EXPECT_EQ(plan.choice().method, fgtd::Method::outer);
+  EXPECT_EQ(plan.choice().method, fgtd::Method::outer_product);
 }
 
 }  // namespace

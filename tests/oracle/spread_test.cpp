@@ -150,7 +150,7 @@ TEST(SpreadSum, KeepsTheLatticeSmallForClustersAndFarOutliers) {
   options.memory_limit = 30 << 20;
   const fgtd::Plan<3> plan(sources, weights, sigma, options);
   ASSERT_EQ(plan.choice().method, fgtd::Method::spread);
-  EXPECT_LE(plan.choice().boxes, 5u);  // two clusters and three outliers
+  EXPECT_LE(std::get<fgtd::Spread>(plan.choice().parameters).bricks, 5u);  // two clusters and three outliers
   fgtd::Points<3> targets(3, 60);
   for (int j = 0; j < 60; ++j) targets.col(j) = sources.col(j).array() + 0.003;
   EXPECT_LE((plan.evaluate(targets) - naive::sum<3>(sources, weights, sigma, targets)).cwiseAbs().maxCoeff(),

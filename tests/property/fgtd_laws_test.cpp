@@ -219,15 +219,63 @@ TEST(Choice, TellsWhatWasChosen) {
   EXPECT_LE(choice.bound.value(), 1e-7);
   EXPECT_EQ(choice.sources, 500u);
   EXPECT_EQ(choice.targets, 900u);
-  EXPECT_NEAR(choice.box_side, choice.box_scale * std::sqrt(2 / 50.0), 1e-15);  // rounding
-  EXPECT_GT(choice.expansion_order, 0);
-  EXPECT_GT(choice.neighbours, 0);
-  EXPECT_GT(choice.boxes, 0u);
-  EXPECT_GT(choice.cost, 0.0);
+  const fgtd::Hermite& chosen = std::get<fgtd::Hermite>(choice.parameters);
+  EXPECT_NEAR(chosen.box_side, chosen.box_scale * std::sqrt(2 / 50.0), 1e-15);  // rounding
+  EXPECT_GT(chosen.expansion_order, 0);
+  EXPECT_GT(chosen.neighbours, 0);
+  EXPECT_GT(chosen.boxes, 0u);
+  EXPECT_GT(chosen.cost, 0.0);
   EXPECT_GT(choice.seconds, 0.0);
   std::ostringstream text;
   text << choice;
   EXPECT_NE(text.str().find("hermite: 500 sources, 900 targets, tolerance 1e-07"), std::string::npos) << text.str();
+}
+
+/// The names of the parameters, and the line.
+std::pair<std::vector<std::string>, std::string> told_by(fgtd::Method method) {
+  const auto sources = naive::random_points<2>(500, 35);
+  const fgtd::Plan<2> plan(sources, Eigen::MatrixXd::Ones(500, 1), 50.0, {.tolerance = 1e-6, .method = method});
+  EXPECT_EQ(plan.choice().method, method);
+  std::vector<std::string> names;
+  for (const fgtd::Parameter& parameter : fgtd::parameters(plan.choice())) names.push_back(parameter.name);
+  std::ostringstream text;
+  text << plan.choice();
+  return {names, text.str()};
+}
+
+TEST(Choice, TellsParametersInTheWordsOfTheMethod) {
+  using Names = std::vector<std::string>;
+  const auto expect = [](fgtd::Method method, const Names& names, const std::string& words) {
+    const auto [told, line] = told_by(method);
+    EXPECT_EQ(told, names);
+    EXPECT_NE(line.find(words), std::string::npos) << line;
+  };
+  expect(fgtd::Method::direct, {}, "bound 0, about ");
+  expect(fgtd::Method::hermite, {"box_scale", "box_side", "expansion_order", "neighbours", "boxes"}, " occupied boxes");
+  expect(fgtd::Method::cells, {"side", "within_reach", "occupied"}, ", cells of side ");
+  expect(fgtd::Method::outer_product, {"side", "within_reach", "occupied"}, ", cells of side ");
+  expect(fgtd::Method::chebyshev, {"box_side", "nodes", "neighbours", "boxes"}, " nodes an axis, ");
+  expect(fgtd::Method::spread, {"spacing", "window", "bricks"}, ", lattice spacing ");
+}
+
+TEST(Choice, HoldsTheParametersOfItsMethod) {
+  const auto sources = naive::random_points<2>(500, 35);
+  const auto index = [&](fgtd::Method method) {
+    return fgtd::Plan<2>(sources, Eigen::MatrixXd::Ones(500, 1), 50.0, {.tolerance = 1e-6, .method = method})
+        .choice()
+        .parameters.index();
+  };
+  for (std::size_t i = 1; i < fgtd::methods().size(); ++i) EXPECT_EQ(index(fgtd::methods()[i]), i - 1);
+}
+
+TEST(Method, OfAnUnknownNumberIsRefused) {
+  const auto sources = naive::random_points<2>(5, 35);
+  try {
+    fgtd::Plan<2>(sources, Eigen::MatrixXd::Ones(5, 1), 50.0, {.method = static_cast<fgtd::Method>(77)});
+    ADD_FAILURE() << "accepted";
+  } catch (const fgtd::InvalidArgument& error) {
+    EXPECT_STREQ(error.what(), "fgtd: Options::method = 77 is no method; fgtd::methods() lists them");
+  }
 }
 
 TEST(Choice, OfTheDefaultOptionsIsValid) {

@@ -258,8 +258,12 @@ void hit_faces(fgtd::Method method, Record& record) {
     Scene<d> scene = on_faces<d>(sigma, 0.25 / std::sqrt(sigma));
     const fgtd::Plan<d> plan(scene.sources, scene.weights(), sigma,
                              {.tolerance = tolerance, .derivative_order = 1, .method = method});
-    for (const double side : {plan.choice().box_side, 1.0 / 16}) {
-      if (!(side > 0)) continue;
+    std::vector<double> sides{1.0 / 16};
+    for (const fgtd::Parameter& parameter : fgtd::parameters(plan.choice()))
+      if (parameter.name == "box_side" || parameter.name == "side" || parameter.name == "spacing")
+        sides.push_back(std::get<double>(parameter.value));
+    EXPECT_EQ(sides.size(), plan.choice().method == fgtd::Method::direct ? 1u : 2u);
+    for (const double side : sides) {
       Measurement<d> measurement(on_faces<d>(sigma, side), method, record);
       for (const bool grid : {false, true}) measurement.run(tolerance, naive::derivatives_of_order<d>(1), grid);
     }

@@ -41,8 +41,7 @@ void scattered(benchmark::State& state, int count, double sigma, double toleranc
       benchmark::DoNotOptimize(plan.evaluate_combinations(targets, combinations));
       choice = plan.choice();
     });
-  state.counters["nodes"] = choice.expansion_order;
-  state.counters["boxes"] = static_cast<double>(choice.boxes);
+  bench::count_parameters(state, choice);
   state.counters["predicted_ms"] = 1e3 * choice.seconds;
   state.counters["direct/this"] = direct_seconds * static_cast<double>(state.iterations()) / seconds;
 }

@@ -11,9 +11,7 @@ void measure(benchmark::State& state, double direct_seconds, const Run& run) {
   fgtd::Choice choice;
   double seconds = 0;
   for (auto _ : state) seconds += bench::processor_seconds([&] { choice = run(); });
-  state.counters["p"] = choice.expansion_order;
-  state.counters["n"] = choice.neighbours;
-  state.counters["boxes"] = static_cast<double>(choice.boxes);
+  bench::count_parameters(state, choice);
   state.counters["predicted_ms"] = 1e3 * choice.seconds;
   state.counters["direct/this"] = direct_seconds * static_cast<double>(state.iterations()) / seconds;
 }

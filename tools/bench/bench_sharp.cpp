@@ -1,4 +1,4 @@
-// `cells` and `outer` on one thread, Plan included, and how many times faster than `direct` they are, measured in the
+// `cells` and `outer_product` on one thread, Plan included, and how many times faster than `direct` they are, measured in the
 // same run at a part of the targets.
 #include <benchmark/benchmark.h>
 
@@ -13,8 +13,7 @@ void measure(benchmark::State& state, double direct_seconds, const Run& run) {
   double seconds = 0;
   for (auto _ : state) seconds += bench::processor_seconds([&] { choice = run(); });
   state.SetLabel(fgtd::to_string(choice.method));
-  state.counters["span"] = choice.neighbours;
-  state.counters["cells"] = static_cast<double>(choice.boxes);
+  bench::count_parameters(state, choice);
   state.counters["predicted_ms"] = 1e3 * choice.seconds;
   state.counters["direct/this"] = direct_seconds * static_cast<double>(state.iterations()) / seconds;
 }
@@ -94,9 +93,12 @@ void cone(benchmark::State& state, fgtd::Method method, double tolerance, int or
     return plan.choice();
   });
 }
-BENCHMARK_CAPTURE(cone, outer, fgtd::Method::outer, 1e-6, 0)->Arg(200)->Arg(700)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(cone, outer_1e12, fgtd::Method::outer, 1e-12, 0)->Arg(200)->Arg(700)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(cone, outer_laplacian, fgtd::Method::outer, 1e-6, 2)
+BENCHMARK_CAPTURE(cone, outer, fgtd::Method::outer_product, 1e-6, 0)->Arg(200)->Arg(700)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cone, outer_1e12, fgtd::Method::outer_product, 1e-12, 0)
+    ->Arg(200)
+    ->Arg(700)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cone, outer_laplacian, fgtd::Method::outer_product, 1e-6, 2)
     ->Arg(200)
     ->Arg(700)
     ->Unit(benchmark::kMillisecond);
@@ -110,8 +112,9 @@ void cube_on_grid(benchmark::State& state) {
   for (int i = 0; i < 64; ++i) axis.push_back(i / 63.0);
   const fgtd::TensorGrid target{{axis, axis, axis}};
   measure(state, direct_seconds<3>(work, work.sources) * static_cast<double>(target.size()) / count, [&] {
-    const fgtd::Plan<3> plan(work.sources, work.weights, work.sigma,
-                             {.tolerance = 1e-6, .method = fgtd::Method::outer, .threads = 1, .expected_grid = target});
+    const fgtd::Plan<3> plan(
+        work.sources, work.weights, work.sigma,
+        {.tolerance = 1e-6, .method = fgtd::Method::outer_product, .threads = 1, .expected_grid = target});
     benchmark::DoNotOptimize(plan.evaluate(target));
     return plan.choice();
   });

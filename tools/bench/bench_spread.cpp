@@ -53,7 +53,8 @@ double direct_seconds(const bench::Workload<d>& work, int order, double targets)
 }
 
 void report(benchmark::State& state, const fgtd::Choice& choice, double direct, double seconds) {
-  state.SetLabel(fgtd::to_string(choice.method) + ", window " + std::to_string(choice.expansion_order));
+  state.SetLabel(fgtd::to_string(choice.method));
+  bench::count_parameters(state, choice);
   state.counters["predicted_ms"] = 1e3 * choice.seconds;
   state.counters["direct/this"] = direct * static_cast<double>(state.iterations()) / seconds;
 }

@@ -69,4 +69,14 @@ double processor_seconds(const Work& work) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
+/// The parameters of the chosen method as counters of a benchmark (benchmark::State), by their names.
+template <class State>
+void count_parameters(State& state, const fgtd::Choice& choice) {
+  for (const fgtd::Parameter& parameter : fgtd::parameters(choice)) {
+    if (const auto* const length = std::get_if<double>(&parameter.value)) state.counters[parameter.name] = *length;
+    if (const auto* const count = std::get_if<std::int64_t>(&parameter.value))
+      state.counters[parameter.name] = static_cast<double>(*count);
+  }
+}
+
 }  // namespace bench

@@ -1,4 +1,4 @@
-// The arguments of the kernels of `cells` and `outer`: pair sums over runs of sources, and outer products of rows.
+// The arguments of the kernels of `cells` and `outer_product`: pair sums over runs of sources, and outer products of rows.
 #pragma once
 
 #include <cstddef>
@@ -52,14 +52,14 @@ struct CellsJob {
   std::size_t target_stride;
 };
 
-/// Sources of one group of `outer`, and grid nodes an axis of one block of its window.
-constexpr std::size_t outer_depth = 32;
-constexpr std::size_t outer_nodes = 256;
+/// Sources of one group of `outer_product`, and grid nodes an axis of one block of its window.
+constexpr std::size_t outer_product_depth = 32;
+constexpr std::size_t outer_product_nodes = 256;
 
 /// One group of sources on one block of grid nodes:
 ///   out[q c + k][nodes] += sum_p weights[k][p] sum_{parts of q} factor prod_l h~_{alpha_l}(sqrt(sigma) (node_l - x_p)_l)
 /// Parts of a combination that share alpha_0 are a bundle: a bundle is one product of matrices.
-struct OuterJob {
+struct OuterProductJob {
   int dimension;
   int degree;
   double root_sigma;
@@ -82,18 +82,18 @@ struct OuterJob {
   const int* order;                 // [parts][max_dimension]: alpha
   const double* factor;             // [parts]
   Recurrence recurrence;
-  double* scratch;            // outer_scratch(...) numbers
+  double* scratch;            // outer_product_scratch(...) numbers
   double* out;                // of the block's first node
   std::size_t output_stride;  // from one output to the next
 };
 
-/// Size of OuterJob::scratch for blocks of up to nodes[l] nodes an axis: the tables of all axes, then the rows of the
+/// Size of OuterProductJob::scratch for blocks of up to nodes[l] nodes an axis: the tables of all axes, then the rows of the
 /// second axis with weights.
-constexpr std::size_t outer_scratch(int dimension, const int* highest, const std::size_t* nodes) {
-  std::size_t size = outer_depth * (1 + (dimension > 1 ? nodes[1] : 1));
+constexpr std::size_t outer_product_scratch(int dimension, const int* highest, const std::size_t* nodes) {
+  std::size_t size = outer_product_depth * (1 + (dimension > 1 ? nodes[1] : 1));
   for (int l = 0; l < dimension; ++l) {
     const std::size_t row = l == 0 ? nodes[0] + row_padding : nodes[l];
-    size += row + outer_depth * (1 + row * (static_cast<std::size_t>(highest[l]) + 1));
+    size += row + outer_product_depth * (1 + row * (static_cast<std::size_t>(highest[l]) + 1));
   }
   return size;
 }

@@ -1,5 +1,5 @@
 // Tensor grids: the Gaussians of a group of neighbouring sources, added to the window of grid nodes within reach by the
-// kernel `outer`; see fgtd/cells/sum.hpp.
+// kernel `outer_product`; see fgtd/cells/sum.hpp.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -66,15 +66,15 @@ struct Group {
 
 /// Groups in the order of the cells. Cells whose sources reach no node have none.
 template <int d>
-std::vector<Group<d>> make_groups(const Cells<d>& cells, const std::vector<double>& position, std::size_t stride,
+std::vector<Group<d>> make_groups(const CellLattice<d>& cells, const std::vector<double>& position, std::size_t stride,
                                   double reach, const TensorGrid& grid) {
   std::vector<Group<d>> groups;
   groups.reserve(cells.index.size());
   for (std::size_t cell = 0; cell < cells.index.size(); ++cell)
-    for (std::size_t first = cells.first[cell]; first < cells.first[cell + 1]; first += outer_depth) {
+    for (std::size_t first = cells.first[cell]; first < cells.first[cell + 1]; first += outer_product_depth) {
       Group<d> group;
       group.first = first;
-      group.count = std::min(outer_depth, cells.first[cell + 1] - first);
+      group.count = std::min(outer_product_depth, cells.first[cell + 1] - first);
       bool empty = false;
       for (std::size_t l = 0; l < d && !empty; ++l) {
         const double* x = position.data() + l * stride + first;
@@ -145,46 +145,46 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
     double of_group = static_cast<double>(group.count);
     for (std::size_t l = 0; l < d; ++l) {
       const std::size_t nodes = group.window[l].end - group.window[l].begin;
-      longest[l] = std::min(outer_nodes, std::max(longest[l], nodes));
+      longest[l] = std::min(outer_product_nodes, std::max(longest[l], nodes));
       of_group *= static_cast<double>(nodes);
     }
     pairs += of_group;
   }
-  const std::size_t scratch_size = outer_scratch(d, bundles.highest.data(), longest.data());
+  const std::size_t scratch_size = outer_product_scratch(d, bundles.highest.data(), longest.data());
   for (std::size_t l = 0; l < d; ++l) step[l] = l == 0 ? 1 : step[l - 1] * grid.axes[l - 1].size();
 
   const double seconds =
-      static_cast<double>(outputs) * (pairs * cost::outer_step + static_cast<double>(total) * cost::outer_value);
+      static_cast<double>(outputs) * (pairs * cost::outer_product_step + static_cast<double>(total) * cost::outer_product_value);
   gaussdrift::base::parallel_for({cuts.size() - 1, seconds}, threads_, [&](std::size_t slab) {
     for (std::size_t output = 0; output < outputs; ++output)
       std::fill(values + output * total + cuts[slab] * step[d - 1],
                 values + output * total + cuts[slab + 1] * step[d - 1], 0.0);
     const auto scratch = std::make_unique_for_overwrite<double[]>(scratch_size);
-    OuterJob job{.dimension = d,
-                 .degree = plan_.row_degree,
-                 .root_sigma = std::sqrt(sigma_),
-                 .reach = reach,
-                 .sources = 0,
-                 .position = nullptr,
-                 .weights = nullptr,
-                 .stride = count_,
-                 .columns = columns_,
-                 .low = nullptr,
-                 .high = nullptr,
-                 .node = {},
-                 .nodes = {1, 1, 1, 1},
-                 .step = {},
-                 .highest = bundles.highest.data(),
-                 .combinations = request.combinations.size(),
-                 .first_bundle = bundles.first_bundle.data(),
-                 .bundle_order = bundles.bundle_order.data(),
-                 .first_part = bundles.first_part.data(),
-                 .order = bundles.order.data(),
-                 .factor = bundles.factor.data(),
-                 .recurrence = recurrence.view(),
-                 .scratch = scratch.get(),
-                 .out = nullptr,
-                 .output_stride = total};
+    OuterProductJob job{.dimension = d,
+                        .degree = plan_.row_degree,
+                        .root_sigma = std::sqrt(sigma_),
+                        .reach = reach,
+                        .sources = 0,
+                        .position = nullptr,
+                        .weights = nullptr,
+                        .stride = count_,
+                        .columns = columns_,
+                        .low = nullptr,
+                        .high = nullptr,
+                        .node = {},
+                        .nodes = {1, 1, 1, 1},
+                        .step = {},
+                        .highest = bundles.highest.data(),
+                        .combinations = request.combinations.size(),
+                        .first_bundle = bundles.first_bundle.data(),
+                        .bundle_order = bundles.bundle_order.data(),
+                        .first_part = bundles.first_part.data(),
+                        .order = bundles.order.data(),
+                        .factor = bundles.factor.data(),
+                        .recurrence = recurrence.view(),
+                        .scratch = scratch.get(),
+                        .out = nullptr,
+                        .output_stride = total};
     std::copy_n(step.begin(), d, job.step);
 
     for (const Group<d>& group : groups) {
@@ -197,20 +197,20 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
       job.weights = weights_.data() + group.first;
       job.low = group.low.data();
       job.high = group.high.data();
-      // Blocks of at most outer_nodes nodes an axis, so that the tables stay small.
+      // Blocks of at most outer_product_nodes nodes an axis, so that the tables stay small.
       std::array<std::size_t, d> begin;
       for (std::size_t l = 0; l < d; ++l) begin[l] = window[l].begin;
       while (true) {
         job.out = values;
         for (std::size_t l = 0; l < d; ++l) {
           job.node[l] = grid.axes[l].data() + begin[l];
-          job.nodes[l] = std::min(outer_nodes, window[l].end - begin[l]);
+          job.nodes[l] = std::min(outer_product_nodes, window[l].end - begin[l]);
           job.out += begin[l] * step[l];
         }
-        kernels().outer(job);
+        kernels().outer_product(job);
         std::size_t l = 0;
         for (; l < d; ++l) {
-          begin[l] += outer_nodes;
+          begin[l] += outer_product_nodes;
           if (begin[l] < window[l].end) break;
           begin[l] = window[l].begin;
         }
@@ -224,10 +224,10 @@ template <int d>
 double CellsSum<d>::grid_bytes(const Request<d>& request, const TensorGrid& grid) const {
   const double threads = gaussdrift::base::resolve_threads(threads_);
   std::array<std::size_t, d> longest;
-  for (std::size_t l = 0; l < d; ++l) longest[l] = std::min(outer_nodes, grid.axes[l].size());
-  const double groups = static_cast<double>(cells_.index.size() + count_ / outer_depth);
+  for (std::size_t l = 0; l < d; ++l) longest[l] = std::min(outer_product_nodes, grid.axes[l].size());
+  const double groups = static_cast<double>(cells_.index.size() + count_ / outer_product_depth);
   return 2 * groups * sizeof(Group<d>) + 8.0 * 2 * static_cast<double>(grid.axes[d - 1].size()) +
-         threads * 8 * static_cast<double>(outer_scratch(d, request.highest.data(), longest.data()));
+         threads * 8 * static_cast<double>(outer_product_scratch(d, request.highest.data(), longest.data()));
 }
 
 #define FGTD_INSTANTIATE(d)                                                                 \

@@ -1,5 +1,5 @@
-// The kernel of `outer`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as matrices;
-// see core/simd/vector.hpp for what may stand here.
+// The kernel of `outer_product`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as
+// matrices; see core/simd/vector.hpp for what may stand here.
 #include "core/simd/vector.hpp"
 #include "fgtd/cells/job.hpp"
 #include "fgtd/kernels/power.hpp"
@@ -42,8 +42,20 @@ CORE_INLINE void hermite_rows(Vector t, int degree, int highest, const Recurrenc
 
 constexpr std::size_t up_to_lanes(std::size_t n) { return (n + lanes - 1) / lanes * lanes; }
 
+/// Rows of one-dimensional Hermite functions of all axes, and room for the left factor of a product.
 template <int d>
-void outer_in(const OuterJob& job) {
+struct Rows {
+  std::size_t depth;       // sources, up to whole vectors
+  std::size_t width;       // nodes of the first axis, up to whole vectors
+  std::size_t plane;       // numbers of the first axis for one order
+  const double* first;     // [order][source][node]; vectors run over nodes
+  const double* upper[d];  // [order][node][source] of the other axes; vectors run over sources, the last one repeated
+  double* weight;          // [depth]
+  double* left;            // [nodes of the second axis][depth]
+};
+
+template <int d>
+CORE_INLINE Rows<d> make_rows(const OuterProductJob& job) {
   const std::size_t sources = job.sources, depth = up_to_lanes(sources);
   double* free = job.scratch;
   const auto take = [&free](std::size_t size) {
@@ -51,9 +63,12 @@ void outer_in(const OuterJob& job) {
     free += size;
     return taken;
   };
+  Rows<d> rows{};
+  rows.depth = depth;
 
-  // first[n][p][node]: rows of the first axis; vectors run over nodes.
   const std::size_t width = up_to_lanes(job.nodes[0]), plane = sources * width;
+  rows.width = width;
+  rows.plane = plane;
   double* node = take(width);
   for (std::size_t i = 0; i < width; ++i) node[i] = job.node[0][i < job.nodes[0] ? i : job.nodes[0] - 1];
   double* first = take(plane * static_cast<std::size_t>(job.highest[0] + 1));
@@ -61,94 +76,116 @@ void outer_in(const OuterJob& job) {
     for (std::size_t i = 0; i < width; i += lanes)
       hermite_rows((load(node + i) - job.position[p]) * job.root_sigma, job.degree, job.highest[0], job.recurrence,
                    first + p * width + i, plane);
+  rows.first = first;
 
-  // upper[l][n][node][p]: of the other axes; vectors run over sources, padded by repeating the last.
-  double* upper[d];
   for (int l = 1; l < d; ++l) {
     const double* position = job.position + static_cast<std::size_t>(l) * job.stride;
     double* x = take(depth);
     for (std::size_t p = 0; p < depth; ++p) x[p] = position[p < sources ? p : sources - 1];
     const std::size_t table = job.nodes[l] * depth;
-    upper[l] = take(table * static_cast<std::size_t>(job.highest[l] + 1));
+    double* upper = take(table * static_cast<std::size_t>(job.highest[l] + 1));
     for (std::size_t i = 0; i < job.nodes[l]; ++i)
       for (std::size_t p = 0; p < depth; p += lanes)
         hermite_rows((job.node[l][i] - load(x + p)) * job.root_sigma, job.degree, job.highest[l], job.recurrence,
-                     upper[l] + i * depth + p, table);
+                     upper + i * depth + p, table);
+    rows.upper[l] = upper;
   }
+  rows.weight = take(depth);
+  rows.left = take((d > 1 ? job.nodes[1] : 1) * depth);
+  return rows;
+}
 
-  double* weight = take(depth);
-  double* left = take((d > 1 ? job.nodes[1] : 1) * depth);
+/// Nodes of the third and fourth axis, and what they leave of the window along the first two.
+struct Slab {
+  std::size_t upper[2];  // indices of the nodes
+  std::size_t from[2], to[2];
+};
+
+/// Narrows the slab to what is within reach of the group's bounding box; false if nothing is.
+template <int d>
+CORE_INLINE bool narrow(const OuterProductJob& job, Slab& slab) {
+  double squared = job.reach * job.reach;
+  for (int l = 2; l < d; ++l) {
+    const double y = job.node[l][slab.upper[l - 2]];
+    const double apart = y < job.low[l] ? job.low[l] - y : y > job.high[l] ? y - job.high[l] : 0;
+    squared -= apart * apart;
+  }
+  if (squared < 0) return false;
+  const double reach = __builtin_sqrt(squared);
+  for (int l = 0; l < 2; ++l) {
+    while (slab.from[l] < slab.to[l] && job.node[l][slab.from[l]] < job.low[l] - reach) ++slab.from[l];
+    while (slab.from[l] < slab.to[l] && job.node[l][slab.to[l] - 1] > job.high[l] + reach) --slab.to[l];
+  }
+  slab.from[0] = slab.from[0] / lanes * lanes;
+  slab.to[0] = up_to_lanes(slab.to[0]) < job.nodes[0] ? up_to_lanes(slab.to[0]) : job.nodes[0];
+  return slab.from[0] < slab.to[0] && slab.from[1] < slab.to[1];
+}
+
+/// left[node of the second axis][source]: weights times the rows of all axes but the first, summed over the parts of a
+/// bundle, which have the first axis's order in common.
+template <int d>
+CORE_INLINE void make_left(const OuterProductJob& job, const Rows<d>& rows, const Slab& slab, std::size_t k,
+                           std::size_t bundle) {
+  const std::size_t sources = job.sources, depth = rows.depth;
+  double* const weight = rows.weight;
+  for (std::size_t part = job.first_part[bundle]; part < job.first_part[bundle + 1]; ++part) {
+    const int* order = job.order + part * max_dimension;
+    for (std::size_t p = 0; p < depth; ++p)
+      weight[p] = p < sources ? job.weights[k * job.stride + p] * job.factor[part] : 0.0;
+    for (int l = 2; l < d; ++l) {
+      const double* row =
+          rows.upper[l] + (static_cast<std::size_t>(order[l]) * job.nodes[l] + slab.upper[l - 2]) * depth;
+      for (std::size_t p = 0; p < depth; p += lanes) store(weight + p, load(weight + p) * load(row + p));
+    }
+    const bool fresh = part == job.first_part[bundle];
+    for (std::size_t i = 0; i < slab.to[1] - slab.from[1]; ++i)
+      for (std::size_t p = 0; p < depth; p += lanes) {
+        Vector value = load(weight + p);
+        if constexpr (d > 1)
+          value *=
+              load(rows.upper[1] + (static_cast<std::size_t>(order[1]) * job.nodes[1] + slab.from[1] + i) * depth + p);
+        double* at = rows.left + i * depth + p;
+        store(at, fresh ? value : load(at) + value);
+      }
+  }
+}
+
+template <int d>
+void outer_product_in(const OuterProductJob& job) {
+  const Rows<d> rows = make_rows<d>(job);
   for (std::size_t i3 = 0; i3 < (d > 3 ? job.nodes[3] : 1); ++i3)
     for (std::size_t i2 = 0; i2 < (d > 2 ? job.nodes[2] : 1); ++i2) {
-      // The part of the window that this slab leaves within reach of the group's bounding box.
-      std::size_t from[2] = {0, 0}, to[2] = {job.nodes[0], d > 1 ? job.nodes[1] : 1};
+      Slab slab{{i2, i3}, {0, 0}, {job.nodes[0], d > 1 ? job.nodes[1] : 1}};
       if constexpr (d > 2) {
-        double squared = job.reach * job.reach;
-        for (int l = 2; l < d; ++l) {
-          const double y = job.node[l][l == 2 ? i2 : i3];
-          const double apart = y < job.low[l] ? job.low[l] - y : y > job.high[l] ? y - job.high[l] : 0;
-          squared -= apart * apart;
-        }
-        if (squared < 0) continue;
-        const double reach = __builtin_sqrt(squared);
-        for (int l = 0; l < 2; ++l) {
-          while (from[l] < to[l] && job.node[l][from[l]] < job.low[l] - reach) ++from[l];
-          while (from[l] < to[l] && job.node[l][to[l] - 1] > job.high[l] + reach) --to[l];
-        }
-        from[0] = from[0] / lanes * lanes;
-        to[0] = up_to_lanes(to[0]) < job.nodes[0] ? up_to_lanes(to[0]) : job.nodes[0];
-        if (from[0] >= to[0] || from[1] >= to[1]) continue;
+        if (!narrow<d>(job, slab)) continue;
       }
-      double* out = job.out + from[0] * job.step[0];
-      if (d > 1) out += from[1] * job.step[1];
+      double* out = job.out + slab.from[0] * job.step[0];
+      if (d > 1) out += slab.from[1] * job.step[1];
       if (d > 2) out += i2 * job.step[2];
       if (d > 3) out += i3 * job.step[3];
-      const std::size_t rows = to[1] - from[1];
-
       for (std::size_t q = 0; q < job.combinations; ++q)
-        for (std::size_t k = 0; k < job.columns; ++k) {
-          double* here = out + (q * job.columns + k) * job.output_stride;
+        for (std::size_t k = 0; k < job.columns; ++k)
           for (std::size_t bundle = job.first_bundle[q]; bundle < job.first_bundle[q + 1]; ++bundle) {
-            for (std::size_t part = job.first_part[bundle]; part < job.first_part[bundle + 1]; ++part) {
-              const int* order = job.order + part * max_dimension;
-              for (std::size_t p = 0; p < depth; ++p)
-                weight[p] = p < sources ? job.weights[k * job.stride + p] * job.factor[part] : 0.0;
-              for (int l = 2; l < d; ++l) {
-                const double* row =
-                    upper[l] + (static_cast<std::size_t>(order[l]) * job.nodes[l] + (l == 2 ? i2 : i3)) * depth;
-                for (std::size_t p = 0; p < depth; p += lanes) store(weight + p, load(weight + p) * load(row + p));
-              }
-              const bool fresh = part == job.first_part[bundle];
-              for (std::size_t i = 0; i < rows; ++i)
-                for (std::size_t p = 0; p < depth; p += lanes) {
-                  Vector value = load(weight + p);
-                  if constexpr (d > 1)
-                    value *=
-                        load(upper[1] + (static_cast<std::size_t>(order[1]) * job.nodes[1] + from[1] + i) * depth + p);
-                  double* at = left + i * depth + p;
-                  store(at, fresh ? value : load(at) + value);
-                }
-            }
-            multiply_add(rows, sources, to[0] - from[0], left, depth,
-                         first + static_cast<std::size_t>(job.bundle_order[bundle]) * plane + from[0], width, here,
-                         d > 1 ? job.step[1] : 0);
+            make_left<d>(job, rows, slab, k, bundle);
+            multiply_add(slab.to[1] - slab.from[1], job.sources, slab.to[0] - slab.from[0], rows.left, rows.depth,
+                         rows.first + static_cast<std::size_t>(job.bundle_order[bundle]) * rows.plane + slab.from[0],
+                         rows.width, out + (q * job.columns + k) * job.output_stride, d > 1 ? job.step[1] : 0);
           }
-        }
     }
 }
 
 }  // namespace
 
-void outer(const OuterJob& job) {
+void outer_product(const OuterProductJob& job) {
   switch (job.dimension) {
     case 1:
-      return outer_in<1>(job);
+      return outer_product_in<1>(job);
     case 2:
-      return outer_in<2>(job);
+      return outer_product_in<2>(job);
     case 3:
-      return outer_in<3>(job);
+      return outer_product_in<3>(job);
     default:
-      return outer_in<4>(job);
+      return outer_product_in<4>(job);
   }
 }
 

@@ -1,15 +1,16 @@
-// The cells of `cells` and `outer`: how far a Gaussian counts, the side by prediction of cost, and the two proposals.
+// The cells of `cells` and `outer_product`: how far a Gaussian counts, the side by prediction of cost, and the two proposals.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <ostream>
 #include <utility>
 
 #include "fgtd/bounds.hpp"
+#include "fgtd/catalogue.hpp"
 #include "fgtd/cells/job.hpp"
 #include "fgtd/cells/sum.hpp"
 #include "fgtd/check.hpp"
-#include "fgtd/choose.hpp"
 #include "fgtd/cost.hpp"
 
 namespace fgtd::detail {
@@ -130,7 +131,7 @@ double grid_seconds(const Situation<d>& at, double reach, double side, const std
   double cells = 1;
   for (std::size_t l = 0; l < d; ++l) cells *= 1 + at.extent[l] / side;
   double groups = cells < 1e15 ? -cells * std::expm1(-at.sources / cells) : at.sources;
-  groups = std::max(groups, at.sources / static_cast<double>(outer_depth));
+  groups = std::max(groups, at.sources / static_cast<double>(outer_product_depth));
   const double depth = at.sources / groups;
   const double orders = 1 + at.options.derivative_order;
   double window = 1, rows = 1, tables = 0;
@@ -144,10 +145,10 @@ double grid_seconds(const Situation<d>& at, double reach, double side, const std
   if (d == 3) window *= 0.85;  // slabs leave out what is beyond the reach
   if (d == 4) window *= 0.7;
   const double parts = at.columns * (at.options.derivative_order > 0 ? 2 : 1);
-  return at.sources * cost::outer_source_sort + at.targets * at.columns * cost::outer_value +
-         groups * (cost::outer_group + tables * cost::outer_table +
-                   parts * (window * (depth * cost::outer_step + cost::outer_update) +
-                            rows * 8 * std::ceil(depth / 8) * cost::outer_row));
+  return at.sources * cost::outer_product_source_sort + at.targets * at.columns * cost::outer_product_value +
+         groups * (cost::outer_product_group + tables * cost::outer_product_table +
+                   parts * (window * (depth * cost::outer_product_step + cost::outer_product_update) +
+                            rows * 8 * std::ceil(depth / 8) * cost::outer_product_row));
 }
 
 /// Chooses the cells for the expected targets. None if coordinates are so large that cells cannot be numbered.
@@ -187,15 +188,16 @@ std::optional<Proposal<d>> propose(const Situation<d>& at, Method method) {
   proposal.plan_bytes = 8 * at.sources * (d + columns) + 8 * at.sources * (3 * d + 7);
   if (proposal.plan_bytes > static_cast<double>(at.options.memory_limit)) {
     if (at.options.method == method)
-      check_memory(method == Method::cells ? "the plan with Method::cells" : "the plan with Method::outer",
+      check_memory(method == Method::cells ? "the plan with Method::cells" : "the plan with Method::outer_product",
                    proposal.plan_bytes, at.options.memory_limit);
     return std::nullopt;
   }
   proposal.choice.method = method;
   proposal.choice.seconds = best;
-  proposal.choice.cost = best / cost::direct_pair[d - 1];
-  proposal.choice.box_side = plan.side;
-  proposal.choice.neighbours = plan.span;
+  if (method == Method::cells)
+    proposal.choice.parameters = Cells{.side = plan.side, .within_reach = plan.span};
+  else
+    proposal.choice.parameters = OuterProduct{.side = plan.side, .within_reach = plan.span};
   proposal.make = [plan, sigma = at.sigma, threads = at.options.threads](Buffer<double> position) {
     const std::size_t count = position.size() / d;
     return std::make_unique<CellsSum<d>>(plan, sigma, std::move(position), count, threads);
@@ -203,27 +205,54 @@ std::optional<Proposal<d>> propose(const Situation<d>& at, Method method) {
   return proposal;
 }
 
-}  // namespace
-
 template <int d>
 std::optional<Proposal<d>> propose_cells(const Situation<d>& at) {
-  if (at.options.expected_grid && at.options.method != Method::cells) return std::nullopt;  // `outer` is the same there
+  if (at.options.expected_grid && at.options.method != Method::cells)
+    return std::nullopt;  // `outer_product` is the same there
   return propose<d>(at, Method::cells);
 }
 
 template <int d>
-std::optional<Proposal<d>> propose_outer(const Situation<d>& at) {
-  if (!at.options.expected_grid && at.options.method != Method::outer) return std::nullopt;
-  return propose<d>(at, Method::outer);
+std::optional<Proposal<d>> propose_outer_product(const Situation<d>& at) {
+  if (!at.options.expected_grid && at.options.method != Method::outer_product) return std::nullopt;
+  return propose<d>(at, Method::outer_product);
 }
 
-#define FGTD_INSTANTIATE(d)                                                  \
-  template std::optional<Proposal<d>> propose_cells<d>(const Situation<d>&); \
-  template std::optional<Proposal<d>> propose_outer<d>(const Situation<d>&);
-FGTD_INSTANTIATE(1)
-FGTD_INSTANTIATE(2)
-FGTD_INSTANTIATE(3)
-FGTD_INSTANTIATE(4)
-#undef FGTD_INSTANTIATE
+/// `chosen`: Cells or OuterProduct.
+void print_cells(std::ostream& out, const auto& chosen) {
+  out << ", cells of side " << chosen.side << ", " << chosen.within_reach << " within reach, " << chosen.occupied
+      << " occupied";
+}
+
+std::vector<Parameter> list_cells(const auto& chosen) {
+  return {{"side", chosen.side},
+          {"within_reach", std::int64_t{chosen.within_reach}},
+          {"occupied", static_cast<std::int64_t>(chosen.occupied)}};
+}
+
+}  // namespace
+
+MethodEntry cells_method() {
+  return {
+      .method = Method::cells,
+      .name = "cells",
+      .meaning = "pairs within reach, found by cells; for sharp Gaussians",
+      .search_seconds = cost::cells_search,
+      .propose = {propose_cells<1>, propose_cells<2>, propose_cells<3>, propose_cells<4>},
+      .print = [](std::ostream& out, const Choice& choice) { print_cells(out, std::get<Cells>(choice.parameters)); },
+      .parameters = [](const Choice& choice) { return list_cells(std::get<Cells>(choice.parameters)); }};
+}
+
+MethodEntry outer_product_method() {
+  return {.method = Method::outer_product,
+          .name = "outer",
+          .meaning = "outer products of a row of values an axis; for few sources on a tensor grid",
+          .search_seconds = cost::outer_product_search,
+          .propose = {propose_outer_product<1>, propose_outer_product<2>, propose_outer_product<3>,
+                      propose_outer_product<4>},
+          .print = [](std::ostream& out,
+                      const Choice& choice) { print_cells(out, std::get<OuterProduct>(choice.parameters)); },
+          .parameters = [](const Choice& choice) { return list_cells(std::get<OuterProduct>(choice.parameters)); }};
+}
 
 }  // namespace fgtd::detail

@@ -25,7 +25,7 @@ struct NearLine {
 
 /// The first place in [from, end) whose index along the line is `index` or more; near `from` as a rule.
 template <int d>
-std::size_t advance(const Cells<d>& cells, std::size_t from, std::size_t end, std::int64_t index) {
+std::size_t advance(const CellLattice<d>& cells, std::size_t from, std::size_t end, std::int64_t index) {
   std::size_t step = 1;
   while (from + step < end && cells.index[from + step][0] < index) {
     from += step;
@@ -53,7 +53,7 @@ bool line_before(const BoxIndex<d>& cell, const BoxIndex<d>& at) {
 
 /// Lists the lines of sources whose axes 1 .. d-1 are within reach of those of `at`.
 template <int d>
-void find_lines(const Cells<d>& cells, const BoxIndex<d>& at, std::vector<NearLine>& lines) {
+void find_lines(const CellLattice<d>& cells, const BoxIndex<d>& at, std::vector<NearLine>& lines) {
   lines.clear();
   const std::int64_t span = cells.span;
   const std::size_t line_count = cells.first_line.size() - 1;
@@ -117,7 +117,7 @@ std::size_t count_together(const std::vector<BoxIndex<d>>& index, std::size_t be
 }
 
 template <int d>
-std::vector<BoxIndex<d>> cell_indices(const Cells<d>& cells, const double* points, std::size_t count,
+std::vector<BoxIndex<d>> cell_indices(const CellLattice<d>& cells, const double* points, std::size_t count,
                                       std::size_t point_step, std::size_t axis_step) {
   std::vector<BoxIndex<d>> index(count);
   for (std::size_t l = 0; l < d; ++l)
@@ -155,7 +155,7 @@ void for_each_change(const std::vector<BoxIndex<d>>& index, const Open& open) {
 
 /// Sorts `position` ([d][count]) into cells.
 template <int d>
-std::vector<double> sort_into_cells(Cells<d>& cells, const Buffer<double>& position, std::size_t count,
+std::vector<double> sort_into_cells(CellLattice<d>& cells, const Buffer<double>& position, std::size_t count,
                                     std::vector<std::size_t>& order) {
   for (std::size_t l = 0; l < d; ++l) {
     const double* x = position.data() + l * count;
@@ -182,7 +182,7 @@ std::vector<double> sort_into_cells(Cells<d>& cells, const Buffer<double>& posit
 }  // namespace
 
 template <int d>
-std::int64_t Cells<d>::index_at(std::size_t axis, double x) const {
+std::int64_t CellLattice<d>::index_at(std::size_t axis, double x) const {
   const int before = span + 1;
   const double cell = (x - low[axis]) * (1 / side) + before;  // rounded down by the conversion, as it is not negative
   return static_cast<std::int64_t>(std::clamp(cell, 0.0, static_cast<double>(last[axis]) + 2 * before)) - before;
@@ -297,8 +297,15 @@ double CellsSum<d>::point_bytes(const Request<d>& request, std::size_t count) co
   return static_cast<double>(count) * (2 * 8.0 * d + 4 * 8.0) + threads * piece;
 }
 
-#define FGTD_INSTANTIATE(d) \
-  template struct Cells<d>; \
+template <int d>
+void CellsSum<d>::count(Choice& choice) const {
+  const std::size_t occupied = cells_.index.size();
+  if (auto* const cells = std::get_if<Cells>(&choice.parameters)) cells->occupied = occupied;
+  if (auto* const cells = std::get_if<OuterProduct>(&choice.parameters)) cells->occupied = occupied;
+}
+
+#define FGTD_INSTANTIATE(d)       \
+  template struct CellLattice<d>; \
   template class CellsSum<d>;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -1,6 +1,6 @@
 // Sums every Gaussian where it is within reach, without an expansion. Sources are sorted into cells whose side is the
 // reach or a fraction of it. Method `cells` sums scattered targets, pair by pair with the sources of the cells around.
-// Method `outer` sums tensor grids, where the Gaussians of a cell are a product of matrices. Both keep their sources
+// Method `outer_product` sums tensor grids, where the Gaussians of a cell are a product of matrices. Both keep their sources
 // alike, so each serves both kinds of targets. They differ in the side of the cells.
 #pragma once
 
@@ -18,12 +18,14 @@
 
 namespace fgtd::detail {
 
+struct MethodEntry;
+
 using gaussdrift::core::Buffer;
 
 /// Cells of one side that start at the lower corner of the sources; occupied ones only, sorted with the last axis
 /// slowest.
 template <int d>
-struct Cells {
+struct CellLattice {
   double side = 0;
   std::array<double, d> low{};  // lower corner of cell (0, ..., 0)
   int span = 1;                 // sources within reach lie at most this many cells away along an axis
@@ -59,7 +61,7 @@ class CellsSum : public Summation<d> {
   double plan_bytes(std::size_t columns) const override;
   double point_bytes(const Request<d>& request, std::size_t count) const override;
   double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
-  std::size_t boxes() const override { return cells_.index.size(); }
+  void count(Choice& choice) const override;
 
  private:
   CellsPlan plan_;
@@ -70,7 +72,11 @@ class CellsSum : public Summation<d> {
   std::vector<double> position_;    // [d][count], sorted by cell
   std::vector<double> weights_;     // [columns][count]
   std::vector<std::size_t> order_;  // sorted source j is the caller's order_[j]
-  Cells<d> cells_;
+  CellLattice<d> cells_;
 };
+
+/// The two methods for the catalogue.
+MethodEntry cells_method();
+MethodEntry outer_product_method();
 
 }  // namespace fgtd::detail

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ostream>
 
 #include "fgtd/bounds.hpp"
+#include "fgtd/catalogue.hpp"
 #include "fgtd/chebyshev/error.hpp"
 #include "fgtd/chebyshev/sum.hpp"
 #include "fgtd/check.hpp"
-#include "fgtd/choose.hpp"
 #include "fgtd/cost.hpp"
 
 namespace fgtd::detail {
@@ -155,8 +156,6 @@ double chebyshev_seconds(const Situation<d>& at, const ChebyshevPlan<d>& plan, c
                                 derivatives * at.columns * (numbers + std::pow(p, d - 1)) * cost::chebyshev_step));
 }
 
-}  // namespace
-
 template <int d>
 std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at) {
   if (at.sources >= 0x1p32) return std::nullopt;
@@ -202,11 +201,10 @@ std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at) {
     for (const double side : plan.lattice.side) widest_axis = std::max(widest_axis, side);
     choice.method = Method::chebyshev;
     choice.seconds = seconds;
-    choice.cost = seconds / cost::direct_pair[d - 1];
     choice.bound = std::max(interpolation_error(d, widest_axis * root, p, order), dropped_error(1, reach, order));
-    choice.box_side = widest_axis;
-    choice.expansion_order = p;
-    choice.neighbours = static_cast<int>(std::floor(reach / (widest_axis * root))) + 1;
+    choice.parameters = Chebyshev{.box_side = widest_axis,
+                                  .nodes = p,
+                                  .neighbours = static_cast<int>(std::floor(reach / (widest_axis * root))) + 1};
   }
   if (!best) {
     if (asked && std::isfinite(smallest_memory))
@@ -219,9 +217,30 @@ std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at) {
   return proposal;
 }
 
-template std::optional<Proposal<1>> propose_chebyshev<1>(const Situation<1>&);
-template std::optional<Proposal<2>> propose_chebyshev<2>(const Situation<2>&);
-template std::optional<Proposal<3>> propose_chebyshev<3>(const Situation<3>&);
-template std::optional<Proposal<4>> propose_chebyshev<4>(const Situation<4>&);
+void print_chebyshev(std::ostream& out, const Choice& choice) {
+  const Chebyshev& chosen = std::get<Chebyshev>(choice.parameters);
+  out << ", box side " << chosen.box_side << ", " << chosen.nodes << " nodes an axis, " << chosen.neighbours
+      << " neighbours, " << chosen.boxes << " occupied boxes";
+}
+
+std::vector<Parameter> list_chebyshev(const Choice& choice) {
+  const Chebyshev& chosen = std::get<Chebyshev>(choice.parameters);
+  return {{"box_side", chosen.box_side},
+          {"nodes", std::int64_t{chosen.nodes}},
+          {"neighbours", std::int64_t{chosen.neighbours}},
+          {"boxes", static_cast<std::int64_t>(chosen.boxes)}};
+}
+
+}  // namespace
+
+MethodEntry chebyshev_method() {
+  return {.method = Method::chebyshev,
+          .name = "chebyshev",
+          .meaning = "interpolation at Chebyshev nodes of boxes; for wide Gaussians",
+          .search_seconds = cost::chebyshev_search,
+          .propose = {propose_chebyshev<1>, propose_chebyshev<2>, propose_chebyshev<3>, propose_chebyshev<4>},
+          .print = print_chebyshev,
+          .parameters = list_chebyshev};
+}
 
 }  // namespace fgtd::detail

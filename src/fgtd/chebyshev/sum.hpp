@@ -19,6 +19,8 @@
 
 namespace fgtd::detail {
 
+struct MethodEntry;
+
 struct AxisMatrices;  // fgtd/chebyshev/sum.cpp
 
 template <int d>
@@ -42,7 +44,7 @@ class ChebyshevSum : public Summation<d> {
   double plan_bytes(std::size_t columns) const override;
   double point_bytes(const Request<d>& request, std::size_t count) const override;
   double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
-  std::size_t boxes() const override { return sources_.box.size(); }
+  void count(Choice& choice) const override { std::get<Chebyshev>(choice.parameters).boxes = sources_.box.size(); }
 
  private:
   class Translation;
@@ -77,5 +79,8 @@ class ChebyshevSum : public Summation<d> {
   std::size_t columns_ = 0;
   Buffer<double> moments_;  // [boxes][columns][P^d], first axis fastest
 };
+
+/// The method `chebyshev` for the catalogue.
+MethodEntry chebyshev_method();
 
 }  // namespace fgtd::detail

@@ -13,6 +13,8 @@
 
 namespace fgtd::detail {
 
+struct MethodEntry;
+
 using gaussdrift::core::Buffer;
 
 /// Sources as the sums need them: one array an axis, one array a column of weights.
@@ -58,5 +60,8 @@ class DirectSum : public Summation<d> {
   double sigma_;
   int threads_;
 };
+
+/// The method `direct` for the catalogue.
+MethodEntry direct_method();
 
 }  // namespace fgtd::detail

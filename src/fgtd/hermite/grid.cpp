@@ -59,7 +59,7 @@ struct Block {
   }
 };
 
-/// Calls body(offset_in_inner, offset_in_outer) for every run of nodes along axis 0 in `inner`, which lies in `outer`
+/// Calls body(offset_in_inner, offset_in_outer) for every run of nodes along axis 0 in `inner`, which lies in `outer_product`
 /// (both over axes 0 .. axes-1). `stride` holds numbers from node to node of each axis in the outer array, whose first
 /// nodes are `origin`.
 template <int d, class Body>

@@ -17,6 +17,8 @@
 
 namespace fgtd::detail {
 
+struct MethodEntry;
+
 using gaussdrift::core::Buffer;
 
 /// r, p, n with the distance beyond which a box is left out.
@@ -41,7 +43,7 @@ class HermiteSum : public Summation<d> {
   double plan_bytes(std::size_t columns) const override;
   double point_bytes(const Request<d>& request, std::size_t count) const override;
   double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
-  std::size_t boxes() const override { return boxes_.count(); }
+  void count(Choice& choice) const override { std::get<Hermite>(choice.parameters).boxes = boxes_.count(); }
 
  private:
   HermitePlan plan_;
@@ -59,5 +61,8 @@ std::vector<double> binomial_roots(int highest, int terms);
 
 /// p^n
 std::size_t power(int p, int n);
+
+/// The method `hermite` for the catalogue.
+MethodEntry hermite_method();
 
 }  // namespace fgtd::detail

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ostream>
 
 #include "fgtd/bounds.hpp"
 #include "fgtd/boxes.hpp"
+#include "fgtd/catalogue.hpp"
 #include "fgtd/check.hpp"
-#include "fgtd/choose.hpp"
 #include "fgtd/cost.hpp"
 #include "fgtd/hermite/hermite.hpp"
 
@@ -108,21 +109,23 @@ std::optional<Decision> by_hand(const Situation<d>& at) {
                       std::numeric_limits<double>::infinity()};
   Choice& choice = decision.choice;
   choice.bound = thesis_bound<d>(given.box_scale, given.expansion_order, given.neighbours, at.options.derivative_order);
-  choice.box_scale = given.box_scale;
-  choice.box_side = given.box_scale * std::sqrt(2 / at.sigma);
-  choice.expansion_order = given.expansion_order;
-  choice.neighbours = given.neighbours;
-  if (!boxes_resolve<d>(corners<d>(at), 2, choice.box_side)) return std::nullopt;
-  const Occupation<d> seen = count_boxes<d>(at.sample, at.sample_count, choice.box_side);
+  const double side = given.box_scale * std::sqrt(2 / at.sigma);
+  if (!boxes_resolve<d>(corners<d>(at), 2, side)) return std::nullopt;
+  const Occupation<d> seen = count_boxes<d>(at.sample, at.sample_count, side);
   std::array<double, d> nodes;
   for (std::size_t l = 0; l < d; ++l)
     nodes[l] = extrapolate(seen.nodes[l], static_cast<double>(at.sample_count), at.sources);
   const double sides = given.neighbours < 0 ? 1e9 : given.neighbours + 0.5;
   choice.seconds =
-      hermite_seconds<d>(at, choice.box_side, given.expansion_order, sides * choice.box_side * std::sqrt(at.sigma),
-                         nodes, extrapolate(seen.nodes[0], static_cast<double>(at.sample_count), targets), targets);
-  choice.cost = thesis_cost<d>(at.sources, targets, given.expansion_order, given.neighbours, nodes[0]);
+      hermite_seconds<d>(at, side, given.expansion_order, sides * side * std::sqrt(at.sigma), nodes,
+                         extrapolate(seen.nodes[0], static_cast<double>(at.sample_count), targets), targets);
   choice.method = Method::hermite;
+  choice.parameters =
+      Hermite{.box_scale = given.box_scale,
+              .box_side = side,
+              .expansion_order = given.expansion_order,
+              .neighbours = given.neighbours,
+              .cost = thesis_cost<d>(at.sources, targets, given.expansion_order, given.neighbours, nodes[0])};
   return decision;
 }
 
@@ -174,20 +177,18 @@ std::optional<Decision> cheapest(const Situation<d>& at) {
     choice.method = Method::hermite;
     choice.bound = std::max(kept_error(d, centre_rounding * r, p, order),
                             dropped_error(d, find_reach(d, tolerance, order), order));
-    choice.cost = thesis_cost<d>(at.sources, targets, p, n, nodes[0]);
     choice.seconds = seconds;
-    choice.box_scale = r;
-    choice.box_side = side;
-    choice.expansion_order = p;
-    choice.neighbours = n;
+    choice.parameters = Hermite{.box_scale = r,
+                                .box_side = side,
+                                .expansion_order = p,
+                                .neighbours = n,
+                                .cost = thesis_cost<d>(at.sources, targets, p, n, nodes[0])};
   }
   if (best.choice.method == Method::hermite) return best;
   if (at.options.method == Method::hermite && std::isfinite(smallest_memory))
     check_memory("the plan with Method::hermite", smallest_memory, at.options.memory_limit);
   return std::nullopt;
 }
-
-}  // namespace
 
 template <int d>
 std::optional<Proposal<d>> propose_hermite(const Situation<d>& at) {
@@ -196,7 +197,8 @@ std::optional<Proposal<d>> propose_hermite(const Situation<d>& at) {
   Proposal<d> proposal;
   proposal.choice = decision->choice;
   proposal.plan_bytes = decision->plan_bytes;
-  proposal.make = [plan = decision->hermite, sigma = at.sigma, side = decision->choice.box_side,
+  proposal.make = [plan = decision->hermite, sigma = at.sigma,
+                   side = std::get<Hermite>(decision->choice.parameters).box_side,
                    threads = at.options.threads](Buffer<double> position) {
     const std::size_t count = position.size() / d;
     return std::make_unique<HermiteSum<d>>(plan, sigma, side, std::move(position), count, threads);
@@ -204,9 +206,39 @@ std::optional<Proposal<d>> propose_hermite(const Situation<d>& at) {
   return proposal;
 }
 
-template std::optional<Proposal<1>> propose_hermite<1>(const Situation<1>&);
-template std::optional<Proposal<2>> propose_hermite<2>(const Situation<2>&);
-template std::optional<Proposal<3>> propose_hermite<3>(const Situation<3>&);
-template std::optional<Proposal<4>> propose_hermite<4>(const Situation<4>&);
+void print_hermite(std::ostream& out, const Choice& choice) {
+  const Hermite& chosen = std::get<Hermite>(choice.parameters);
+  out << ", box scale " << chosen.box_scale << " (side " << chosen.box_side << "), expansion order "
+      << chosen.expansion_order << ", ";
+  if (chosen.neighbours == HermiteParameters::all_boxes) {
+    out << "all boxes";
+  } else {
+    out << chosen.neighbours << " neighbours";
+  }
+  out << ", " << chosen.boxes << " occupied boxes, cost by (3.5) " << chosen.cost;
+}
+
+std::vector<Parameter> list_hermite(const Choice& choice) {
+  const Hermite& chosen = std::get<Hermite>(choice.parameters);
+  std::vector<Parameter> list{{"box_scale", chosen.box_scale},
+                              {"box_side", chosen.box_side},
+                              {"expansion_order", std::int64_t{chosen.expansion_order}},
+                              {"neighbours", std::int64_t{chosen.neighbours}},
+                              {"boxes", static_cast<std::int64_t>(chosen.boxes)}};
+  if (chosen.neighbours == HermiteParameters::all_boxes) list[3].value = "all";
+  return list;
+}
+
+}  // namespace
+
+MethodEntry hermite_method() {
+  return {.method = Method::hermite,
+          .name = "hermite",
+          .meaning = "the thesis's method: Hermite series of boxes of sources",
+          .search_seconds = cost::hermite_search,
+          .propose = {propose_hermite<1>, propose_hermite<2>, propose_hermite<3>, propose_hermite<4>},
+          .print = print_hermite,
+          .parameters = list_hermite};
+}
 
 }  // namespace fgtd::detail

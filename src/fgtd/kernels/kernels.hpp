@@ -104,7 +104,7 @@ struct TableJob {
 };
 
 struct CellsJob;  // fgtd/cells/job.hpp
-struct OuterJob;
+struct OuterProductJob;
 
 /// Brings points begin .. end to a lattice (`spread`): lattice[k][node] += weights[k][j] prod_l phi at the node. With
 /// `out` the other way: out[k][j - begin] = sum over nodes of lattice[k][node] prod_l phi. The lattice must be readable
@@ -144,7 +144,7 @@ struct Kernels {
   void (*table)(const TableJob&);
   void (*spread)(const SpreadJob&);
   void (*cells)(const CellsJob&);
-  void (*outer)(const OuterJob&);
+  void (*outer_product)(const OuterProductJob&);
   void (*locate)(const LocateJob&);
   void (*sort_block)(const SortBlockJob&);
   void (*moments)(const MomentsJob&);

@@ -1,4 +1,4 @@
-// Powers of two by polynomials whose degree suits the tolerance: the exponentials of `cells` and `outer`. For the sources
+// Powers of two by polynomials whose degree suits the tolerance: the exponentials of `cells` and `outer_product`. For the sources
 // that may include core/simd/vector.hpp.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Small products of matrices in registers: the inner loop of `hermite`, `outer` and the filters of `spread`.
+// Small products of matrices in registers: the inner loop of `hermite`, `outer_product` and the filters of `spread`.
 // For the sources that may include core/simd/vector.hpp.
 #pragma once
 

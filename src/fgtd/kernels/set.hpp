@@ -14,7 +14,7 @@ void expansion(const ExpansionJob& job);
 void table(const TableJob& job);
 void spread(const SpreadJob& job);
 void cells(const CellsJob& job);
-void outer(const OuterJob& job);
+void outer_product(const OuterProductJob& job);
 void locate(const LocateJob& job);
 void sort_block(const SortBlockJob& job);
 void moments(const MomentsJob& job);

@@ -5,8 +5,7 @@ namespace fgtd::detail::CORE_ISA {
 
 #define CORE_TEXT_OF(x) #x
 #define CORE_TEXT(x) CORE_TEXT_OF(x)
-const Kernels kernels = {
-    CORE_TEXT(CORE_ISA), CORE_LANES, direct,      product, expansion, table, spread, cells, outer, locate,
-    sort_block,          moments,    interpolate, chain};
+const Kernels kernels = {CORE_TEXT(CORE_ISA), CORE_LANES, direct,     product, expansion,   table, spread, cells,
+                         outer_product,       locate,     sort_block, moments, interpolate, chain};
 
 }  // namespace fgtd::detail::CORE_ISA

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <ostream>
 #include <utility>
 
+#include "fgtd/catalogue.hpp"
 #include "fgtd/check.hpp"
-#include "fgtd/choose.hpp"
 #include "fgtd/cost.hpp"
 #include "fgtd/spread/sum.hpp"
 
@@ -61,8 +62,6 @@ double spread_seconds(const Situation<d>& at, const std::vector<Extent<d>>& bric
   return seconds +
          at.targets * (cost::spread_sort + place + derivatives * at.columns * rows * vectors * cost::spread_gather);
 }
-
-}  // namespace
 
 template <int d>
 std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
@@ -123,9 +122,7 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
   choice.bound = std::max(filter->grid_error(d), filter->point_error(d));
   choice.seconds =
       spread_seconds<d>(at, bricks, corners, filter->width(), spacing, filter->reach() / filter->spacing());
-  choice.cost = choice.seconds / cost::direct_pair[d - 1];
-  choice.box_side = spacing;
-  choice.expansion_order = filter->width();
+  choice.parameters = Spread{.spacing = spacing, .window = filter->width()};
   proposal.make = [filter, sigma = at.sigma, threads = at.options.threads,
                    shared = std::make_shared<SpreadLayout<d>>(std::move(*layout))](Buffer<double> position) {
     return std::make_unique<SpreadSum<d>>(filter, std::move(*shared), sigma, std::move(position), threads);
@@ -133,9 +130,29 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
   return proposal;
 }
 
-template std::optional<Proposal<1>> propose_spread<1>(const Situation<1>&);
-template std::optional<Proposal<2>> propose_spread<2>(const Situation<2>&);
-template std::optional<Proposal<3>> propose_spread<3>(const Situation<3>&);
-template std::optional<Proposal<4>> propose_spread<4>(const Situation<4>&);
+void print_spread(std::ostream& out, const Choice& choice) {
+  const Spread& chosen = std::get<Spread>(choice.parameters);
+  out << ", lattice spacing " << chosen.spacing << ", window of " << chosen.window << " nodes, " << chosen.bricks
+      << (chosen.bricks == 1 ? " brick" : " bricks");
+}
+
+std::vector<Parameter> list_spread(const Choice& choice) {
+  const Spread& chosen = std::get<Spread>(choice.parameters);
+  return {{"spacing", chosen.spacing},
+          {"window", std::int64_t{chosen.window}},
+          {"bricks", static_cast<std::int64_t>(chosen.bricks)}};
+}
+
+}  // namespace
+
+MethodEntry spread_method() {
+  return {.method = Method::spread,
+          .name = "spread",
+          .meaning = "a window spreads the sources to a lattice, where filters act axis by axis; for dense clouds",
+          .search_seconds = cost::spread_search,
+          .propose = {propose_spread<1>, propose_spread<2>, propose_spread<3>, propose_spread<4>},
+          .print = print_spread,
+          .parameters = list_spread};
+}
 
 }  // namespace fgtd::detail

@@ -28,6 +28,8 @@
 
 namespace fgtd::detail {
 
+struct MethodEntry;
+
 using gaussdrift::core::Buffer;
 
 /// The positions k h of the lattice's nodes. Coordinates are taken from an anchor that leaves them exact, and h in two
@@ -127,7 +129,7 @@ class SpreadSum : public Summation<d> {
   double plan_bytes(std::size_t columns) const override;
   double point_bytes(const Request<d>& request, std::size_t count) const override;
   double grid_bytes(const Request<d>& request, const TensorGrid& grid) const override;
-  std::size_t boxes() const override { return layout_.bricks.size(); }
+  void count(Choice& choice) const override { std::get<Spread>(choice.parameters).bricks = layout_.bricks.size(); }
 
  private:
   struct Tile {
@@ -221,5 +223,8 @@ void in_pieces(std::size_t count, double seconds, int threads, const Body& body)
   gaussdrift::base::parallel_for({(count + piece - 1) / piece, static_cast<double>(count) * seconds}, threads,
                                  [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
 }
+
+/// The method `spread` for the catalogue.
+MethodEntry spread_method();
 
 }  // namespace fgtd::detail
