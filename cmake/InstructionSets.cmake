@@ -32,7 +32,7 @@ function(kernels_of_one_set target isa lanes)
   target_sources(${target} PRIVATE $<TARGET_OBJECTS:${kernels}>)
 endfunction()
 
-# add_kernels(target DISPATCH dispatch.cpp SOURCES a_kernels.cpp ...) compiles the sources for every instruction set and
+# add_kernels(target DISPATCH dispatch.cpp SOURCES files ...) compiles the sources for every instruction set and
 # puts them into the target, to which dispatch.cpp belongs.
 function(add_kernels target)
   cmake_parse_arguments(ADD "" "DISPATCH" "SOURCES" ${ARGN})

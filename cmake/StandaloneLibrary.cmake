@@ -1,4 +1,4 @@
-# standalone_library(name SOURCES a.cpp ... DISPATCH dispatch.cpp KERNELS a_kernels.cpp ...): a library that is installed alone
+# standalone_library(name SOURCES a.cpp ... DISPATCH dispatch.cpp KERNELS files ...): a library that is installed alone
 # as the package `name`. It depends on Eigen, the standard library and, where present, OpenMP, and takes the objects of
 # src/core into its own archive.
 include(InstructionSets)

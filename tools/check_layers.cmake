@@ -38,7 +38,7 @@ set(public_field density/density density/shapes gaussians/divergence_free gaussi
   named/named_fields scalar velocity/differences velocity/value_seconds
   velocity/velocity)
 set(public_read grid_file missing_data written_run)
-set(public_particle cutoff particles seeding)
+set(public_particle cutoff fgtd_points particles seeding subset)
 set(public_effect catalogue drift effect path_integral)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample)
 set(public_sim density frame outside simulation stable_step stepper)

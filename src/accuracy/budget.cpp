@@ -11,8 +11,10 @@
 
 #include "accuracy/would_run.hpp"
 #include "base/error.hpp"
+#include "base/longest_side.hpp"
 #include "base/number.hpp"
 #include "effect/catalogue.hpp"
+#include "particle/subset.hpp"
 #include "reference/exact_paths.hpp"
 #include "sim/outside.hpp"
 #include "sim/stable_step.hpp"
@@ -31,10 +33,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-14;  // no cause is told to be smaller
 
 double extent(const Case& description) {
-  double longest = 0;
-  for (int k = 0; k < description.domain.dimension; ++k)
-    longest = std::max(longest, description.domain.max[k] - description.domain.min[k]);
-  return longest;
+  return longest_side(description.domain.dimension, description.domain.min, description.domain.max);
 }
 
 /// Beyond `widths` of the widest Gaussian nothing is summed: 5 leave 1e-11 of a blob's height, 6 leave 1e-15.
@@ -423,8 +422,7 @@ void tell_smoothing_and_quadrature(const Case& description, const Scene& scene, 
 
 /// Every `stride`-th lattice point on each axis, weights scaled.
 Particles thinned(const Particles& particles, const Lattice& lattice, std::size_t stride) {
-  Particles thin;
-  thin.dimension = particles.dimension;
+  std::vector<std::size_t> chosen;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     auto rest = static_cast<std::size_t>(particles.id[j]);
     bool kept = true;
@@ -432,23 +430,11 @@ Particles thinned(const Particles& particles, const Lattice& lattice, std::size_
       kept = kept && rest % lattice.points[k] % stride == 0;
       rest /= lattice.points[k];
     }
-    if (!kept) continue;
-    for (int k = 0; k < particles.dimension; ++k) thin.position[k].push_back(particles.position[k][j]);
-    thin.alpha.push_back(particles.alpha[j] * std::pow(static_cast<double>(stride), particles.dimension));
-    thin.id.push_back(particles.id[j]);
+    if (kept) chosen.push_back(j);
   }
+  Particles thin = subset(particles, chosen);
+  for (double& alpha : thin.alpha) alpha *= std::pow(static_cast<double>(stride), particles.dimension);
   return thin;
-}
-
-Particles picked(const Particles& particles, const std::vector<std::size_t>& chosen) {
-  Particles some;
-  some.dimension = particles.dimension;
-  for (const std::size_t j : chosen) {
-    for (int k = 0; k < particles.dimension; ++k) some.position[k].push_back(particles.position[k][j]);
-    some.alpha.push_back(particles.alpha[j]);
-    some.id.push_back(particles.id[j]);
-  }
-  return some;
 }
 
 double predict_time_stepping(const Case& description, const Scene& scene, const Particles& seeded,
@@ -837,7 +823,7 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
   }
   const std::vector<Probe>& probes = chosen->probes;
   budget.probes = probes.size();
-  const Particles ran = picked(last.particles, chosen->around);
+  const Particles ran = subset(last.particles, chosen->around);
   const std::vector<double> by_steps = sums_at(probes, ran, scene.cutoff, threads);
   Particles ran_thin = chosen->stride > 1 ? thinned(ran, scene.seeding, chosen->stride) : ran;
   double cells = std::pow(static_cast<double>(chosen->stride), ran.dimension);

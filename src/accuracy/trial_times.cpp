@@ -10,6 +10,7 @@
 #include "accuracy/processor_clock.hpp"
 #include "base/stopwatch.hpp"
 #include "effect/catalogue.hpp"
+#include "particle/subset.hpp"
 #include "sim/stepper.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
@@ -63,16 +64,10 @@ double shared(double seconds, int threads, double serial) {
 }
 
 Particles sample_of(const Particles& all, std::size_t most) {
-  Particles some;
-  some.dimension = all.dimension;
   const std::size_t wanted = std::min(most, all.size());
-  for (std::size_t i = 0; i < wanted; ++i) {
-    const std::size_t j = i * all.size() / wanted;
-    for (int k = 0; k < all.dimension; ++k) some.position[k].push_back(all.position[k][j]);
-    some.alpha.push_back(all.alpha[j]);
-    some.id.push_back(all.id[j]);
-  }
-  return some;
+  std::vector<std::size_t> chosen(wanted);
+  for (std::size_t i = 0; i < wanted; ++i) chosen[i] = i * all.size() / wanted;
+  return subset(all, chosen);
 }
 
 std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_t particles) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/longest_side.hpp"
+
 namespace gaussdrift {
 
 std::vector<double> Lattice::nodes(int axis) const {
@@ -12,8 +14,7 @@ std::vector<double> Lattice::nodes(int axis) const {
 }
 
 Lattice make_lattice(int dimension, const Vector& min, const Vector& max, int per_axis) {
-  double longest = 0;
-  for (int k = 0; k < dimension; ++k) longest = std::max(longest, max[k] - min[k]);
+  const double longest = longest_side(dimension, min, max);
   Lattice lattice = make_lattice_with_spacing(dimension, min, max, longest / (per_axis - 1));
   for (int k = 0; k < dimension; ++k)
     if (max[k] - min[k] == longest) lattice.origin[k] = min[k];

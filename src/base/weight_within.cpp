@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/longest_side.hpp"
 
 namespace gaussdrift {
 
@@ -23,8 +24,7 @@ double largest_weight_within(const PointsView& points, const double* weight, dou
   }
   // The box array may have a few entries a point; a very short reach gets longer boxes, which only raises the bound.
   const double allowed = 4.0 * static_cast<double>(count) + 1e6;
-  double longest = 0;
-  for (int k = 0; k < dimension; ++k) longest = std::max(longest, high[k] - low[k]);
+  const double longest = longest_side(dimension, low, high);
   double side = std::max(reach / 2, longest / allowed);
   if (!(side > 0)) side = 1;  // all on one place
   std::array<std::size_t, max_dimension> boxes{1, 1, 1};

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/users_words.hpp"
 #include "effect/catalogue.hpp"
+#include "particle/fgtd_points.hpp"
 
 namespace gaussdrift {
 
@@ -19,14 +20,6 @@ namespace {
 // eta_eps(x) = eps^-d 4 pi^{-d/2} exp(-|x|^2/eps^2): second moments 2 delta_ij, so that
 // eps^-2 int (f(y) - f(x)) eta_eps(x - y) dy = Laplacian f + O(eps^2).
 double peak_of_eta(int dimension, double eps) { return 4 * std::pow(std::sqrt(std::numbers::pi) * eps, -dimension); }
-
-template <int d>
-fgtd::Points<d> points_of(const Particles& particles) {
-  fgtd::Points<d> points(d, static_cast<Eigen::Index>(particles.size()));
-  for (int k = 0; k < d; ++k)
-    points.row(k) = Eigen::Map<const Eigen::RowVectorXd>(particles.position[k].data(), points.cols());
-  return points;
-}
 
 Eigen::Map<const Eigen::VectorXd> column(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};

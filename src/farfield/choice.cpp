@@ -5,39 +5,48 @@
 
 namespace farfield {
 
+namespace {
+
+template <class Value>
+struct Named {
+  Value value;
+  const char* name;  // as in files
+};
+
+constexpr Named<Kernel> kernel_names[] = {
+    {Kernel::coulomb, "coulomb"}, {Kernel::log, "log"}, {Kernel::vortex_blob, "vortex-blob"}};
+constexpr Named<Method> method_names[] = {
+    {Method::automatic, "auto"}, {Method::direct, "direct"}, {Method::tree, "tree"}, {Method::symmetric, "symmetric"}};
+
+template <class Value, std::size_t count>
+std::vector<Value> values_of(const Named<Value> (&list)[count]) {
+  std::vector<Value> values;
+  for (const Named<Value>& entry : list) values.push_back(entry.value);
+  return values;
+}
+
+template <class Value, std::size_t count>
+std::string name_in(const Named<Value> (&list)[count], Value value) {
+  for (const Named<Value>& entry : list)
+    if (entry.value == value) return entry.name;
+  return list[0].name;
+}
+
+}  // namespace
+
 const std::vector<Kernel>& kernels() {
-  static const std::vector<Kernel> all{Kernel::coulomb, Kernel::log, Kernel::vortex_blob};
+  static const std::vector<Kernel> all = values_of(kernel_names);
   return all;
 }
 
 const std::vector<Method>& methods() {
-  static const std::vector<Method> all{Method::automatic, Method::direct, Method::tree, Method::symmetric};
+  static const std::vector<Method> all = values_of(method_names);
   return all;
 }
 
-std::string to_string(Kernel kernel) {
-  switch (kernel) {
-    case Kernel::coulomb:
-      return "coulomb";
-    case Kernel::log:
-      return "log";
-    default:
-      return "vortex-blob";
-  }
-}
+std::string to_string(Kernel kernel) { return name_in(kernel_names, kernel); }
 
-std::string to_string(Method method) {
-  switch (method) {
-    case Method::direct:
-      return "direct";
-    case Method::tree:
-      return "tree";
-    case Method::symmetric:
-      return "symmetric";
-    default:
-      return "auto";
-  }
-}
+std::string to_string(Method method) { return name_in(method_names, method); }
 
 std::ostream& operator<<(std::ostream& out, const Choice& choice) {
   out << to_string(choice.kernel) << " by " << to_string(choice.method) << ": " << choice.sources << " sources, "

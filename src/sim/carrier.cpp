@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/longest_side.hpp"
 #include "base/number.hpp"
 #include "base/parallel.hpp"
 #include "sim/simulation.hpp"
@@ -52,9 +53,7 @@ Carrier::Carrier(const Case& description, const Scene& scene, int threads)
       threads_(base::resolve_threads(threads)) {
   if (!time::is_adaptive(tableau_)) return;
   AdaptiveStepper::Options options{description.time.tolerance, 0, description.time.step, threads};
-  for (int k = 0; k < description.domain.dimension; ++k)
-    options.length = std::max(options.length, description.domain.max[static_cast<std::size_t>(k)] -
-                                                  description.domain.min[static_cast<std::size_t>(k)]);
+  options.length = longest_side(description.domain.dimension, description.domain.min, description.domain.max);
   adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), drifts_, options);
 }
 

@@ -13,18 +13,11 @@
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "base/weight_within.hpp"
+#include "particle/fgtd_points.hpp"
 
 namespace gaussdrift {
 
 namespace {
-
-template <int d>
-fgtd::Points<d> points_of(const Particles& particles) {
-  fgtd::Points<d> points(d, static_cast<Eigen::Index>(particles.size()));
-  for (int k = 0; k < d; ++k)
-    points.row(k) = Eigen::Map<const Eigen::RowVectorXd>(particles.position[k].data(), points.cols());
-  return points;
-}
 
 // All terms of one Gaussian width: one prepared transform, evaluated with derivatives.
 template <int d>

@@ -6,16 +6,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/longest_side.hpp"
+
 namespace gaussdrift {
 
 double part_outside(const Particles& particles, const Domain& domain) {
   // Particles that start on the edge stay there in many flows, but for rounding.
   constexpr double rounding = 1e-9;
-  double longest = 0;
-  for (int k = 0; k < domain.dimension; ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    longest = std::max(longest, domain.max[axis] - domain.min[axis]);
-  }
+  const double longest = longest_side(domain.dimension, domain.min, domain.max);
   double all = 0, outside = 0;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     const double weight = std::abs(particles.alpha[j]);

@@ -9,12 +9,14 @@
 #include "accuracy/target.hpp"
 #include "accuracy/would_run.hpp"
 #include "base/error.hpp"
+#include "base/longest_side.hpp"
 #include "base/number.hpp"
 #include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "effect/catalogue.hpp"
 #include "particle/cutoff.hpp"
+#include "particle/subset.hpp"
 #include "reference/exact_paths.hpp"
 #include "sim/simulation.hpp"
 #include "study/study.hpp"
@@ -26,12 +28,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double longest_side(const Case& scene) {
-  double longest = 0;
-  for (int k = 0; k < scene.domain.dimension; ++k)
-    longest = std::max(longest,
-                       scene.domain.max[static_cast<std::size_t>(k)] - scene.domain.min[static_cast<std::size_t>(k)]);
-  return longest;
+double longest_side_of(const Case& scene) {
+  return longest_side(scene.domain.dimension, scene.domain.min, scene.domain.max);
 }
 
 template <class SomeExperiment>
@@ -164,18 +162,15 @@ double largest_distance(const Particles& a, const Particles& b) {
 /// Some of the particles, and their paths to full precision.
 Paths paths_in_the_flow(const Case& scene, const Scene& parts, const Particles& all, int threads) {
   Paths paths;
-  paths.start.dimension = all.dimension;
   const std::size_t stride = std::max<std::size_t>(1, all.size() / 2000);
-  for (std::size_t j = 0; j < all.size(); j += stride) {
-    for (int k = 0; k < all.dimension; ++k) paths.start.position[k].push_back(all.position[k][j]);
-    paths.start.alpha.push_back(all.alpha[j]);
-    paths.start.id.push_back(all.id[j]);
-  }
+  std::vector<std::size_t> chosen;
+  for (std::size_t j = 0; j < all.size(); j += stride) chosen.push_back(j);
+  paths.start = subset(all, chosen);
   paths.scale = static_cast<double>(all.size()) / static_cast<double>(paths.start.size());
   paths.exact = paths.start;
   carry_exactly(
       *parts.velocity, nullptr, paths.exact, 0, scene.output.times.back(),
-      {.tolerance = parts.velocity->is_smooth() ? 1e-14 : 1e-10, .length = longest_side(scene), .threads = threads});
+      {.tolerance = parts.velocity->is_smooth() ? 1e-14 : 1e-10, .length = longest_side_of(scene), .threads = threads});
   return paths;
 }
 

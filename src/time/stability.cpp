@@ -53,16 +53,6 @@ std::complex<double> stability_function(const std::vector<double>& polynomial, s
   return value;
 }
 
-double stability_limit(const Tableau& rk, std::complex<double> direction) {
-  const std::vector<double> polynomial = stability_polynomial(rk);
-  // Rounding of |R| about 1; a method whose |R| exceeds 1 at once does so by more at the first scanned point.
-  constexpr double rounding = 1e-13;
-  const double limit =
-      end_of_stretch([&](double y) { return std::abs(stability_function(polynomial, y * direction)) <= 1 + rounding; },
-                     largest_radius);
-  return limit < scan_step ? 0 : limit;
-}
-
 double largest_stable_step(const Tableau& rk, std::complex<double> lambda, double length, double growth, double most) {
   const double size = std::abs(lambda);
   if (size == 0 || length <= 0) return most;

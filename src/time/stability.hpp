@@ -14,9 +14,6 @@ std::vector<double> stability_polynomial(const Tableau& rk);
 
 std::complex<double> stability_function(const std::vector<double>& polynomial, std::complex<double> z);
 
-/// The largest y such that |R| <= 1 on all of [0, y] times `direction` (|direction| = 1); 0 if |R| > 1 at once.
-double stability_limit(const Tableau& rk, std::complex<double> direction);
-
 /// Logarithm of the factor by which a motion of rate lambda, y' = lambda y, grows too much over the time `length` in
 /// steps of `step`: (length / step) (ln |R(lambda step)| - max(0, Re lambda) step).
 double growth_of_step(const Tableau& rk, std::complex<double> lambda, double length, double step);

@@ -88,7 +88,7 @@ void expect_that_cuts_change_no_bit(std::size_t nodes, double sigma) {
     const fgtd::Plan<d> plan(sources, weights, sigma,
                              {.tolerance = 1e-7,
                               .derivative_order = 2,
-                              .method = fgtd::Method::outer,
+                              .method = fgtd::Method::outer_product,
                               .threads = threads,
                               .expected_grid = grid});
     const Eigen::MatrixXd values = plan.evaluate_combinations(grid, combinations);

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <random>
 
-#include "field/velocity/gradient.hpp"
 #include "time/adaptive.hpp"
 
 namespace gaussdrift {
@@ -248,22 +247,6 @@ TEST(NamedField, RefusesArgumentsThatItDoesNotKnow) {
   EXPECT_THROW(make_named_field("rotation", box, {{"speed", {1}}}), std::invalid_argument);
   EXPECT_THROW(make_named_field("rotation", box, {{"center", {1}}}), std::invalid_argument);
   EXPECT_THROW(make_named_field("translation", box), std::invalid_argument);
-}
-
-TEST(GradientSample, FindsTheLargestGradientOfKnownFields) {
-  const Vector low{-1, -1, -1}, high{1, 1, 1};
-  const auto sampled = [&](const char* name, const Arguments& given) {
-    return sample_gradient(*make_named_field(name, {2, low, high}, given), 2, low, high, 0, 1);
-  };
-  EXPECT_NEAR(sampled("rotation", {{"rate", {3}}}).largest, 3 * std::numbers::sqrt2, 2.3e-10);  // rounding / 1e-6
-  EXPECT_NEAR(sampled("rotation", {{"rate", {3}}}).speed, 3 * std::numbers::sqrt2,
-              0.18);  // the corner is not sampled: 0.061
-  EXPECT_NEAR(sampled("shear", {{"rate", {-2}}}).largest, 2, 2.3e-10);
-  const GradientSample growing = sample_gradient(ExpressionField({"t*x", "0"}, {}), 2, low, high, 0, 4);
-  EXPECT_NEAR(growing.largest, 4, 2.3e-10);
-  EXPECT_EQ(growing.time, 4);
-  EXPECT_FALSE(sample_gradient(ExpressionField({"sqrt(x)", "0"}, {}), 2, low, high, 0, 0).finite);
-  EXPECT_TRUE(growing.finite);
 }
 
 }  // namespace

@@ -24,14 +24,12 @@ void to_parities(double* values, std::size_t run) {
     }
 }
 
-}  // namespace
-
+/// The kernel between the nodes of two clusters whose cells are k apart, by parities in all axes:
+/// values[s' of the source][j][s of the target][i].
 template <int d>
-Coupling make_coupling(const Interpolation<d>& interpolation, const int* k) {
+Buffer<double> kernel_by_parities(const Interpolation<d>& interpolation, const int* k) {
   constexpr std::size_t reflections = Interpolation<d>::reflections;
   const std::size_t octant = interpolation.octant(), nodes = interpolation.nodes();
-
-  // values[s' of the source][j][s of the target][i]
   Buffer<double> values(nodes * nodes), target(d * nodes);
   for (std::size_t l = 0; l < d; ++l)
     for (std::size_t s = 0; s < reflections; ++s)
@@ -54,14 +52,58 @@ Coupling make_coupling(const Interpolation<d>& interpolation, const int* k) {
       to_parities<d>(row, octant);
     }
   to_parities<d>(values.data(), octant * nodes);
+  return values;
+}
+
+/// The part of a block's matrix between the functions of two parities; `to` points at its first entry, `size` numbers
+/// from row to row.
+template <int d>
+void couple(const Interpolation<d>& interpolation, const Buffer<double>& values, unsigned from_parity,
+            unsigned to_parity, double* to, std::size_t size) {
+  constexpr double mean = 1.0 / static_cast<double>(Interpolation<d>::reflections * Interpolation<d>::reflections);
+  const std::size_t octant = interpolation.octant(), nodes = interpolation.nodes();
+  const std::size_t columns = interpolation.functions_of(to_parity).size();
+  const std::size_t rows = interpolation.functions_of(from_parity).size();
+  if (rows == 0 || columns == 0) return;
+  // half[a... of the target][j] is needed transposed: first by j, then the sum over j
+  Buffer<double> half;
+  half.assign(octant * columns + padding, 0.0);
+  fastest_kernels().product({.rows = octant,
+                             .depth = octant,
+                             .width = columns,
+                             .a = values.data() + from_parity * octant * nodes + to_parity * octant,
+                             .a_stride = nodes,
+                             .b = interpolation.weights_of(to_parity).data(),
+                             .b_stride = columns,
+                             .c = half.data(),
+                             .c_stride = columns});
+  const std::vector<double>& weight = interpolation.weights_of(from_parity);
+  Buffer<double> transposed(rows * octant);
+  for (std::size_t j = 0; j < octant; ++j)
+    for (std::size_t b = 0; b < rows; ++b) transposed[b * octant + j] = weight[j * rows + b] * mean;
+  fastest_kernels().product({.rows = rows,
+                             .depth = octant,
+                             .width = columns,
+                             .a = transposed.data(),
+                             .a_stride = octant,
+                             .b = half.data(),
+                             .b_stride = columns,
+                             .c = to,
+                             .c_stride = size});
+}
+
+}  // namespace
+
+template <int d>
+Coupling make_coupling(const Interpolation<d>& interpolation, const int* k) {
+  constexpr std::size_t reflections = Interpolation<d>::reflections;
+  const Buffer<double> values = kernel_by_parities<d>(interpolation, k);
 
   unsigned coupled = 0;  // parities in these axes mix
   for (unsigned l = 0; l < d; ++l)
     if (k[l] != 0) coupled |= 1U << l;
   Coupling coupling;
   coupling.degree = interpolation.degree();
-  constexpr double mean = 1.0 / static_cast<double>(reflections * reflections);
-  Buffer<double> half;
   for (unsigned base = 0; base < reflections; ++base) {
     if ((base & coupled) != 0) continue;
     Coupling::Block block;
@@ -78,38 +120,10 @@ Coupling make_coupling(const Interpolation<d>& interpolation, const int* k) {
     const std::size_t size = block.functions.size();
     if (size == 0) continue;
     block.matrix.assign(size * size + padding, 0.0);
-    for (std::size_t to = 0; to < parities.size(); ++to) {
-      const std::size_t columns = interpolation.functions_of(parities[to]).size();
-      if (columns == 0) continue;
-      for (std::size_t from = 0; from < parities.size(); ++from) {
-        const std::size_t rows = interpolation.functions_of(parities[from]).size();
-        if (rows == 0) continue;
-        // half[a... of the target][j] is needed transposed: first by j, then the sum over j
-        half.assign(octant * columns + padding, 0.0);
-        fastest_kernels().product({.rows = octant,
-                                   .depth = octant,
-                                   .width = columns,
-                                   .a = values.data() + parities[from] * octant * nodes + parities[to] * octant,
-                                   .a_stride = nodes,
-                                   .b = interpolation.weights_of(parities[to]).data(),
-                                   .b_stride = columns,
-                                   .c = half.data(),
-                                   .c_stride = columns});
-        const std::vector<double>& weight = interpolation.weights_of(parities[from]);
-        Buffer<double> transposed(rows * octant);
-        for (std::size_t j = 0; j < octant; ++j)
-          for (std::size_t b = 0; b < rows; ++b) transposed[b * octant + j] = weight[j * rows + b] * mean;
-        fastest_kernels().product({.rows = rows,
-                                   .depth = octant,
-                                   .width = columns,
-                                   .a = transposed.data(),
-                                   .a_stride = octant,
-                                   .b = half.data(),
-                                   .b_stride = columns,
-                                   .c = block.matrix.data() + first[from] * size + first[to],
-                                   .c_stride = size});
-      }
-    }
+    for (std::size_t to = 0; to < parities.size(); ++to)
+      for (std::size_t from = 0; from < parities.size(); ++from)
+        couple<d>(interpolation, values, parities[from], parities[to],
+                  block.matrix.data() + first[from] * size + first[to], size);
     coupling.blocks.push_back(std::move(block));
   }
   return coupling;

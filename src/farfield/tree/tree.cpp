@@ -78,6 +78,35 @@ void sort_by_octant(SortedPoints& points, Scratch& scratch, Range range, const d
   back(scratch.points.original, points.original);
 }
 
+/// Where the octants of a cluster end among its points.
+template <int d>
+struct Ends {
+  std::size_t sources[octants<d>], targets[octants<d>];
+  bool divided = false;
+};
+
+/// Appends the octants of cluster `number` that have points.
+template <int d>
+void add_children(std::vector<Cluster>& clusters, std::size_t number, const Ends<d>& ends) {
+  const Cluster parent = clusters[number];
+  clusters[number].first_child = static_cast<Index>(clusters.size());
+  Range sources{parent.sources.begin, parent.sources.begin}, targets{parent.targets.begin, parent.targets.begin};
+  for (std::size_t o = 0; o < octants<d>; ++o) {
+    sources = {sources.end, ends.sources[o]};
+    targets = {targets.end, ends.targets[o]};
+    if (sources.begin == sources.end && targets.begin == targets.end) continue;
+    Cluster child;
+    child.parent = static_cast<Index>(number);
+    child.level = static_cast<std::uint8_t>(parent.level + 1);
+    child.octant = static_cast<std::uint8_t>(o);
+    for (std::size_t l = 0; l < d; ++l) child.cell[l] = 2 * parent.cell[l] + static_cast<std::int64_t>(o >> l & 1U);
+    child.sources = sources;
+    child.targets = targets;
+    clusters.push_back(child);
+    ++clusters[number].children;
+  }
+}
+
 }  // namespace
 
 template <int d>
@@ -86,12 +115,10 @@ double Tree<d>::side(int level) const {
 }
 
 template <int d>
-Tree<d>::Tree(const Problem& problem, std::size_t leaf_size, double smallest_side, int threads) : self_(problem.self) {
-  copy(problem.source, d, problem.sources, sources_);
-  if (!self_) copy(problem.target, d, problem.targets, targets_);
+void Tree<d>::enclose() {
   Extent extent;
-  extent.include(sources_.position, d, {0, problem.sources});
-  if (!self_) extent.include(targets_.position, d, {0, problem.targets});
+  extent.include(sources_.position, d, {0, sources_.original.size()});
+  if (!self_) extent.include(targets_.position, d, {0, targets_.original.size()});
   // A corner of 10 digits after the point and a side of 8 in all: with 41 for the levels these are 53 for coordinates
   // below 4, which the engine sees to.
   double widest = 0;
@@ -101,7 +128,13 @@ Tree<d>::Tree(const Problem& problem, std::size_t leaf_size, double smallest_sid
   }
   const int exponent = std::max(std::ilogb(std::max(widest, 0x1p-3)), -3) - 7;
   side_ = std::ldexp(std::floor(std::ldexp(widest, -exponent)) + 1, exponent);
+}
 
+template <int d>
+Tree<d>::Tree(const Problem& problem, std::size_t leaf_size, double smallest_side, int threads) : self_(problem.self) {
+  copy(problem.source, d, problem.sources, sources_);
+  if (!self_) copy(problem.target, d, problem.targets, targets_);
+  enclose();
   Scratch source_scratch, target_scratch;
   make_scratch(sources_, d, source_scratch);
   if (!self_) make_scratch(targets_, d, target_scratch);
@@ -111,11 +144,7 @@ Tree<d>::Tree(const Problem& problem, std::size_t leaf_size, double smallest_sid
   root.targets = {0, problem.targets};
   clusters_.push_back(root);
   level_begin_ = {0, 1};
-  struct Ends {
-    std::size_t sources[octants<d>], targets[octants<d>];
-    bool divided = false;
-  };
-  std::vector<Ends> ends;
+  std::vector<Ends<d>> ends;
   for (int level = 0;; ++level) {
     const std::size_t begin = level_begin_[static_cast<std::size_t>(level)], end = clusters_.size();
     const bool last = level == max_level || side(level + 1) < smallest_side;
@@ -149,26 +178,8 @@ Tree<d>::Tree(const Problem& problem, std::size_t leaf_size, double smallest_sid
       }
       ends[i].divided = true;
     });
-    for (std::size_t i = 0; i < end - begin; ++i) {
-      if (!ends[i].divided) continue;
-      const Cluster parent = clusters_[begin + i];
-      clusters_[begin + i].first_child = static_cast<Index>(clusters_.size());
-      Range sources{parent.sources.begin, parent.sources.begin}, targets{parent.targets.begin, parent.targets.begin};
-      for (std::size_t o = 0; o < octants<d>; ++o) {
-        sources = {sources.end, ends[i].sources[o]};
-        targets = {targets.end, ends[i].targets[o]};
-        if (sources.begin == sources.end && targets.begin == targets.end) continue;
-        Cluster child;
-        child.parent = static_cast<Index>(begin + i);
-        child.level = static_cast<std::uint8_t>(level + 1);
-        child.octant = static_cast<std::uint8_t>(o);
-        for (std::size_t l = 0; l < d; ++l) child.cell[l] = 2 * parent.cell[l] + static_cast<std::int64_t>(o >> l & 1U);
-        child.sources = sources;
-        child.targets = targets;
-        clusters_.push_back(child);
-        ++clusters_[begin + i].children;
-      }
-    }
+    for (std::size_t i = 0; i < end - begin; ++i)
+      if (ends[i].divided) add_children<d>(clusters_, begin + i, ends[i]);
     if (clusters_.size() == end) break;
     level_begin_.push_back(clusters_.size());
   }

@@ -62,6 +62,9 @@ class Tree {
   }
 
  private:
+  /// Sets corner and side of the root so that it holds all points.
+  void enclose();
+
   bool self_;
   double corner_[3] = {}, side_ = 1;  // of the root
   std::vector<Cluster> clusters_;

@@ -153,8 +153,8 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
   const std::size_t scratch_size = outer_product_scratch(d, bundles.highest.data(), longest.data());
   for (std::size_t l = 0; l < d; ++l) step[l] = l == 0 ? 1 : step[l - 1] * grid.axes[l - 1].size();
 
-  const double seconds =
-      static_cast<double>(outputs) * (pairs * cost::outer_product_step + static_cast<double>(total) * cost::outer_product_value);
+  const double seconds = static_cast<double>(outputs) *
+                         (pairs * cost::outer_product_step + static_cast<double>(total) * cost::outer_product_value);
   gaussdrift::base::parallel_for({cuts.size() - 1, seconds}, threads_, [&](std::size_t slab) {
     for (std::size_t output = 0; output < outputs; ++output)
       std::fill(values + output * total + cuts[slab] * step[d - 1],

@@ -1,4 +1,4 @@
-// What the kernels of `chebyshev` are given (fgtd/chebyshev/kernels.cpp). Coordinates within a box are local: -1 on its
+// What the kernels of `chebyshev` are given (fgtd/chebyshev/sort_kernels.cpp, node_kernels.cpp). Coordinates within a box are local: -1 on its
 // lower face, 1 on its upper.
 #pragma once
 

@@ -42,8 +42,8 @@ CORE_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x
   }
 }
 
-/// Rows in blocks that are tall enough that the additions of a sum wait for nobody, of nearly the same height, and no
-/// larger than the registers.
+/// Cuts rows into blocks of nearly the same height. They are so tall that no addition waits for the one before, and
+/// small enough for the registers.
 template <int vectors>
 CORE_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t valid) {
   constexpr std::size_t tall = vectors == 1 ? 8 : 4;
@@ -119,8 +119,8 @@ CORE_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, st
   }
 }
 
-/// to[l][j], l < d, and the weight of records behind: what is known of the points first .. first + count, one row a
-/// coordinate, the last point repeated up to a whole vector of 8.
+/// Coordinates of the points first .. first + count as rows to[l][j], l < d, and behind them the weight that records
+/// carry. The last point is repeated up to a whole vector of 8.
 template <int d>
 CORE_INLINE void bring_apart(const double* local, std::size_t step, std::size_t count, double* to, std::size_t stride) {
   const std::size_t padded = (count + 7) / 8 * 8;

@@ -23,7 +23,7 @@ CORE_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, do
   i = floor_of(i);
   i = i < job.first ? broadcast(job.first) : i;
   i = i > job.last ? broadcast(job.last) : i;
-  // The rounding of the quotient may miss the box by one; what is left over says so.
+  // The rounding of the quotient may miss the box by one; the remainder shows it.
   Vector rest = x - (i * job.side + job.origin);
   const Vector below =
       select(reinterpret_cast<Bits>(rest < 0.0) & reinterpret_cast<Bits>(i > job.first), broadcast(1.0));
@@ -123,7 +123,7 @@ CORE_INLINE void find_box(const QuadAxis& a, Quad x, Quad& number, Quad& local, 
 /// Brings every point to its place. next[box] is where the next point of a box goes; keys are boxes, then places.
 CORE_INLINE void place(const SortBlockJob& job, std::uint32_t* next, std::uint32_t* key, bool with_weight) {
   const std::size_t count = job.count;
-  // The arrays in names of their own: stores could change what the job points to.
+  // The arrays have names of their own, because for the compiler stores could change the job's pointers.
   const double* unsorted = job.unsorted;
   double* local = job.local;
   for (std::size_t j = 0; j < count; ++j) {

@@ -6,34 +6,12 @@
 
 #include "base/parallel.hpp"
 #include "fgtd/chebyshev/jobs.hpp"
+#include "fgtd/chebyshev/matrices.hpp"
+#include "fgtd/chebyshev/translation.hpp"
 #include "fgtd/cost.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {
-
-/// Matrices of the Gaussian and its derivatives on one axis, between the nodes of source boxes and groups of targets. A
-/// group is the nodes of a box, or neighbouring nodes of a grid. A matrix is rows x P. For the first axis it stands on
-/// the right and is P x rows.
-struct AxisMatrices {
-  struct Group {
-    std::size_t first_row, rows;
-    std::int64_t low, high;  // boxes in reach
-    std::size_t matrix;      // of box `low` and derivative 0
-  };
-  std::vector<Group> group;     // of a grid
-  std::size_t nodes = 0;        // P
-  bool transposed = false;      //
-  std::int64_t neighbours = 0;  // boxes: matrices depend on the difference of indices only
-  std::vector<double> numbers;
-  std::size_t order_step = 0;  // from one derivative to the next
-
-  Group box(std::int64_t index) const { return {0, nodes, index - neighbours, index + neighbours, 0}; }
-  const double* matrix(const Group& of, std::int64_t source, int order) const {
-    // group.low sees the source at the greatest difference of indices, which comes first
-    return numbers.data() + static_cast<std::size_t>(order) * order_step + of.matrix +
-           static_cast<std::size_t>(source - of.low) * of.rows * nodes;
-  }
-};
 
 namespace {
 
@@ -42,8 +20,6 @@ constexpr std::size_t interpolate_points = 1 << 12;  // of one piece of work
 constexpr std::size_t interpolate_run = 256;         // targets of one box handed to the kernel at a time
 constexpr std::size_t target_block = 1 << 22;        // targets sorted at a time
 constexpr std::size_t coefficient_budget = 1 << 19;  // numbers of target boxes that exist at a time
-constexpr std::size_t grid_group = 16;               // nodes of a grid that are computed together
-constexpr double grid_group_sides = 2;               // and lie within so many boxes
 
 template <int d>
 std::array<int, d> axes_upwards() {
@@ -57,95 +33,6 @@ std::array<int, d> axes_downwards() {
   std::array<int, d> axis;
   for (int l = 0; l < d; ++l) axis[static_cast<std::size_t>(l)] = d - 1 - l;
   return axis;
-}
-
-/// numbers[a][i] = h~_a(t_i) for all orders a; the numbers are padded as products want it.
-void tabulate(AxisMatrices& matrices, std::vector<double> t, int highest) {
-  matrices.order_step = (t.size() + chain_padding + row_padding - 1) / row_padding * row_padding;
-  t.resize(matrices.order_step, 0.0);
-  matrices.numbers.assign(matrices.order_step * static_cast<std::size_t>(highest + 1), 0.0);
-  const RecurrenceTable recurrence(highest + 1);
-  kernels().table({.count = matrices.order_step,
-                   .orders = highest + 1,
-                   .t = t.data(),
-                   .rows = matrices.numbers.data(),
-                   .stride = matrices.order_step,
-                   .recurrence = recurrence.view()});
-}
-
-AxisMatrices box_matrices(const std::vector<double>& node, double scaled_side, std::int64_t neighbours, int highest,
-                          bool transposed) {
-  AxisMatrices matrices;
-  matrices.nodes = node.size();
-  matrices.transposed = transposed;
-  matrices.neighbours = neighbours;
-  std::vector<double> t;
-  for (std::int64_t source = -neighbours; source <= neighbours; ++source)
-    for (std::size_t i = 0; i < node.size(); ++i)
-      for (std::size_t k = 0; k < node.size(); ++k) {
-        const double apart = transposed ? node[k] - node[i] : node[i] - node[k];  // target minus source
-        t.push_back(scaled_side * (0.5 * apart - static_cast<double>(source)));
-      }
-  tabulate(matrices, std::move(t), highest);
-  return matrices;
-}
-
-/// Groups of grid nodes, each with those of the `boxes` boxes that are in its reach.
-std::vector<AxisMatrices::Group> grid_groups(const std::vector<double>& nodes, double origin, double side,
-                                             std::int64_t boxes, double reach, std::size_t p) {
-  std::vector<AxisMatrices::Group> groups;
-  std::size_t numbers = 0;
-  for (std::size_t i = 0; i < nodes.size();) {
-    std::size_t end = i + 1;
-    while (end < nodes.size() && end - i < grid_group && nodes[end] - nodes[i] <= grid_group_sides * side) ++end;
-    const double last = static_cast<double>(boxes - 1);
-    const double low = std::clamp(std::floor((nodes[i] - origin - reach) / side - 1), 0.0, last);
-    const double high = std::clamp(std::floor((nodes[end - 1] - origin + reach) / side + 1), 0.0, last);
-    const AxisMatrices::Group group{i, end - i, static_cast<std::int64_t>(low), static_cast<std::int64_t>(high),
-                                    numbers};
-    groups.push_back(group);
-    numbers += static_cast<std::size_t>(group.high - group.low + 1) * group.rows * p;
-    i = end;
-  }
-  return groups;
-}
-
-double group_numbers(const std::vector<AxisMatrices::Group>& groups, std::size_t p) {
-  if (groups.empty()) return 0;
-  const AxisMatrices::Group& last = groups.back();
-  return static_cast<double>(last.matrix) +
-         static_cast<double>(last.high - last.low + 1) * static_cast<double>(last.rows) * static_cast<double>(p);
-}
-
-AxisMatrices grid_matrices(const std::vector<double>& nodes, const std::vector<double>& node, double origin,
-                           double side, std::int64_t boxes, double root_sigma, double reach, int highest,
-                           bool transposed) {
-  AxisMatrices matrices;
-  const std::size_t p = node.size();
-  matrices.nodes = p;
-  matrices.transposed = transposed;
-  matrices.group = grid_groups(nodes, origin, side, boxes, reach / root_sigma, p);
-  std::vector<double> t;
-  t.reserve(static_cast<std::size_t>(group_numbers(matrices.group, p)) + 2 * row_padding);
-  for (const auto& group : matrices.group)
-    for (std::int64_t source = group.low; source <= group.high; ++source) {
-      const double corner = origin + static_cast<double>(source) * side;
-      // A node out of the box's reach gets 0, whatever its group does: an argument of 1e3 gives 0.
-      const auto argument = [&](std::size_t row, std::size_t k) {
-        const double above = nodes[group.first_row + row] - corner;
-        const double gap = std::max(-above, above - side);
-        return gap * root_sigma > reach ? 1e3 : root_sigma * (above - 0.5 * side * (1 + node[k]));
-      };
-      if (transposed) {
-        for (std::size_t k = 0; k < p; ++k)
-          for (std::size_t row = 0; row < group.rows; ++row) t.push_back(argument(row, k));
-      } else {
-        for (std::size_t row = 0; row < group.rows; ++row)
-          for (std::size_t k = 0; k < p; ++k) t.push_back(argument(row, k));
-      }
-    }
-  tabulate(matrices, std::move(t), highest);
-  return matrices;
 }
 
 /// Lowest and highest coordinates.
@@ -202,129 +89,6 @@ std::size_t boxes_at_a_time(std::size_t numbers_of_one) {
 }
 
 }  // namespace
-
-/// The sums over source boxes and nodes, last axis first, for one column of weights. One object a piece of work.
-template <int d>
-class ChebyshevSum<d>::Translation {
- public:
-  using Group = AxisMatrices::Group;
-
-  Translation(const ChebyshevSum& sum, const Request<d>& request, const std::array<AxisMatrices, d>& matrices)
-      : sum_(sum), request_(request), matrices_(matrices) {
-    std::vector<std::size_t> all(request.derivatives.size());
-    for (std::size_t q = 0; q < all.size(); ++q) all[q] = q;
-    subset_[d] = {all};
-    input_[d].resize(sum.sources_.box.size());
-  }
-
-  void use_column(std::size_t k) {
-    for (std::size_t box = 0; box < input_[d].size(); ++box)
-      input_[d][box] = sum_.moments_.data() + (box * sum_.columns_ + k) * sum_.box_numbers_;
-  }
-
-  /// Contracts axis `axis` of the result of the axes above, for every distinct derivative on it. It calls then(subset
-  /// of that order) for each, when its result is in place. `above`: rows of the axes above.
-  template <class Then>
-  void contract(std::size_t axis, const Group& group, std::size_t above, const std::vector<std::size_t>& derivatives,
-                const Then& then) {
-    std::vector<std::size_t>& mine = subset_[axis];
-    for (int order = 0; order <= request_.highest[axis]; ++order) {
-      mine.clear();
-      for (const std::size_t q : derivatives)
-        if (request_.derivatives[q][axis] == order) mine.push_back(q);
-      if (mine.empty()) continue;
-      if (contract(axis, group, above, order)) then(mine);
-    }
-  }
-
-  const std::vector<std::size_t>& all_derivatives() const { return subset_[d]; }
-  /// After axis 0: [above][rows], above including all other axes.
-  const double* result() const { return output_[0].data(); }
-
- private:
-  /// False if nothing is in reach.
-  bool contract(std::size_t axis, const Group& group, std::size_t above, int order) {
-    const std::size_t p = sum_.node_.size();
-    const BoxLevel& children = sum_.tree_[axis];
-    const std::vector<const double*>& in = input_[axis + 1];
-    std::vector<const double*>& out = input_[axis];
-    const std::size_t parents = axis == 0 ? 1 : sum_.tree_[axis - 1].index.size();
-    const std::size_t width = to_power(p, static_cast<int>(axis));
-    const std::size_t size = above * group.rows * width;
-    out.assign(parents, nullptr);
-
-    place_.clear();
-    link_.clear();
-    first_link_.assign(1, 0);
-    for (std::size_t parent = 0; parent < parents; ++parent) {
-      const auto begin = axis == 0 ? 0 : sum_.tree_[axis - 1].first[parent];
-      const auto end = axis == 0 ? children.index.size() : sum_.tree_[axis - 1].first[parent + 1];
-      const auto from = children.index.begin();
-      std::size_t child =
-          static_cast<std::size_t>(std::lower_bound(from + static_cast<std::ptrdiff_t>(begin),
-                                                    from + static_cast<std::ptrdiff_t>(end), group.low) -
-                                   from);
-      for (; child < end && children.index[child] <= group.high; ++child)
-        if (in[child] != nullptr) link_.push_back(child);
-      if (link_.size() == first_link_.back()) continue;
-      first_link_.push_back(link_.size());
-      place_.push_back(parent);
-    }
-    if (place_.empty()) return false;
-    if (output_[axis].size() < place_.size() * size + chain_padding)
-      output_[axis].resize(place_.size() * size + chain_padding);
-
-    const AxisMatrices& matrices = matrices_[axis];
-    for (std::size_t i = 0; i < place_.size(); ++i) {
-      double* to = output_[axis].data() + i * size;
-      out[place_[i]] = to;
-      const std::size_t links = first_link_[i + 1] - first_link_[i];
-      matrix_.clear();
-      for (std::size_t k = 0; k < links; ++k)
-        matrix_.push_back(matrices.matrix(group, children.index[link_[first_link_[i] + k]], order));
-      block_.resize(links);
-      const std::size_t products = axis == 0 ? 1 : above;
-      for (std::size_t q = 0; q < products; ++q) {
-        for (std::size_t k = 0; k < links; ++k) block_[k] = in[link_[first_link_[i] + k]] + q * p * width;
-        if (axis == 0) {
-          kernels().chain({.rows = above,
-                           .depth = p,
-                           .width = group.rows,
-                           .links = links,
-                           .b = block_.data(),
-                           .b_stride = p,
-                           .d = matrix_.data(),
-                           .d_stride = group.rows,
-                           .c = to,
-                           .c_stride = group.rows,
-                           .add = false});
-        } else {
-          kernels().chain({.rows = group.rows,
-                           .depth = p,
-                           .width = width,
-                           .links = links,
-                           .b = matrix_.data(),
-                           .b_stride = p,
-                           .d = block_.data(),
-                           .d_stride = width,
-                           .c = to + q * group.rows * width,
-                           .c_stride = width,
-                           .add = false});
-        }
-      }
-    }
-    return true;
-  }
-
-  const ChebyshevSum& sum_;
-  const Request<d>& request_;
-  const std::array<AxisMatrices, d>& matrices_;
-  std::array<std::vector<std::size_t>, d + 1> subset_;   // derivatives that are being computed
-  std::array<std::vector<const double*>, d + 1> input_;  // of every node of level axis - 1; null if empty
-  std::array<std::vector<double>, d> output_;
-  std::vector<std::size_t> place_, link_, first_link_;
-  std::vector<const double*> matrix_, block_;
-};
 
 template <int d>
 ChebyshevSum<d>::ChebyshevSum(const ChebyshevPlan<d>& plan, double sigma, Buffer<double> position, int threads)

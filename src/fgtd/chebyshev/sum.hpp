@@ -21,7 +21,7 @@ namespace fgtd::detail {
 
 struct MethodEntry;
 
-struct AxisMatrices;  // fgtd/chebyshev/sum.cpp
+struct AxisMatrices;  // fgtd/chebyshev/matrices.hpp
 
 template <int d>
 struct ChebyshevPlan {
