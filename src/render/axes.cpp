@@ -18,6 +18,20 @@ Axis short_axis(const std::string& name, double min, double max, int intervals) 
   return axis;
 }
 
+std::size_t numbered_ticks(const std::vector<Rectangle>& numbers, double gap) {
+  const auto touch = [&](const Rectangle& a, const Rectangle& b) {
+    return a.x < b.right() + gap && b.x < a.right() + gap && a.y < b.top() + gap && b.y < a.top() + gap;
+  };
+  const auto crowded = [&](std::size_t every) {
+    for (std::size_t i = 0; i + every < numbers.size(); i += every)
+      if (touch(numbers[i], numbers[i + every])) return true;
+    return false;
+  };
+  std::size_t every = 1;
+  while (crowded(every)) ++every;
+  return every;
+}
+
 void draw_heading(Canvas& canvas, const PictureOptions& options, const ValueFacts& facts) {
   const Scale scale(canvas);
   const double left = scale(48), right = canvas.width() - scale(48), top = canvas.height() - scale(34);
@@ -53,18 +67,31 @@ void draw_axes(Canvas& canvas, const Rectangle& panel, const Axis& across, const
   const Scale scale(canvas);
   const double tick = scale(7), gap = scale(6);
   const int size = scale.font(18), title_size = scale.font(21);
+  const auto &below = across.ticks.list, &beside = upwards.ticks.list;
+  const auto x_of = [&](const Tick& t) { return panel.x + across.position(t.at) * panel.width; };
+  const auto y_of = [&](const Tick& t) { return panel.y + upwards.position(t.at) * panel.height; };
+  std::vector<Rectangle> numbers_below, numbers_beside;
+  for (const Tick& t : below) {
+    const double width = Canvas::text_width(t.label, size);
+    numbers_below.push_back({x_of(t) - width / 2, 0, width, 1. * size});
+  }
+  for (const Tick& t : beside) numbers_beside.push_back({0, y_of(t) - size / 2., 1, 1. * size});
+  const std::size_t every_below = numbered_ticks(numbers_below, scale(2)),
+                    every_beside = numbered_ticks(numbers_beside, scale(2));
   std::vector<Polyline> marks;
-  for (const Tick& t : across.ticks.list) {
-    const double x = panel.x + across.position(t.at) * panel.width;
+  for (std::size_t i = 0; i < below.size(); ++i) {
+    const double x = x_of(below[i]);
     marks.push_back({{{x, panel.y}, {x, panel.y - tick}}, ink});
-    canvas.text({x, panel.y - tick - gap}, t.label, {.size = size, .along = Along::top});
+    if (i % every_below == 0)
+      canvas.text({x, panel.y - tick - gap}, below[i].label, {.size = size, .along = Along::top});
   }
   double widest = 0;
-  for (const Tick& t : upwards.ticks.list) {
-    const double y = panel.y + upwards.position(t.at) * panel.height;
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    const double y = y_of(beside[i]);
     marks.push_back({{{panel.x, y}, {panel.x - tick, y}}, ink});
-    canvas.text({panel.x - tick - gap, y}, t.label, {.size = size, .across = Across::right});
-    widest = std::max(widest, Canvas::text_width(t.label, size));
+    if (i % every_beside != 0) continue;
+    canvas.text({panel.x - tick - gap, y}, beside[i].label, {.size = size, .across = Across::right});
+    widest = std::max(widest, Canvas::text_width(beside[i].label, size));
   }
   canvas.lines(marks, 1.3);
   canvas.frame(panel, ink, 1.3);

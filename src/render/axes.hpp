@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/canvas.hpp"
 #include "render/height_field.hpp"
@@ -36,6 +37,10 @@ struct Axis {
 
 /// An axis with at least two ticks if the numbers allow it: short sides get finer ones.
 Axis short_axis(const std::string& name, double min, double max, int intervals);
+
+/// Every how many-th tick of an axis gets its number, so that no two numbers come nearer than `gap`. `numbers`: where
+/// each would stand. Ticks keep their marks.
+std::size_t numbered_ticks(const std::vector<Rectangle>& numbers, double gap);
 
 /// Title, time, and the extremes of the density, which colours alone do not tell.
 void draw_heading(Canvas& canvas, const PictureOptions& options, const ValueFacts& facts);

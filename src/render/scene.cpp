@@ -151,15 +151,21 @@ void draw_edge(Canvas& canvas, const View& view, const Axis& axis, const Place& 
     return Point{at.x + reach * direction.x, at.y + reach * direction.y};
   };
   std::vector<Polyline> marks;
+  std::vector<Point> texts;
+  std::vector<Rectangle> numbers;
   double widest = 0;
   for (const Tick& t : axis.ticks.list) {
     const Place place = along(axis.position(t.at));
     const Point at = view.pixel(place), direction = outwards(place);
     const double tick = scale(8), width = Canvas::text_width(t.label, size);
     marks.push_back({{at, {at.x + tick * direction.x, at.y + tick * direction.y}}, ink});
-    canvas.text(centre(at, direction, scale(15), width, size), t.label, {.size = size});
+    const Point text = centre(at, direction, scale(15), width, size);
+    texts.push_back(text);
+    numbers.push_back({text.x - width / 2, text.y - size / 2., width, 1. * size});
     widest = std::max(widest, width);
   }
+  const std::size_t every = numbered_ticks(numbers, scale(2));
+  for (std::size_t i = 0; i < texts.size(); i += every) canvas.text(texts[i], axis.ticks.list[i].label, {.size = size});
   canvas.lines(marks, 1.3);
   canvas.line(view.pixel(from), view.pixel(to), ink, 1.3);
   const Place middle = along(0.5);

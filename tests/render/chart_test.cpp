@@ -63,7 +63,7 @@ TEST(Chart, ShowsAPowerLawAsAStraightLine) {
     heights.push_back(0.5 * (rows.front() + rows.back()));
   }
   for (std::size_t k = 2; k < heights.size(); ++k)
-    EXPECT_NEAR(heights[k] - heights[k - 1], heights[1] - heights[0], 1.5) << "falls by the same, to a pixel";
+    EXPECT_NEAR(heights[k] - heights[k - 1], heights[1] - heights[0], 1) << "falls by the same, to a pixel";
   EXPECT_LT(heights[1], heights[0]);
 }
 

@@ -1,6 +1,6 @@
 // The promise, term by term, for every method: with one-hot columns of weights each column of the result is a single
 // Gaussian, right to tolerance N_alpha at every target, and beyond L = 2 ln(1/tolerance) + 40 to tolerance N_alpha
-// exp(L - sigma r^2). And nothing wasted: on geometric average not more than 100 times better than asked for.
+// exp(L - sigma r^2). And nothing wasted: on geometric average the sums are not much better than asked for.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -180,11 +180,15 @@ void report(fgtd::Method method, const Record& record) {
   testing::Test::RecordProperty("worst", std::to_string(record.worst));
 }
 
-/// Geometric mean of requested over achieved, in one-hot columns, worst over targets.
-void expect_little_waste(fgtd::Method method, const Record& record) {
-  if (method != fgtd::Method::direct) {
-    EXPECT_LE(record.waste(), 100.0) << fgtd::to_string(method);
-  }
+/// Geometric mean of requested over achieved, in one-hot columns, worst over targets. The bounds are at most 3 times
+/// what is measured for any method: 1.5 to 3.9 in 1D, 4.4 to 7.7 in 2D, 6 to 14 in 3D. Bounds on errors have a factor
+/// for every dimension. In 3D the bound
+/// of hermite is the loosest, and it wastes 23 times.
+void expect_little_waste(fgtd::Method method, const Record& record, int dimension) {
+  EXPECT_EQ(record.served, record.plans);  // a method that gives way to another would pass everything
+  if (method == fgtd::Method::direct) return;
+  const double most = dimension == 1 ? 4.4 : dimension == 2 ? 13 : method == fgtd::Method::hermite ? 50 : 17;
+  EXPECT_LE(record.waste(), most) << fgtd::to_string(method);
 }
 
 class EveryMethod : public testing::TestWithParam<fgtd::Method> {
@@ -211,18 +215,17 @@ class EveryMethod : public testing::TestWithParam<fgtd::Method> {
 TEST_P(EveryMethod, KeepsItsPromiseInOneDimensionAndWastesNothing) {
   const Record record = sweep<1>();
   report(GetParam(), record);
-  expect_little_waste(GetParam(), record);
+  expect_little_waste(GetParam(), record, 1);
 }
 TEST_P(EveryMethod, KeepsItsPromiseInTwoDimensionsAndWastesNothing) {
   const Record record = sweep<2>();
   report(GetParam(), record);
-  expect_little_waste(GetParam(), record);
-  EXPECT_GE(4 * record.served, record.plans);  // a method that always gives way to another would pass everything
+  expect_little_waste(GetParam(), record, 2);
 }
 TEST_P(EveryMethod, KeepsItsPromiseInThreeDimensionsAndWastesNothing) {
   const Record record = sweep<3>();
   report(GetParam(), record);
-  expect_little_waste(GetParam(), record);
+  expect_little_waste(GetParam(), record, 3);
 }
 
 TEST_P(EveryMethod, KeepsItsPromiseInFourDimensions) {
