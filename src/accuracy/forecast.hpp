@@ -9,7 +9,7 @@
 
 #include "accuracy/budget.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/density.hpp"
+#include "sim/transform.hpp"
 
 namespace gaussdrift::accuracy {
 

@@ -13,8 +13,8 @@
 #include "field/named/named_fields.hpp"
 #include "particle/seeding.hpp"
 #include "reproduce/published.hpp"
-#include "sim/density.hpp"
 #include "sim/stepper.hpp"
+#include "sim/transform.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
 

@@ -9,7 +9,7 @@
 #include "base/longest_side.hpp"
 #include "base/number.hpp"
 #include "base/parallel.hpp"
-#include "sim/simulation.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift {
 

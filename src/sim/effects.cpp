@@ -4,7 +4,7 @@
 
 #include "effect/catalogue.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift {
 

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "effect/particle_exchange.hpp"
 #include "scene.hpp"
-#include "sim/density.hpp"
+#include "sim/transform.hpp"
 
 namespace gaussdrift {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/error.hpp"
 #include "scene.hpp"
-#include "sim/density.hpp"
+#include "sim/transform.hpp"
 
 namespace gaussdrift {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/density.hpp"
+#include "sim/transform.hpp"
 
 #include <gtest/gtest.h>
 

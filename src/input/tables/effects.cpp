@@ -1,0 +1,129 @@
+// [effects.*]: what a case names beside transport.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "effect/catalogue.hpp"
+#include "input/effect_rules.hpp"
+#include "input/tables/tables.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift::input {
+
+using Kind = Value::Kind;
+
+namespace {
+
+bool is_complete(const NamedEffect& effect, const EffectSpec& spec) {
+  return std::all_of(effect.about.parameters.begin(), effect.about.parameters.end(),
+                     [&](const NamedParameter& parameter) {
+                       return parameter.optional || spec.has(parameter.name) || !applies(parameter, spec);
+                     });
+}
+
+/// A parameter that another one replaces.
+void refuse_both(Reader& in, const std::string& home, const NamedParameter& parameter) {
+  const Entry *one = in.find(home, parameter.replaced_by), *two = in.find(home, parameter.name);
+  if (!one || !two) return;
+  in.diagnostics.error(
+      comes_before(one->place, two->place) ? two->place : one->place,
+      fmt::format("[{}] has both \"{}\" and \"{}\"", home, one->name, two->name),
+      fmt::format("{}; {}", meaning_note(find_key(home, one->name)), meaning_note(find_key(home, two->name))));
+}
+
+void read_value(Reader& in, const NamedParameter& parameter, const Key& key, const Entry& entry, EffectSpec& given) {
+  const auto take_number = [&] {
+    if (const auto value = in.number_of(key, entry)) given.numbers.emplace_back(key.name, std::vector{*value});
+  };
+  switch (parameter.kind) {
+    case NamedParameter::Kind::number:
+    case NamedParameter::Kind::whole:
+      return take_number();
+    case NamedParameter::Kind::point:
+      if (const auto values = in.point_of(key, entry)) given.numbers.emplace_back(key.name, *values);
+      return;
+    case NamedParameter::Kind::choice:
+      given.texts.emplace_back(key.name, in.choice(key.table, key.name));
+      return;
+    case NamedParameter::Kind::expression:
+    case NamedParameter::Kind::expression_in_time:
+      given.texts.emplace_back(key.name,
+                               in.field_expression(entry.value, in.label_of(key),
+                                                   parameter.kind == NamedParameter::Kind::expression_in_time));
+      return;
+  }
+}
+
+/// What its keys say, with defaults.
+EffectSpec effect_values(Reader& in, const NamedEffect& effect) {
+  const std::string home = table_of(effect);
+  EffectSpec given{.name = std::string(effect.about.name)};
+  for (const NamedParameter& parameter : effect.about.parameters) {
+    const Key& key = find_key(home, parameter.name);
+    const Entry* entry = key.required ? in.require(key) : in.find(home, key.name);
+    if (!entry) continue;
+    read_value(in, parameter, key, *entry, given);
+    if (!parameter.replaced_by.empty())
+      refuse_both(in, home, parameter);
+    else if (!applies(parameter, complete_effect(effect, given)))
+      in.diagnostics.error(entry->value.place, fmt::format("\"{}\" goes with {} = \"{}\"", parameter.name,
+                                                           parameter.with, parameter.value));
+  }
+  return complete_effect(effect, given);
+}
+
+/// Effects that need to know their steps do not go with a method that chooses them.
+void check_steps(Reader& in, const NamedEffect& effect, const EffectSpec& spec, const Case& scene) {
+  const Trait& fixed = effect.traits.needs_fixed_steps;
+  const Entry* method = in.find("time", "method");
+  if (!method || !fixed.of(spec, in.facts.dimension) || !time::is_adaptive(time::find_tableau(scene.time.method)))
+    return;
+  in.diagnostics.error(
+      method->value.place,
+      fmt::format("steps that are chosen by their error do not go with [{}] {}", table_of(effect), fixed.words),
+      fmt::format("method = \"{}\"{}{}", time::tableaux().front().name, fixed.remedy.empty() ? "" : " with ",
+                  fixed.remedy));
+}
+
+/// What does not go with the scene, or with another effect.
+void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& scene) {
+  const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
+    in.diagnostics.error(in.table("effects." + name)->place, fmt::format("[effects.{}] {}", name, what), remedy);
+  };
+  for (const auto& [effect, spec] : read) {
+    const NamedFormula& about = effect->about;
+    if (in.facts.dimension && (in.facts.dimension < about.least_dimension || in.facts.dimension > about.most_dimension))
+      refuse(spec.name,
+             in.facts.dimension == 3 ? "is for two dimensions, the domain has three"
+                                     : "is for three dimensions, the domain has two",
+             "");
+    check_steps(in, *effect, spec, scene);
+    if (!effect->problems || !is_complete(*effect, spec)) continue;
+    for (const Complaint& problem : effect->problems(spec, scene)) {
+      const Entry* entry = in.find(table_of(*effect), problem.key);
+      if (entry)
+        in.diagnostics.error(entry->value.place, problem.message, problem.remedy);
+      else
+        refuse(spec.name, problem.message, problem.remedy);
+    }
+  }
+  for (const EffectRule& rule : effect_rules()) {
+    const EffectSpec *one = scene.effects.find(rule.effect), *two = scene.effects.find(rule.other);
+    if (!one || !two || !rule.apart(*one, *two, in.facts.dimension)) continue;
+    const std::string unless = rule.unless().empty() ? "" : fmt::format(" unless {}", without_backticks(rule.unless()));
+    refuse(rule.effect, fmt::format("does not go with [effects.{}]{}: {}", rule.other, unless, rule.reason),
+           fmt::format("{}; {}", rule.remedy, goes_with(rule.effect)));
+  }
+}
+
+}  // namespace
+
+void read_effects(Reader& in, Case& scene) {
+  std::vector<std::pair<const NamedEffect*, EffectSpec>> read;
+  for (const NamedEffect& effect : effects())
+    if (in.table(table_of(effect))) read.emplace_back(&effect, effect_values(in, effect));
+  for (const auto& [effect, spec] : read) scene.effects.list.push_back(spec);
+  refuse_effects(in, read, scene);
+}
+
+}  // namespace gaussdrift::input

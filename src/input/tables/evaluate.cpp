@@ -1,0 +1,82 @@
+// [evaluate]: the lattice on which density is summed.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/tables/tables.hpp"
+
+namespace gaussdrift::input {
+
+namespace {
+
+/// A handful of points across a long domain shows nothing of what is there.
+void warn_narrow(Reader& in, const Lattice& lattice, const Domain& domain, const Place& place) {
+  const auto dimension = static_cast<std::size_t>(lattice.dimension);
+  const auto begin = lattice.points.begin(), end = begin + lattice.dimension;
+  const auto fewest = static_cast<std::size_t>(std::min_element(begin, end) - begin);
+  const std::size_t most = *std::max_element(begin, end);
+  if (lattice.points[fewest] >= 8 || most < 10 * lattice.points[fewest]) return;
+  if (in.facts.one_particle_across[fewest]) return;  // then there is nothing to show
+  const double spacing = (domain.max[fewest] - domain.min[fewest]) / 20;
+  std::vector<std::size_t> now, then;
+  double size = 1;
+  for (std::size_t k = 0; k < dimension; ++k) {
+    now.push_back(lattice.points[k]);
+    then.push_back(static_cast<std::size_t>((domain.max[k] - domain.min[k]) / spacing * (1 + 1e-12)) + 1);
+    size *= static_cast<double>(then.back());
+  }
+  in.diagnostics.warning(place,
+                         fmt::format("the evaluation lattice has {} points, only {} along {}", fmt::join(now, " x "),
+                                     lattice.points[fewest], "xyz"[fewest]),
+                         size <= 1e7 ? fmt::format("[evaluate] spacing = {:.3g} instead of per_axis has {} points",
+                                                   spacing, fmt::join(then, " x "))
+                                     : "raise evaluate.per_axis, or give evaluate.spacing instead");
+}
+
+void read_spacing(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
+  const auto spacing = in.number("evaluate", "spacing");
+  if (!spacing || !in.facts.domain_valid) return;
+  const Place& place = spacing->written->place;
+  double longest = 0, size = 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k) {
+    longest = std::max(longest, domain.max[k] - domain.min[k]);
+    size *= std::floor((domain.max[k] - domain.min[k]) / spacing->number) + 1;
+  }
+  if (spacing->number > longest)
+    in.diagnostics.error(place,
+                         fmt::format("evaluate.spacing = {} is longer than the domain, {}", spacing->number, longest),
+                         "a lattice has at least two points on the longest axis");
+  else if (!(size <= largest_lattice))
+    in.diagnostics.error(place,
+                         fmt::format("the evaluation lattice would have {:.3g} points; at most {} are possible", size,
+                                     static_cast<long long>(largest_lattice)),
+                         "raise evaluate.spacing");
+  else if (lost_to_rounding(in, "evaluation lattice", domain, spacing->number, place, "raise evaluate.spacing"))
+    return;
+  else
+    evaluate.spacing = spacing->number;
+}
+
+}  // namespace
+
+void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
+  const Entry *spacing = in.find("evaluate", "spacing"), *points = in.find("evaluate", "per_axis");
+  if (spacing && points &&
+      spacing->place.override_index != points->place.override_index)  // the later one replaces the other
+    (spacing->place.override_index > points->place.override_index ? points : spacing) = nullptr;
+  if (spacing && points)
+    in.exactly_one("evaluate", {"per_axis", "spacing"});
+  else if (spacing)
+    read_spacing(in, evaluate, domain);
+  else if (const auto count = per_axis(in, "evaluate", "a lattice has at least two points an axis")) {
+    if (const auto lattice = make_checked_lattice(in, "evaluation lattice", domain, *count))
+      warn_narrow(in, *lattice, domain, count->written ? count->written->place : in.source.end());
+    evaluate.per_axis = to_int(*count);
+  }
+  if (const auto tolerance = in.number("evaluate", "tolerance")) evaluate.tolerance = tolerance->number;
+  evaluate.method = in.choice("evaluate", "method");
+}
+
+}  // namespace gaussdrift::input

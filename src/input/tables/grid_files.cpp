@@ -1,0 +1,112 @@
+// Data on grids that [velocity] and [density] name.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/number.hpp"
+#include "field/gridded/grid_data.hpp"
+#include "input/tables/tables.hpp"
+#include "read/grid_file.hpp"
+
+namespace gaussdrift::input {
+
+using Kind = Value::Kind;
+
+namespace {
+
+/// Particles start in the whole domain, so a density must be known there.
+void check_covers_domain(Reader& in, const GridData& data, const Place& place) {
+  for (int k = 0; in.facts.domain_valid && k < in.facts.dimension; ++k) {
+    const double least = data.axis[k].front(), most = data.axis[k].back();
+    const double rounding = std::max(data.rounding[k], 1e-12 * (most - least));
+    const auto axis = static_cast<std::size_t>(k);
+    if (in.facts.box.min[axis] >= least - rounding && in.facts.box.max[axis] <= most + rounding) continue;
+    in.diagnostics.error(
+        place,
+        fmt::format("{} reaches from {} to {} along {}, the domain from {} to {}", data.name,
+                    base::told_apart(least, in.facts.box.min[axis]), base::told_apart(most, in.facts.box.max[axis]),
+                    "xyz"[k], base::told_apart(in.facts.box.min[axis], least),
+                    base::told_apart(in.facts.box.max[axis], most)),
+        "outside = \"zero\" or \"clamp\" says what stands beyond the data; or make the domain smaller");
+    return;
+  }
+}
+
+/// "array", or "arrays" where several have one component each.
+std::vector<std::string> array_names(Reader& in, std::string_view table_name, int most_components) {
+  const Entry* single = in.find(table_name, "array");
+  const Entry* several = most_components > 1 ? in.find(table_name, "arrays") : nullptr;
+  if (single && several) {
+    in.diagnostics.error(comes_before(single->place, several->place) ? several->place : single->place,
+                         fmt::format("[{}] has both \"array\" and \"arrays\"", table_name),
+                         "\"array\" names one array with all components, \"arrays\" one for each");
+    return {};
+  }
+  if (!several) {
+    const std::string name = in.text(table_name, "array");
+    return name.empty() ? std::vector<std::string>{} : std::vector{name};
+  }
+  const Key& key = find_key(table_name, "arrays");
+  std::vector<std::string> names;
+  for (const Value& item : several->value.items) names.push_back(item.kind == Kind::text ? item.text : "");
+  if (several->value.kind != Kind::list || std::find(names.begin(), names.end(), "") != names.end()) {
+    in.wrong_type(several->value, in.label_of(key), "a list of names in strings");
+    return {};
+  }
+  if (in.facts.dimension) in.has_entries(several->value, key, "name");
+  return names;
+}
+
+}  // namespace
+
+/// Data on a grid, read at once so that everything wrong with it has its place in the case file.
+template <class FileSpec>
+FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, int least_components,
+                   int most_components) {
+  FileSpec spec;
+  spec.arrays = array_names(in, table_name, most_components);
+  spec.interpolation = in.choice(table_name, "interpolation");
+  spec.outside = in.choice(table_name, "outside");
+  spec.missing = in.choice(table_name, "missing");
+  if (const auto mark = in.number(table_name, "missing_value")) spec.missing_value = mark->number;
+  if (value.kind != Kind::text) {
+    in.wrong_type(value, in.label_of(find_key(table_name, "file")), "the name of a file in a string");
+    return spec;
+  }
+  if (!in.facts.dimension) return spec;
+  spec.file = std::filesystem::absolute(in.folder / value.text).lexically_normal();
+  try {
+    const auto missing = std::find(read::missing_names.begin(), read::missing_names.end(), spec.missing);
+    spec.data =
+        read::read_grid(spec.file, {.arrays = spec.arrays,
+                                    .dimension = in.facts.dimension,
+                                    .least_components = static_cast<std::size_t>(least_components),
+                                    .most_components = static_cast<std::size_t>(most_components),
+                                    .missing = static_cast<read::Missing>(missing - read::missing_names.begin()),
+                                    .missing_value = spec.missing_value,
+                                    .decays = most_components == 1});
+    in.facts.grid_files.push_back({value.place, spec.data});
+    if (spec.outside == "error" && most_components == 1) check_covers_domain(in, *spec.data, value.place);
+  } catch (const read::GridFileError& error) {
+    in.diagnostics.error(value.place, error.what(), error.remedy());
+  }
+  return spec;
+}
+
+template FileVelocity grid_file(Reader&, std::string_view, const Value&, int, int);
+template FileDensity grid_file(Reader&, std::string_view, const Value&, int, int);
+
+/// Data at several times must cover the run.
+void check_times_of_files(Reader& in) {
+  if (!in.facts.end) return;
+  for (const auto& [place, data] : in.facts.grid_files) {
+    const double first = data->times.front(), last = data->times.back();
+    if (data->times.size() > 1 && (first > same_time * *in.facts.end || last < *in.facts.end * (1 - same_time)))
+      in.diagnostics.error(place,
+                           fmt::format("{} covers the times {} to {}, but the run goes from 0 to {}", data->name, first,
+                                       last, *in.facts.end),
+                           "shorten time.end, or let the data cover the run");
+  }
+}
+
+}  // namespace gaussdrift::input

@@ -1,0 +1,70 @@
+// Lattices that a case asks for: their sizes and what rounding leaves of them.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/lattice.hpp"
+#include "input/tables/tables.hpp"
+
+namespace gaussdrift::input {
+
+/// Only for numbers that passed their range; larger ones have been complained about.
+int to_int(const Number& count) {
+  return static_cast<int>(std::min<double>(count.number, std::numeric_limits<int>::max()));
+}
+
+std::optional<Number> per_axis(Reader& in, std::string_view table_name, std::string_view why_not_one) {
+  const Entry* entry = in.find(table_name, "per_axis");
+  const Key& key = find_key(table_name, "per_axis");
+  return in.number(table_name, "per_axis", entry ? fmt::format("{}; {}", meaning_note(key), why_not_one) : "");
+}
+
+/// Complains about a spacing that coordinates of the domain cannot show.
+bool lost_to_rounding(Reader& in, const std::string& what, const Domain& domain, double spacing, const Place& place,
+                      const std::string& remedy) {
+  double farthest = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k)
+    farthest = std::max({farthest, std::abs(domain.min[k]), std::abs(domain.max[k])});
+  if (farthest + spacing / 8 != farthest) return false;
+  in.diagnostics.error(
+      place,
+      fmt::format("the spacing {:.3g} of the {} is lost to rounding at coordinates like {}", spacing, what, farthest),
+      "move the domain towards the origin, or " + remedy);
+  return true;
+}
+
+/// The lattice, or nothing (with a complaint) if it has too many points; it is not allocated.
+std::optional<Lattice> make_checked_lattice(Reader& in, const std::string& what, const Domain& domain,
+                                            const Number& count) {
+  if (!in.facts.domain_valid) return std::nullopt;
+  const Place place = count.written ? count.written->place : in.source.end();
+  const auto limit = static_cast<long long>(largest_lattice);
+  if (count.number > largest_lattice - 1) {
+    in.diagnostics.error(place,
+                         fmt::format("the {} would have {} points on one axis; at most {} in all are possible", what,
+                                     count.number, limit),
+                         "lower per_axis");
+    return std::nullopt;
+  }
+  const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, to_int(count));
+  double size = 1;
+  std::vector<std::size_t> points;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k) {
+    points.push_back(lattice.points[k]);
+    size *= static_cast<double>(lattice.points[k]);
+  }
+  if (size > largest_lattice) {
+    in.diagnostics.error(place,
+                         fmt::format("the {} would have {:.3g} points ({}); at most {} are possible", what, size,
+                                     fmt::join(points, " x "), limit),
+                         "lower per_axis");
+    return std::nullopt;
+  }
+  if (lost_to_rounding(in, what, domain, lattice.spacing, place, "lower per_axis")) return std::nullopt;
+  return lattice;
+}
+
+}  // namespace gaussdrift::input

@@ -1,0 +1,78 @@
+// [particles]: the lattice on which particles start, and the blob each carries.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "effect/catalogue.hpp"
+#include "input/tables/tables.hpp"
+#include "particle/cutoff.hpp"
+
+namespace gaussdrift::input {
+
+namespace {
+
+/// The density of equal blobs on a lattice ripples by 2 d zeta^(2 pi c), zeta^ the Fourier transform of the cutoff
+/// (Poisson's sum).
+void warn_small_overlap(Reader& in, const ParticleSpec& particles, const Number& overlap) {
+  const Cutoff cutoff = make_cutoff(particles.cutoff, 1, 1, particles.cutoff_arguments);
+  if (narrowest_width(cutoff) * particles.overlap >= 1) return;
+  const double ripple = 2 * (in.facts.dimension ? in.facts.dimension : 2) *
+                        std::abs(fourier(cutoff, 1, 2 * std::numbers::pi * particles.overlap));
+  in.diagnostics.warning(overlap.written->place,
+                         fmt::format("overlap = {} leaves gaps between the blobs: a constant density ripples by {:.1g}",
+                                     particles.overlap, ripple),
+                         "2 is usual; 1 ripples by about 2e-4");
+}
+
+void warn_thin(Reader& in, const Lattice& lattice, const Number& count) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(lattice.dimension); ++k)
+    if ((in.facts.one_particle_across[k] = lattice.points[k] == 1))
+      in.diagnostics.warning(count.written->place,
+                             fmt::format("the domain is narrower along {} than the spacing {:.3g}: one particle across",
+                                         "xyz"[k], lattice.spacing),
+                             "raise per_axis or widen the domain");
+}
+
+/// False if the cutoff cannot be made from them.
+bool read_cutoff_arguments(Reader& in, ParticleSpec& particles) {
+  const NamedCutoff& chosen = find_cutoff(particles.cutoff);
+  for (const NamedCutoff& other : cutoffs())
+    for (const NamedParameter& parameter : other.parameters)
+      if (const Entry* entry = in.find("particles", parameter.name); entry && &other != &chosen)
+        in.diagnostics.error(entry->place, fmt::format("\"{}\" goes with cutoff = \"{}\", not with \"{}\"",
+                                                       parameter.name, other.name, particles.cutoff));
+  for (const NamedParameter& parameter : chosen.parameters)
+    if (const auto value = in.number("particles", parameter.name))
+      particles.cutoff_arguments.emplace_back(parameter.name, std::vector{value->number});
+  if (!chosen.problems) return true;
+  const auto problems = chosen.problems(complete(chosen.name, chosen.parameters, particles.cutoff_arguments, {}));
+  for (const Complaint& problem : problems)
+    in.diagnostics.error(in.find("particles", problem.key)->value.place, problem.message, problem.remedy);
+  return problems.empty();
+}
+
+}  // namespace
+
+void read_particles(Reader& in, ParticleSpec& particles, const Domain& domain) {
+  if (const auto count = per_axis(in, "particles", "one particle an axis has no spacing")) {
+    if (const auto lattice = make_checked_lattice(in, "particle lattice", domain, *count))
+      warn_thin(in, *lattice, *count);
+    particles.per_axis = to_int(*count);
+  }
+  particles.cutoff = in.choice("particles", "cutoff");
+  // Where weights can grow, those that are next to nothing at the start count.
+  const bool grow = std::any_of(effects().begin(), effects().end(), [&](const NamedEffect& effect) {
+    return !effect.traits.grows_weights.words.empty() && in.table(table_of(effect));
+  });
+  if (const auto threshold = in.number("particles", "threshold"))
+    particles.threshold = threshold->written || !grow ? threshold->number : 0;
+  const bool valid = read_cutoff_arguments(in, particles);
+  if (const auto overlap = in.number("particles", "overlap")) {
+    particles.overlap = overlap->number;
+    if (overlap->written && valid) warn_small_overlap(in, particles, *overlap);
+  }
+}
+
+}  // namespace gaussdrift::input

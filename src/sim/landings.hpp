@@ -1,0 +1,17 @@
+// The times on which the steps of a case land.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gaussdrift/case.hpp"
+
+namespace gaussdrift {
+
+/// The times on which steps land exactly: outputs, and time.end.
+std::vector<double> landings(const Case& description);
+
+/// Steps from t = 0 to time.end with landings on all output times; 0 if they are chosen by their error.
+std::size_t total_steps(const Case& description);
+
+}  // namespace gaussdrift

@@ -1,0 +1,80 @@
+#include "sim/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "effect/catalogue.hpp"
+#include "particle/seeding.hpp"
+#include "sim/make_fields.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+void make_effect_fields(const Case& description, Scene& scene) {
+  const int dimension = description.domain.dimension;
+  std::vector<std::unique_ptr<ScalarField>> decays;
+  for (const auto& [effect, spec] : effects_of(description.effects)) {
+    const auto field_of = [&, &spec = spec](std::string_view key) -> std::unique_ptr<ScalarField> {
+      if (key.empty() || !spec.has(key)) return nullptr;
+      return std::make_unique<WrittenScalar>(spec.text(key), dimension, description.params);
+    };
+    if (auto decay = field_of(effect->decay_rate)) decays.push_back(std::move(decay));
+    scene.effect_fields.push_back({spec.name, field_of(effect->decay_rate), field_of(effect->carried),
+                                   fmt::format("effects.{}.{}", spec.name, effect->carried)});
+  }
+  if (decays.size() == 1) scene.decay_rate = std::move(decays.front());
+  if (decays.size() > 1) scene.decay_rate = std::make_unique<SumOfScalars>(std::move(decays));
+}
+
+}  // namespace
+
+Scene make_scene(const Case& description, int threads) {
+  Scene scene;
+  const Domain& domain = description.domain;
+  scene.velocity = make_velocity(description, threads);
+  scene.density = make_density(description);
+  make_effect_fields(description, scene);
+  scene.threshold = description.particles.threshold;
+  scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
+  const EvaluateSpec& evaluate = description.evaluate;
+  scene.evaluation = evaluate.spacing > 0
+                         ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, evaluate.spacing)
+                         : make_lattice(domain.dimension, domain.min, domain.max, evaluate.per_axis);
+  scene.core_radius = description.particles.overlap * scene.seeding.spacing;
+  scene.cutoff = make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius,
+                             description.particles.cutoff_arguments);
+  return scene;
+}
+
+bool has_smooth_paths(const Scene& scene) {
+  return scene.velocity->is_smooth() && (!scene.decay_rate || scene.decay_rate->is_smooth());
+}
+
+Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report) {
+  std::vector<Carried> carried{
+      {"the initial density", [&](const PointsView& x, double* values) { scene.density->add(x, values); }}};
+  for (const EffectFields& fields : scene.effect_fields)
+    if (fields.carried)
+      carried.push_back(
+          {fields.carried_key, [&](const PointsView& x, double* values) { fields.carried->add(0, x, values); }});
+  return seed(lattice, carried, scene.threshold, threads, report);
+}
+
+Particles seed_scene(const Scene& scene, int threads, SeedReport* report) {
+  Particles particles = seed_lattice(scene, scene.seeding, threads, report);
+  if (std::all_of(particles.alpha.begin(), particles.alpha.end(), [](double alpha) { return alpha == 0; }))
+    throw InputError(
+        "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or "
+        "enlarge "
+        "the density, or raise particles.per_axis");
+  return particles;
+}
+
+double density_left_out(const Scene& scene, const SeedReport& report) {
+  return report.carried.front().left_out * peak(scene.cutoff);
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,60 @@
+// The parts of a case that are made from its text and numbers, and its particles at the start.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/lattice.hpp"
+#include "field/density/density.hpp"
+#include "field/scalar.hpp"
+#include "field/velocity/velocity.hpp"
+#include "gaussdrift/case.hpp"
+#include "particle/cutoff.hpp"
+#include "particle/seeding.hpp"
+
+namespace gaussdrift {
+
+/// The fields that keys of an effect give, see NamedEffect.
+struct EffectFields {
+  std::string effect;
+  std::unique_ptr<ScalarField> decay;
+  std::unique_ptr<ScalarField> carried;
+  std::string carried_key;  // "effects.charge.density"
+};
+
+/// The parts of a case that are made from its text and numbers, shared by `run` and `check`.
+struct Scene {
+  std::unique_ptr<VelocityField> velocity;
+  std::unique_ptr<InitialDensity> density;
+  std::unique_ptr<ScalarField> decay_rate;  // of all weights along their paths, u0; null if none decays
+  std::vector<EffectFields> effect_fields;
+  Lattice seeding;         // where particles start
+  Lattice evaluation;      // where rho is summed
+  double core_radius = 0;  // eps = c h
+  double threshold = 0;    // particles.threshold
+  Cutoff cutoff;
+};
+
+/// The length over which gradients of the velocity are taken as differences: a thousandth of the smallest length that
+/// the density resolves.
+inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius; }
+
+/// threads: see make_velocity().
+Scene make_scene(const Case& description, int threads = 0);
+
+/// False if the velocity or the rate of a reaction has kinks. Methods of high order take short steps at each.
+bool has_smooth_paths(const Scene& scene);
+
+/// The same on any lattice, and none where there is nothing.
+Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report = nullptr);
+
+/// Particles of the scene at t = 0: every lattice point with density or charge that exceeds the threshold. The report
+/// tells of both, in that order. Throws NumericalError where one is not finite, InputError if rho_0 is 0 everywhere.
+Particles seed_scene(const Scene& scene, int threads, SeedReport* report = nullptr);
+
+/// The largest density that the blobs of all points left out can have together, anywhere and at any time, if weights
+/// stay.
+double density_left_out(const Scene& scene, const SeedReport& report);
+
+}  // namespace gaussdrift
