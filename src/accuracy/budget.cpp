@@ -19,6 +19,7 @@
 #include "sim/outside.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
+#include "sim/transform.hpp"
 #include "time/schedule.hpp"
 
 namespace gaussdrift::accuracy {

@@ -19,6 +19,7 @@
 #include "particle/subset.hpp"
 #include "reference/exact_paths.hpp"
 #include "sim/simulation.hpp"
+#include "sim/transform.hpp"
 #include "study/study.hpp"
 #include "time/tableau.hpp"
 
