@@ -7,6 +7,7 @@
 
 #include "input/read_case.hpp"
 #include "sim/simulation.hpp"
+#include "sim/transform.hpp"
 
 namespace gaussdrift {
 
