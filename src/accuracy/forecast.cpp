@@ -14,6 +14,7 @@
 #include "accuracy/processor_clock.hpp"
 #include "accuracy/trial.hpp"
 #include "accuracy/trial_times.hpp"
+#include "base/duration_text.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "effect/catalogue.hpp"
@@ -30,6 +31,7 @@ constexpr double work_of_samples = 2e6;  // that looking at the velocity may tak
 constexpr double least_work_of_errors = 3e7, most_work_of_errors = 2.5e8;
 constexpr std::size_t most_particles = 400'000, most_with_method = 30'000;  // of a trial; with a method asked by name
 constexpr double most_pairs = 3e8;                                          // summed one by one
+constexpr double most_seconds_of_sum = 2;                                   // by a method asked by name
 
 Columns velocity_at(const VelocityField& field, double t, const Particles& particles) {
   Columns u;
@@ -116,24 +118,48 @@ void try_density(const Case& spec, const Trial& trial, int threads, Forecast& re
   const bool pairs = spec.evaluate.method == "direct";
   for (std::size_t k = 0; pairs && n * static_cast<double>(grid.size()) > most_pairs; k = (k + 1) % max_dimension)
     grid.points[k] = (grid.points[k] + 1) / 2;  // of the same spacing: pairs cost the same wherever they are
+  const auto all = static_cast<double>(result.particles), points = static_cast<double>(result.grid_points),
+             m = static_cast<double>(grid.size());
+  // A method that cannot serve gives way to all pairs; `auto` has others.
+  const auto times_by = [&](const std::string& asked, const std::string& done_by) {
+    return asked != "auto" && done_by == "direct" ? all * points / (n * m) : (all + points) / (n + m);
+  };
+  double times = times_by(spec.evaluate.method, spec.evaluate.method);
+  double predicted = 0;  // seconds of a sum that is too slow to be tried
+  if (limits_seconds(spec.evaluate)) {
+    const auto work = [&](const std::string& method) {
+      options.method = method;
+      DensityWork whole = predict_density(trial.particles, trial.scene.cutoff, grid, options);
+      whole.seconds *= times_by(method, whole.method);
+      return whole;
+    };
+    const DensityWork named = work(spec.evaluate.method);
+    check_seconds(spec.evaluate, named, threads, [&] { return work("auto"); });
+    times = times_by(spec.evaluate.method, named.method);
+    if (named.seconds / times > most_seconds_of_sum) {
+      predicted = named.seconds / times;
+      options.method = "auto";
+      result.left_out.push_back(
+          fmt::format("the density at the start is summed by auto, because {} would take {} for this check alone; what "
+                      "it takes in a run is predicted",
+                      spec.evaluate.method, base::duration_text(predicted)));
+    }
+  }
   const ProcessorClock watch;
   const DensityGrid density = evaluate_density(trial.particles, trial.scene.cutoff, grid, options, &result.density);
   const double both = result.density.evaluate_seconds + result.density.measure_seconds,
                of_sum = both > 0 ? result.density.evaluate_seconds / both : 1;
   const double took = watch.seconds();
   // The first sum is timed: sums of a run find as little in the caches, because their memory is new each time.
-  const double seconds = took * of_sum;
+  const double seconds = predicted > 0 ? predicted : took * of_sum;
   const auto [lowest, highest] = std::minmax_element(density.rho.begin(), density.rho.end());
   result.density_minimum = *lowest, result.density_maximum = *highest;
   const auto& images = spec.output.images;
   if (trial.whole &&
       std::any_of(images.begin(), images.end(), [](const PictureStyle& style) { return style.shows_error; }))
     result.error_at_start = error_at_start(trial.scene, density);
-  const auto all = static_cast<double>(result.particles), points = static_cast<double>(result.grid_points),
-             m = static_cast<double>(grid.size());
   const auto measured = [](double particles) { return std::max(2e7, 4 * particles); };  // pairs
-  const double sum = seconds * (pairs ? all * points / (n * m) : (all + points) / (n + m));
-  result.evaluate_seconds = shared(sum, threads, serial_sum) +
+  result.evaluate_seconds = shared(seconds * times, threads, serial_sum) +
                             shared(took * (1 - of_sum) * measured(all) / measured(n), threads, serial_steps);
 }
 

@@ -478,6 +478,13 @@ std::vector<Key> written_keys() {
        .fallback = "auto",
        .choices = summation_methods(),
        .meaning = "algorithm that sums the Gauss transform. `auto` takes the cheapest"},
+      {.table = "evaluate",
+       .name = "most_seconds",
+       .type = Type::number,
+       .range = {0, infinity, true},
+       .unit = "s",
+       .meaning = "most seconds that one density may be predicted to take; a case that takes longer is refused before "
+                  "its first step. Without this key 300 for a method that is named, and no limit for `auto`"},
 
       {.table = "output",
        .name = "times",

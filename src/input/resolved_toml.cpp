@@ -213,6 +213,7 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
     out.entry("per_axis", fmt::format("{}", scene.evaluate.per_axis));
   out.entry("tolerance", written(scene.evaluate.tolerance));
   out.entry("method", written(scene.evaluate.method));
+  if (scene.evaluate.most_seconds > 0) out.entry("most_seconds", written(scene.evaluate.most_seconds));
   out.table("output");
   out.entry("times", written(scene.output.times));
   out.entry("vtk", written_names(scene.output.files));

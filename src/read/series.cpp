@@ -53,8 +53,8 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
       throw GridFileError(
           fmt::format("{}: {} and {} of line {} are both for t = {}", place, data,
                       entries.back().file.filename().string(), entries.back().line, entry.time),
-          "one file a time is read. Parts of one grid are put together in ParaView: open the series, apply the filter "
-          "Resample To Image, save the data as .vti with all times");
+          "one file a time is read, because parts may overlap and disagree. Parts of one grid are put together in "
+          "ParaView: open the series, apply the filter Resample To Image, save the data as .vti with all times");
     if (!entries.empty() && entry.time < entries.back().time)
       throw GridFileError(
           fmt::format("{}: the times of {} do not ascend: {} after {}", place, name, entry.time, entries.back().time));

@@ -66,6 +66,14 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
   }
 }
 
+DensityOptions density_options(const EvaluateSpec& evaluate, int threads) {
+  DensityOptions options;
+  options.tolerance = evaluate.tolerance;
+  options.method = evaluate.method;
+  options.threads = threads;
+  return options;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Case& description, int threads)
@@ -85,6 +93,7 @@ void Simulation::prepare() {
   beyond_at_start_ = part_beyond(scene_.density->mass(), particles_, scene_.seeding);
   carrier_.begin(particles_);
   velocity_at_particles(0);
+  check_density_seconds();
   compared_ = plan_comparison(case_, scene_, particles_.size(), threads_);
   if (compared_.points > 0) reference_ = make_reference(case_, scene_, threads_, compared_.following);
 }
@@ -113,12 +122,22 @@ void Simulation::carry(double from, double to, RunSummary& summary) {
   });
 }
 
+// The density at the start stands for all: a run that has begun is not stopped.
+void Simulation::check_density_seconds() const {
+  const EvaluateSpec& evaluate = case_.evaluate;
+  if (!limits_seconds(evaluate)) return;
+  const auto predicted = [&](const std::string& method) {
+    DensityOptions options = density_options(evaluate, threads_);
+    options.method = method;
+    return predict_density(particles_, scene_.cutoff, scene_.evaluation, options);
+  };
+  check_seconds(evaluate, predicted(evaluate.method), base::resolve_threads(threads_),
+                [&] { return predicted("auto"); });
+}
+
 void Simulation::show_frame(int index, double time, RunSummary& summary) {
   DensityReport report;
-  DensityOptions options;
-  options.tolerance = case_.evaluate.tolerance;
-  options.method = case_.evaluate.method;
-  options.threads = threads_;
+  const DensityOptions options = density_options(case_.evaluate, threads_);
   const Cutoff& start = scene_.cutoff;
   const Cutoff blob = particles_.spread > 0 ? spread_cutoff(start, particles_.dimension, particles_.spread) : start;
   const DensityGrid density = evaluate_density(particles_, blob, scene_.evaluation, options, &report);

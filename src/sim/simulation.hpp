@@ -40,6 +40,7 @@ class Simulation {
 
  private:
   std::vector<double> velocity_at_particles(double time) const;
+  void check_density_seconds() const;
   void carry(double from, double to, RunSummary& summary);
   void show_frame(int index, double time, RunSummary& summary);
   void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "base/duration_text.hpp"
 #include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
@@ -125,17 +126,26 @@ class Evaluation {
                             : fgtd::smallest_tolerance * unit_error / maximum;
   }
 
+  DensityWork predict(const fgtd::TensorGrid& grid) const {
+    DensityWork work;
+    for (const WidthGroup<d>& group : groups_) {
+      fgtd::Options options = options_for(group, grid);
+      options.most_seconds = 0;  // any work is more, so the plan tells how much and does nothing
+      try {
+        fgtd::Plan<d>(sources_, weights_, group.sigma, options);
+      } catch (const fgtd::TimeLimitError& limit) {
+        work.seconds += limit.seconds;
+        work.method = to_string(limit.method);
+      }
+    }
+    return work;
+  }
+
   Eigen::VectorXd transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
     report.choice.clear();
     Eigen::VectorXd rho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
     for (const WidthGroup<d>& group : groups_) {
-      fgtd::Options options;
-      options.tolerance = tolerance_;
-      options.derivative_order = group.derivative_order;
-      options.method = method_by_name(options_.method);
-      options.threads = options_.threads;
-      options.expected_grid = grid;
-      const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options);
+      const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options_for(group, grid));
       rho += plan.evaluate_combination(grid, group.combination);
       std::ostringstream text;
       text << plan.choice();
@@ -180,6 +190,16 @@ class Evaluation {
   }
 
  private:
+  fgtd::Options options_for(const WidthGroup<d>& group, const fgtd::TensorGrid& grid) const {
+    fgtd::Options options;
+    options.tolerance = tolerance_;
+    options.derivative_order = group.derivative_order;
+    options.method = method_by_name(options_.method);
+    options.threads = options_.threads;
+    options.expected_grid = grid;
+    return options;
+  }
+
   const DensityOptions& options_;
   fgtd::Points<d> sources_;
   Eigen::MatrixXd weights_;
@@ -188,11 +208,27 @@ class Evaluation {
 };
 
 template <int d>
+fgtd::TensorGrid nodes_of(const Lattice& lattice) {
+  fgtd::TensorGrid nodes;
+  for (int k = 0; k < d; ++k) nodes.axes.push_back(lattice.nodes(k));
+  return nodes;
+}
+
+template <int d>
+DensityWork predict_in_dimension(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+                                 const DensityOptions& options) {
+  DensityReport ignored;
+  Evaluation<d> evaluation(particles, cutoff, options);
+  evaluation.choose_tolerance(evaluation.error_of_unit_tolerance(particles),
+                              evaluation.lower_bound_of_maximum(particles), ignored);
+  return evaluation.predict(nodes_of<d>(lattice));
+}
+
+template <int d>
 void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, DensityGrid& grid,
                            const DensityOptions& options, DensityReport& report) {
   const base::Stopwatch evaluating;
-  fgtd::TensorGrid nodes;
-  for (int k = 0; k < d; ++k) nodes.axes.push_back(grid.lattice.nodes(k));
+  const fgtd::TensorGrid nodes = nodes_of<d>(grid.lattice);
   Evaluation<d> evaluation(particles, cutoff, options);
   const double unit_error = evaluation.error_of_unit_tolerance(particles);
   const double expected = evaluation.lower_bound_of_maximum(particles);
@@ -215,6 +251,23 @@ void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, Den
   }
 }
 
+/// Errors of fgtd in the words of a case.
+template <class Work>
+auto in_words_of_a_case(const Work& work) {
+  try {
+    return work();
+  } catch (const fgtd::MemoryLimitError& error) {
+    throw InputError(
+        fmt::format("summing the density would take {:.3g} GB, at most {:.3g} GB are used; lower "
+                    "evaluate.per_axis or particles.per_axis",
+                    error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
+  } catch (const fgtd::Error& error) {
+    throw InputError("the density cannot be summed: " +
+                     base::in_users_words(error.what(), {{"Options::tolerance = ", "evaluate.tolerance = "}}) +
+                     "; check the size of the domain, particles.per_axis and particles.overlap");
+  }
+}
+
 }  // namespace
 
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
@@ -228,22 +281,40 @@ DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, c
     filled.choice = "no particles carry weight";
     return grid;
   }
-  try {
+  in_words_of_a_case([&] {
     if (lattice.dimension == 2)
       evaluate_in_dimension<2>(particles, cutoff, grid, options, filled);
     else
       evaluate_in_dimension<3>(particles, cutoff, grid, options, filled);
-  } catch (const fgtd::MemoryLimitError& error) {
-    throw InputError(
-        fmt::format("summing the density would take {:.3g} GB, at most {:.3g} GB are used; lower "
-                    "evaluate.per_axis or particles.per_axis",
-                    error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
-  } catch (const fgtd::Error& error) {
-    throw InputError("the density cannot be summed: " +
-                     base::in_users_words(error.what(), {{"Options::tolerance = ", "evaluate.tolerance = "}}) +
-                     "; check the size of the domain, particles.per_axis and particles.overlap");
-  }
+  });
   return grid;
+}
+
+DensityWork predict_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+                            const DensityOptions& options) {
+  if (particles.size() == 0) return {};
+  return in_words_of_a_case([&] {
+    return lattice.dimension == 2 ? predict_in_dimension<2>(particles, cutoff, lattice, options)
+                                  : predict_in_dimension<3>(particles, cutoff, lattice, options);
+  });
+}
+
+void check_seconds(const EvaluateSpec& evaluate, const DensityWork& work, int threads,
+                   const std::function<DensityWork()>& fastest) {
+  constexpr double most_if_named = 300;  // as `sum` has it
+  const double most = evaluate.most_seconds > 0 ? evaluate.most_seconds : most_if_named;
+  const double seconds = work.seconds / threads;
+  if (seconds <= most) return;
+  const DensityWork other = fastest();
+  const bool faster = other.seconds < work.seconds / 2;
+  throw InputError(fmt::format(
+      "evaluate.method = \"{}\" would take about {} for each density on {} {}, and only densities of up to {} are "
+      "begun. {}, or raise evaluate.most_seconds.",
+      evaluate.method, base::duration_text(seconds), threads, threads == 1 ? "thread" : "threads",
+      base::duration_text(most),
+      faster ? fmt::format("Use evaluate.method = \"auto\", which takes about {} ({})",
+                           base::duration_text(other.seconds / threads), other.method)
+             : "Lower evaluate.per_axis or particles.per_axis"));
 }
 
 namespace {

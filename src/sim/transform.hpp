@@ -2,9 +2,11 @@
 // to its own maximum. method.md, section 5.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "gaussdrift/case.hpp"
 #include "particle/cutoff.hpp"
 #include "sim/frame.hpp"
 
@@ -32,6 +34,26 @@ struct DensityReport {
 /// The density of the particles on the lattice. Without particles it is 0.
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report = nullptr);
+
+/// What fgtd predicts for a density on one thread.
+struct DensityWork {
+  double seconds = 0;
+  std::string method;  // that would do it
+};
+
+/// The work of evaluate_density(), predicted and not done.
+DensityWork predict_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+                            const DensityOptions& options);
+
+/// A named method may take very long where `auto` does not, so its seconds are limited; those of `auto` if asked for.
+inline bool limits_seconds(const EvaluateSpec& evaluate) {
+  return evaluate.method != "auto" || evaluate.most_seconds > 0;
+}
+
+/// Refuses (InputError) work that is predicted to take longer than such a case allows. `fastest` gives the work of `auto`
+/// and is called where the message needs it.
+void check_seconds(const EvaluateSpec& evaluate, const DensityWork& work, int threads,
+                   const std::function<DensityWork()>& fastest);
 
 /// The density at some points, given as one array for each axis: the sum of all blobs, without approximation.
 std::vector<double> sum_blobs(const Particles& particles, const Cutoff& cutoff, const PointsView& points, int threads);

@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/longest_side.hpp"
 #include "base/number.hpp"
+#include "base/parallel.hpp"
 #include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
@@ -82,6 +83,10 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
     std::vector<base::RepeatedTime> times;  // of those that have some
     std::vector<double> tolerances;
     std::vector<std::size_t> place;  // of their samples
+    const auto predicted_seconds = [&](double tolerance) {
+      const DensityOptions options{.tolerance = tolerance, .method = fgtd::to_string(method), .threads = threads};
+      return predict_density(particles, blob, parts.evaluation, options).seconds / base::resolve_threads(threads);
+    };
     const auto measure_again = [&](std::size_t i) {
       DensityReport report;
       evaluate_density(particles, blob, parts.evaluation,
@@ -94,6 +99,10 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
         sample.failure = "left out: too dear";
       } else {
         try {
+          if (method != fgtd::Method::automatic && predicted_seconds(tolerance) > seconds) {
+            too_dear = true;
+            continue;
+          }
           DensityReport report;
           evaluate_density(
               particles, blob, parts.evaluation,

@@ -20,9 +20,6 @@ struct MeasuredError {
 /// One sentence for each error beyond what is allowed; NaN is beyond.
 std::vector<std::string> broken_promises(const std::vector<MeasuredError>& errors, std::size_t targets);
 
-/// "45 s", "12 minutes", "3.5 hours", "12 days".
-std::string duration_text(double seconds);
-
 /// Tells the user of predicted work that takes some seconds or more, and refuses it (InputError) beyond
 /// request.most_seconds. `fastest` gives the seconds and method of `auto`; empty if nothing is faster.
 struct PredictedWork {

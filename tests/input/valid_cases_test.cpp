@@ -66,6 +66,7 @@ void expect_same(const Case& a, const Case& b) {
   EXPECT_EQ(a.evaluate.per_axis, b.evaluate.per_axis);
   EXPECT_EQ(a.evaluate.tolerance, b.evaluate.tolerance);
   EXPECT_EQ(a.evaluate.method, b.evaluate.method);
+  EXPECT_EQ(a.evaluate.most_seconds, b.evaluate.most_seconds);
   EXPECT_EQ(a.output.times, b.output.times);
   EXPECT_EQ(base::names_of(a.output.files), base::names_of(b.output.files));
   EXPECT_EQ(base::names_of(a.output.images), base::names_of(b.output.images));
@@ -200,6 +201,14 @@ TEST(Case, AddsUpSeveralVelocitiesAndDensities) {
   EXPECT_EQ(std::get<ExpressionDensity>(scene.density[0]).text, "x");
   EXPECT_EQ(number(std::get<ShapeDensity>(scene.density[1]).arguments, "height"), 4);
   expect_same(parse(resolved_toml(scene)), scene);
+}
+
+TEST(Case, LimitsTheSecondsOfADensityIfAsked) {
+  EXPECT_EQ(parse(cone).evaluate.most_seconds, 0);
+  const Case scene = parse(cone, {"evaluate.most_seconds=2.5"});
+  EXPECT_EQ(scene.evaluate.most_seconds, 2.5);
+  expect_same(parse(resolved_toml(scene)), scene);
+  EXPECT_THROW(parse(cone, {"evaluate.most_seconds=0"}), CaseError);
 }
 
 TEST(Case, SpreadsFramesEvenlyAndEndsExactly) {

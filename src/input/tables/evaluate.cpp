@@ -77,6 +77,7 @@ void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
   }
   if (const auto tolerance = in.number("evaluate", "tolerance")) evaluate.tolerance = tolerance->number;
   evaluate.method = in.choice("evaluate", "method");
+  if (const auto most = in.number("evaluate", "most_seconds")) evaluate.most_seconds = most->number;
 }
 
 }  // namespace gaussdrift::input
