@@ -76,7 +76,9 @@ TEST(Stability, LimitsAreTheKnownOnes) {
       return std::abs(time::stability_function(time::stability_polynomial(rk), z));
     };
     constexpr double digits = 1e-5;  // of the list above
-    if (imaginary > 0) EXPECT_LE(growth({0, imaginary - digits}), 1) << name;
+    if (imaginary > 0) {
+      EXPECT_LE(growth({0, imaginary - digits}), 1) << name;
+    }
     EXPECT_GT(growth({0, imaginary > 0 ? imaginary + digits : 0.1}), 1) << name;
     EXPECT_LE(growth(-negative + digits), 1) << name;
     EXPECT_GT(growth(-negative - digits), 1) << name;
