@@ -45,7 +45,7 @@ enum class Effort {
 };
 
 /// The work that all predictions together may take, and what they have taken. It is estimated beforehand in the units
-/// of Work (sim/simulation.hpp), so that decisions do not depend on the machine.
+/// of Work (sim/work.hpp), so that decisions do not depend on the machine.
 struct Allowance {
   double work = std::numeric_limits<double>::infinity();
   double spent = 0;

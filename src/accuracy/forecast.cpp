@@ -26,7 +26,7 @@ namespace gaussdrift::accuracy {
 
 namespace {
 
-constexpr double work_of_samples = 2e6;  // that looking at the velocity may take (sim/simulation.hpp)
+constexpr double work_of_samples = 2e6;  // that looking at the velocity may take (sim/work.hpp)
 /// The prediction of the errors may take half as much again as steps, density and pictures of the run, within bounds.
 constexpr double least_work_of_errors = 3e7, most_work_of_errors = 2.5e8;
 constexpr std::size_t most_particles = 400'000, most_with_method = 30'000;  // of a trial; with a method asked by name

@@ -26,7 +26,7 @@ struct Forecast {
   double divergence_noise = 0;               // its rounding: terms of |u| over the shortest length resolved
   bool whole = true;                         // all particles were looked at; else `particles` is an estimate
   std::size_t looked_at = 0;                 // lattice points at which the density was asked for
-  double work_of_errors = 0;                 // taken by their prediction (sim/simulation.hpp)
+  double work_of_errors = 0;                 // taken by their prediction (sim/work.hpp)
   double paths_traced = 0;            // for the seconds of the reference: evaluations of the velocity at one point
   std::vector<std::string> left_out;  // what was done with a sample, or not at all
   std::size_t lattice_points = 0, particles = 0, grid_points = 0, steps = 0, frames = 0;

@@ -17,7 +17,7 @@ struct AccuracyChoice {
   std::vector<std::string> settings;  // "particles.per_axis = 215", ...
   std::string left_out;               // what was not tried because the work of a search is limited; empty: nothing
   std::size_t lattices = 0;           // tried
-  double work = 0;                    // of their predictions (sim/simulation.hpp)
+  double work = 0;                    // of their predictions (sim/work.hpp)
 };
 
 /// Work of a search for settings: ten seconds of one core. Judging the chosen settings may take as much again.

@@ -21,7 +21,7 @@ namespace gaussdrift::accuracy {
 namespace {
 
 constexpr double enough_seconds = 0.05;  // for a timing
-// Work that the parts of a check may take (sim/simulation.hpp): together two seconds of one core, or less.
+// Work that the parts of a check may take (sim/work.hpp): together two seconds of one core, or less.
 constexpr double work_of_steps = 2e6, work_of_paths = 4e6, work_of_drifts = 2e7, work_of_growth = 1e7;
 constexpr std::size_t written_particles = 20'000, written_points = 40'000;  // of a file that is made on trial
 
@@ -171,7 +171,8 @@ Growth grow(const Case& spec, Trial& trial) {
   double all = 0, between = 0;
   for (const auto& [name, stage] : stages_taken.stages()) {
     all += stage;
-    if (name == "effect remesh" || name == "effect diffusion") between += stage;
+    for (const auto& effect : carrier.effects())
+      if (effect->acts_between_steps() && name == "effect " + effect->name()) between += stage;
   }
   Growth growth{.between_steps = all > 0 ? between / all : 0,
                 .mean = on_lattice_of_case(sum / count / begun),

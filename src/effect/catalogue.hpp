@@ -102,7 +102,7 @@ struct NamedEffect {
   std::vector<Complaint> (*problems)(const EffectSpec& effect, const Case& spec) = nullptr;
   /// The rate at which the square of every width grows.
   double (*spreading)(const EffectSpec& effect) = nullptr;
-  /// Work of a particle in a step besides stages, in evaluations of a velocity (sim/simulation.hpp, Work).
+  /// Work of a particle in a step besides stages, in evaluations of a velocity (sim/work.hpp, Work).
   double (*work)(const EffectSpec& effect, const Case& spec) = nullptr;
   EffectMemory (*memory)(const EffectSpec& effect, int dimension) = nullptr;
   /// The same effect on a lattice `times` as coarse, for a trial: in units of the spacing nothing changes.

@@ -18,6 +18,7 @@
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
+#include "sum/first_lines.hpp"
 
 namespace gaussdrift::sum {
 
@@ -241,16 +242,7 @@ void measure_errors(const SumRequest& request, PointSums& sums) {
 }
 
 std::string to_text(const PointSums& sums) {
-  std::ostringstream choice;
-  choice << sums.choice;
-  std::string text = fmt::format(
-      "sums   {} at {} targets in {:.3g} s on {} {} (read {:.3g}, prepare {:.3g}, evaluate {:.3g}, compare "
-      "{:.3g}, write {:.3g})\n",
-      fmt::join(sums.columns, ", "), sums.values.rows(),
-      sums.read_seconds + sums.prepare_seconds + sums.evaluate_seconds + sums.compare_seconds + sums.write_seconds,
-      sums.threads, sums.threads == 1 ? "thread" : "threads", sums.read_seconds, sums.prepare_seconds,
-      sums.evaluate_seconds, sums.compare_seconds, sums.write_seconds);
-  text += fmt::format("method {}\n", choice.str());
+  std::string text = first_lines(sums);
   text += fmt::format("Q      {:.9g}", sums.weight_total);
   for (std::size_t k = 0; k < sums.columns.size(); ++k)
     if (sums.error_bounds[k])
