@@ -25,6 +25,9 @@ struct GaussianModel;  // field/gaussians/gaussian_velocity.hpp
 /// Named constants of `[params]`, in file order.
 using Params = std::vector<std::pair<std::string, double>>;
 
+/// Named numbers.
+using Numbers = std::vector<std::pair<std::string, double>>;
+
 /// Parameters of a named formula: one number, or a point as one number a dimension.
 using Arguments = std::vector<std::pair<std::string, std::vector<double>>>;
 

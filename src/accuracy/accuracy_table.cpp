@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/repeated_time.hpp"
+#include "sim/scene.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift::accuracy {

@@ -5,7 +5,7 @@
 
 #include "accuracy/budget.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift::accuracy {
 

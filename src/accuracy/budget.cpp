@@ -10,16 +10,23 @@
 #include <numeric>
 
 #include "accuracy/would_run.hpp"
-#include "base/error.hpp"
 #include "base/longest_side.hpp"
 #include "base/number.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
 #include "particle/subset.hpp"
 #include "reference/exact_paths.hpp"
+#include "reference/reference.hpp"
+#include "reference/sample.hpp"
+#include "sim/carrier.hpp"
+#include "sim/comparison.hpp"
+#include "sim/landings.hpp"
 #include "sim/outside.hpp"
+#include "sim/scene.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
 #include "sim/transform.hpp"
+#include "sim/work.hpp"
 #include "time/schedule.hpp"
 
 namespace gaussdrift::accuracy {
@@ -334,13 +341,13 @@ void carry_by_steps(const Case& description, const Scene& scene, Particles& part
   if (time::is_adaptive(time::find_tableau(longer.time.method))) longer.time.tolerance *= std::pow(factor, 5);
   Carrier carrier(longer, scene, threads);
   carrier.begin(particles);
-  base::StageTimes ignored;
+  StageTimes ignored;
   double now = 0;
   std::size_t steps = 0;
   const double last = description.output.times.back();
   for (const double to : landings(description)) {
     if (to > last) break;
-    steps += carrier.carry(particles, now, to, steps, ignored, [](double, std::size_t) {});
+    steps += carrier.carry(particles, now, to, steps, ignored);
     now = to;
   }
 }

@@ -11,7 +11,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/simulation.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 

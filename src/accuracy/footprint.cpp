@@ -11,10 +11,10 @@
 
 #include "accuracy/budget.hpp"
 #include "accuracy/trial.hpp"
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "render/styles.hpp"
-#include "sim/simulation.hpp"
 
 namespace gaussdrift::accuracy {
 

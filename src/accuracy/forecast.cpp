@@ -15,12 +15,16 @@
 #include "accuracy/trial.hpp"
 #include "accuracy/trial_times.hpp"
 #include "base/duration_text.hpp"
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "render/picture.hpp"
+#include "sim/carrier.hpp"
+#include "sim/comparison.hpp"
+#include "sim/landings.hpp"
 #include "sim/outside.hpp"
-#include "sim/simulation.hpp"
+#include "sim/work.hpp"
 
 namespace gaussdrift::accuracy {
 

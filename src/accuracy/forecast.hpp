@@ -10,6 +10,7 @@
 #include "accuracy/budget.hpp"
 #include "gaussdrift/case.hpp"
 #include "sim/transform.hpp"
+#include "sim/work.hpp"
 
 namespace gaussdrift::accuracy {
 

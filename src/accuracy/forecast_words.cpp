@@ -4,6 +4,7 @@
 
 #include "accuracy/forecast.hpp"
 #include "accuracy/grouped.hpp"
+#include "reference/reference.hpp"
 #include "sim/outside.hpp"
 
 namespace gaussdrift::accuracy {

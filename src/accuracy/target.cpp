@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "accuracy/would_run.hpp"
-#include "base/error.hpp"
 #include "base/number.hpp"
+#include "gaussdrift/error.hpp"
 #include "sim/stable_step.hpp"
 #include "time/tableau.hpp"
 

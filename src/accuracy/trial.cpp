@@ -6,8 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 

@@ -5,9 +5,10 @@
 #include <array>
 #include <cstddef>
 
-#include "base/lattice.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/lattice.hpp"
+#include "gaussdrift/simulation.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 

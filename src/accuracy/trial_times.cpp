@@ -11,7 +11,10 @@
 #include "base/stopwatch.hpp"
 #include "effect/catalogue.hpp"
 #include "particle/subset.hpp"
+#include "sim/carrier.hpp"
+#include "sim/comparison.hpp"
 #include "sim/stepper.hpp"
+#include "sim/work.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
 #include "write/output_files.hpp"
@@ -96,7 +99,7 @@ double time_steps(const Case& spec, const Scene& scene, const Particles& particl
     Carrier carrier(spec, scene, 1);
     Particles copy = particles;
     carrier.begin(copy);
-    base::StageTimes ignored;
+    StageTimes ignored;
     std::size_t taken = 0;
     const ProcessorClock begun;
     for (std::size_t count = 1; taken < interval.steps() && (taken == 0 || begun.seconds() < enough_seconds / 2);
@@ -152,7 +155,7 @@ Growth grow(const Case& spec, Trial& trial) {
   carrier.begin(copy);
   const auto begun = static_cast<double>(copy.size());
   double sum = 0, most = begun, count = 0;
-  base::StageTimes stages_taken;
+  StageTimes stages_taken;
   const ProcessorClock watch;
   // Counted with the particles that there are by then.
   for (std::size_t i = 0; i < interval.steps() && (i == 0 || sum * each < work_of_growth); ++i) {
@@ -182,27 +185,23 @@ Growth grow(const Case& spec, Trial& trial) {
 }
 
 ChosenSteps try_chosen_steps(const Case& spec, const Scene& scene, const Particles& particles) {
-  struct Enough {};
   Carrier trial(spec, scene, 1);
   Particles moved = particles;
   trial.begin(moved);
-  base::StageTimes ignored;
+  StageTimes ignored;
   const ProcessorClock watch;
   const double end = spec.time.end;
-  double now = 0, steps = 0, seconds = 0;
+  double seconds = 0;
   const double step_work =
       static_cast<double>(moved.size()) * time::find_tableau(spec.time.method).stages * work_of_exact_rate(scene);
-  try {
-    trial.carry(moved, 0, end, 0, ignored, [&](double time, std::size_t taken) {
-      now = time;
-      steps = static_cast<double>(taken);
-      seconds = watch.seconds();
-      if (steps * step_work > work_of_paths && seconds > enough_seconds / 2) throw Enough{};
-    });
-  } catch (const Enough&) {
-  }
-  if (!(now > 0)) return {};
-  return {std::ceil(steps * end / now), seconds / steps};
+  Carrier::Leg leg{0, end, 0, 0};
+  trial.carry(moved, leg, 0, ignored, [&](const Carrier::Leg& so_far) {
+    seconds = watch.seconds();
+    return !(static_cast<double>(so_far.steps) * step_work > work_of_paths && seconds > enough_seconds / 2);
+  });
+  if (!(leg.now > 0)) return {};
+  const auto steps = static_cast<double>(leg.steps);
+  return {std::ceil(steps * end / leg.now), seconds / steps};
 }
 
 double time_reference(const Case& spec, const Scene& scene, const Comparison& compared, int threads, double& traced) {

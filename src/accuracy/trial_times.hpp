@@ -8,7 +8,8 @@
 #include "accuracy/footprint.hpp"
 #include "accuracy/trial.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/simulation.hpp"
+#include "sim/comparison.hpp"
 
 namespace gaussdrift::accuracy {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <variant>
 
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
-#include "input/read_case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift::accuracy {
 
@@ -32,7 +32,7 @@ std::string first_line(const std::string& text) {
 
 std::string why_not_read(const Case& scene) {
   try {
-    input::parse_case(input::resolved_toml(without_data(scene)), "run.toml");
+    parse_case(case_text(without_data(scene)), "run.toml");
   } catch (const Error& error) {
     return first_line(error.what());
   }

@@ -1,4 +1,4 @@
-#include "base/lattice.hpp"
+#include "gaussdrift/lattice.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <system_error>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::base {
 

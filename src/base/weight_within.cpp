@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/longest_side.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

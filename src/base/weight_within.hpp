@@ -2,7 +2,7 @@
 // sum.
 #pragma once
 
-#include "base/points.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

@@ -3,16 +3,16 @@
 #include "accuracy/target.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
 
 namespace gaussdrift::cli {
 
 Case read(const CaseOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.accuracy.empty()) overrides.push_back("accuracy.target=" + options.accuracy);
-  input::ReadResult result = input::read_case(options.file, overrides, options.threads);
+  ReadResult result = read_case(options.file, overrides, options.threads);
   for (const std::string& warning : result.warnings) note("{}\n", warning);
-  return std::move(result.scene);
+  return std::move(result.spec);
 }
 
 Case settled(Case spec, const CaseOptions& options) {

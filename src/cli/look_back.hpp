@@ -8,7 +8,7 @@
 
 #include "accuracy/budget.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift::cli {
 

@@ -15,7 +15,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "cli/wrong_words.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "read/grid_file.hpp"
 
 namespace gaussdrift::cli {
@@ -263,7 +263,7 @@ int main_verbs(int argc, char** argv) {
     if (delivered == Delivery::lost)
       note("error: standard output cannot be written, so what should stand there is lost\n");
     return exit_code(code == ExitCode::ok && delivered != Delivery::all ? ExitCode::files : code);
-  } catch (const input::CaseError& error) {  // laid out already
+  } catch (const CaseError& error) {  // laid out already
     note("{}\n", error.what());
     return exit_code(error.code());
   } catch (const Error& error) {

@@ -8,8 +8,8 @@
 #include "base/suggest.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "input/examples.hpp"
-#include "input/read_case.hpp"
 #include "write/atomic_file.hpp"
 
 namespace gaussdrift::cli {

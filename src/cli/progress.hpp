@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/stopwatch.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift::cli {
 

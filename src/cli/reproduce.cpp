@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/error.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "gaussdrift/error.hpp"
 #include "reproduce/claims.hpp"
 #include "reproduce/cone.hpp"
 #include "reproduce/coulomb.hpp"

@@ -15,6 +15,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "read/written_run.hpp"
+#include "reference/norms.hpp"
 #include "reference/reference.hpp"
 #include "render/styles.hpp"
 #include "report/page.hpp"

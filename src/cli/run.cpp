@@ -15,7 +15,8 @@
 #include "cli/progress.hpp"
 #include "cli/run_words.hpp"
 #include "cli/terminal.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "input/data_files.hpp"
 #include "render/picture.hpp"
 #include "render/picture_series.hpp"
 #include "report/page.hpp"
@@ -70,7 +71,7 @@ std::string provenance_of(const Case& spec, const fs::path& folder, const RunOpt
   std::vector<write::DataFile> data;
   for (const fs::path& file : input::data_files(spec))
     data.push_back({input::seen_from(folder, file).generic_string(), file});
-  return write::provenance_json(spec, input::resolved_toml(input::with_bare_names(spec)), data, options.command,
+  return write::provenance_json(spec, case_text(input::with_bare_names(spec)), data, options.command,
                                 base::resolve_threads(options.scene.threads));
 }
 
@@ -88,12 +89,15 @@ class Run {
     simulation.prepare();  // what cannot begin must not cost an earlier run
     const std::string provenance = provenance_of(spec_, folder_, options_);
     write::prepare_run_folder(folder_, options_.force);
-    write::write_run_inputs(folder_, spec_, input::resolved_toml(spec_, folder_));
+    write::write_run_inputs(folder_, spec_, case_text(spec_, folder_));
     write::write_text(folder_ / "provenance.json", provenance);
     add_observers(simulation, spec_, folder_);
     if (looks_back(spec_)) simulation.observe(std::make_unique<accuracy::LastFrame>(last_, spec_.output.times.back()));
     ProgressLine line;
-    simulation.on_progress([&](const Progress& progress) { line.show(progress); });
+    simulation.on_progress([&](const Progress& progress) {
+      line.show(progress);
+      return true;
+    });
     summary_ = simulation.run();
   }
 

@@ -6,6 +6,7 @@
 
 #include "accuracy/would_run.hpp"
 #include "base/stopwatch.hpp"
+#include "sim/checks.hpp"
 #include "sim/outside.hpp"
 #include "write/output_files.hpp"
 #include "write/series_table.hpp"
@@ -33,7 +34,7 @@ std::string one_line(const accuracy::Budget& budget) {
 
 /// The stages that took the seconds, the largest first, down to a hundredth of all: "charge 460.21, density 30.02".
 std::string seconds_text(const RunSummary& summary) {
-  base::StageTimes parts;
+  StageTimes parts;
   double told = 0;
   for (const auto& [stage, seconds] : summary.stages.stages()) {
     const std::string name = stage.starts_with("write ")          ? "files"

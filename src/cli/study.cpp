@@ -3,11 +3,11 @@
 
 #include <cstdio>
 
-#include "base/error.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "gaussdrift/error.hpp"
 #include "render/picture.hpp"
 #include "study/study.hpp"
 #include "write/atomic_file.hpp"

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "base/catalogue.hpp"
-#include "base/lattice.hpp"
 #include "base/named.hpp"
 #include "effect/effect.hpp"
 #include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/lattice.hpp"
 
 namespace gaussdrift {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
 #include "field/velocity/differences.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

@@ -2,8 +2,8 @@
 // once.
 #pragma once
 
-#include "base/points.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/particles.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

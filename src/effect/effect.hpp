@@ -18,7 +18,8 @@
 
 #include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/case.hpp"
+#include "gaussdrift/particles.hpp"
 
 namespace gaussdrift {
 
@@ -29,9 +30,6 @@ struct Changes {
   bool width = false;      // of the blobs
   bool particles = false;  // adds or replaces particles
 };
-
-/// Named numbers.
-using Numbers = std::vector<std::pair<std::string, double>>;
 
 class Effect {
  public:

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

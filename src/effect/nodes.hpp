@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/lattice.hpp"
+#include "gaussdrift/lattice.hpp"
 
 namespace gaussdrift {
 

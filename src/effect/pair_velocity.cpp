@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "base/error.hpp"
 #include "base/users_words.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/points.hpp"
 #include "farfield/farfield.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

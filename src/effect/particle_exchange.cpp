@@ -8,9 +8,9 @@
 #include <numbers>
 #include <set>
 
-#include "base/error.hpp"
 #include "base/users_words.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
 #include "particle/fgtd_points.hpp"
 
 namespace gaussdrift {

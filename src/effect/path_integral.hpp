@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "base/points.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

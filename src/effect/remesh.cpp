@@ -6,8 +6,8 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

@@ -1,5 +1,6 @@
 // The files besides the case file that a run depends on.
-#include "input/read_case.hpp"
+#include "input/data_files.hpp"
+
 #include "read/grid_file.hpp"
 
 namespace gaussdrift::input {

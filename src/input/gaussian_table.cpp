@@ -7,7 +7,7 @@
 #include <compare>
 #include <numeric>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "input/points_table.hpp"
 
 namespace gaussdrift::input {

@@ -7,10 +7,10 @@
 #include <charconv>
 #include <optional>
 
-#include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/suggest.hpp"
 #include "base/text_file.hpp"
+#include "gaussdrift/error.hpp"
 #include "input/column_names.hpp"
 #include "input/foreign_format.hpp"
 #include "input/table_number.hpp"

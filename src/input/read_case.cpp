@@ -1,4 +1,4 @@
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,10 @@
 #include "input/tables/tables.hpp"
 #include "read/grid_file.hpp"
 
-namespace gaussdrift::input {
+namespace gaussdrift {
+
+using namespace input;  // this is the public face of that module
+
 namespace {
 
 // A case is a few kilobytes; a long list of output times may take more. Data belong into files of their own.
@@ -58,12 +61,12 @@ ReadResult parse_case(const std::string& text, const std::filesystem::path& file
   ReadResult result;
   if (root) {
     Reader reader(*root, source, diagnostics, file.parent_path(), threads);
-    result.scene = read_tables(reader);
+    result.spec = read_tables(reader);
   }
   if (diagnostics.errors() > 0) throw CaseError(diagnostics.error_text(), diagnostics.errors());
-  result.scene.name = file.stem().string();
-  result.scene.file = file;
-  result.scene.source = text;
+  result.spec.name = file.stem().string();
+  result.spec.file = file;
+  result.spec.source = text;
   result.warnings = diagnostics.warnings();
   return result;
 }
@@ -85,4 +88,4 @@ ReadResult read_case(const std::filesystem::path& file, const std::vector<std::s
   return parse_case(text, file, overrides, threads);
 }
 
-}  // namespace gaussdrift::input
+}  // namespace gaussdrift

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/lattice.hpp"
 #include "base/named.hpp"
 #include "expression/expression.hpp"
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/lattice.hpp"
 #include "input/diagnostics.hpp"
 #include "input/document.hpp"
 #include "input/registry.hpp"

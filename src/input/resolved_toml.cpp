@@ -8,12 +8,16 @@
 #include "effect/catalogue.hpp"
 #include "expression/expression.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "input/data_files.hpp"
 #include "input/registry.hpp"
 #include "particle/cutoff.hpp"
 #include "time/tableau.hpp"
 
-namespace gaussdrift::input {
+namespace gaussdrift {
+
+using namespace input;  // this is the public face of that module
+
 namespace {
 
 std::string written(double value) {
@@ -154,7 +158,7 @@ Params params_in_use(const Case& scene) {
 
 }  // namespace
 
-std::string resolved_toml(const Case& scene, const std::filesystem::path& folder) {
+std::string case_text(const Case& scene, const std::filesystem::path& folder) {
   const int dimension = scene.domain.dimension;
   Writer out(folder);
   out.entry("gaussdrift", "1");
@@ -241,4 +245,4 @@ std::string resolved_toml(const Case& scene, const std::filesystem::path& folder
   return out.text();
 }
 
-}  // namespace gaussdrift::input
+}  // namespace gaussdrift

@@ -9,7 +9,7 @@
 
 #include "base/catalogue.hpp"
 #include "base/named.hpp"
-#include "base/points.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

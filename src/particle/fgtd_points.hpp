@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fgtd/fgtd.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/particles.hpp"
 
 namespace gaussdrift {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

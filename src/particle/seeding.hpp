@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/lattice.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/lattice.hpp"
+#include "gaussdrift/particles.hpp"
 
 namespace gaussdrift {
 
@@ -17,18 +17,6 @@ using DensityFunction = std::function<void(const PointsView& x, double* values)>
 struct Carried {
   std::string name;
   DensityFunction density;
-};
-
-/// The points without a particle, for one of the things carried.
-struct LeftOut {
-  double all = 0;       // sum of |weights| on all lattice points
-  double left_out = 0;  // of those without a particle
-  double part() const { return all > 0 ? left_out / all : 0; }
-};
-
-struct SeedReport {
-  std::size_t left_out = 0;      // lattice points that have something and no particle
-  std::vector<LeftOut> carried;  // in the order of what is carried
 };
 
 /// The weight of a lattice point is h^d times a density there; `carried.front()` gives alpha_j. A point has a particle

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "particle/particles.hpp"
+#include "gaussdrift/particles.hpp"
 
 namespace gaussdrift {
 

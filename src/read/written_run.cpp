@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "base/error.hpp"
 #include "base/number.hpp"
+#include "gaussdrift/error.hpp"
 #include "read/grid_file.hpp"
 
 namespace gaussdrift::read {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/density_grid.hpp"
+#include "gaussdrift/density_grid.hpp"
 
 namespace gaussdrift::read {
 

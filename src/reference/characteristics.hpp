@@ -5,9 +5,9 @@
 #include <functional>
 #include <memory>
 
-#include "base/lattice.hpp"
 #include "field/density/density.hpp"
 #include "field/velocity/velocity.hpp"
+#include "gaussdrift/lattice.hpp"
 #include "reference/reference.hpp"
 #include "time/tableau.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "base/lattice.hpp"
+#include "gaussdrift/lattice.hpp"
 
 namespace gaussdrift {
 

@@ -5,7 +5,7 @@
 
 #include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/particles.hpp"
 
 namespace gaussdrift {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/lattice.hpp"
+#include "gaussdrift/lattice.hpp"
 #include "reference/reference.hpp"
 
 namespace gaussdrift {

@@ -3,14 +3,10 @@
 
 #include <vector>
 
+#include "gaussdrift/norms.hpp"
 #include "reference/sample.hpp"
 
 namespace gaussdrift {
-
-/// Norms of rho_eps^h - rho on the grid, each divided by that of the exact rho at the same time; NaN where that is 0.
-struct ErrorNorms {
-  double l1 = 0, l2 = 0, linf = 0;
-};
 
 /// Norms of rho - exact over a sample; exact[i] at sample.points[i]. See compare() below.
 ErrorNorms compare(const std::vector<double>& rho, const GridSample& sample, const std::vector<double>& exact);

@@ -6,22 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "base/points.hpp"
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/norms.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 
 /// "characteristics", "exact", "none".
 std::string to_string(ReferenceSpec::Kind kind);
-
-/// What was done for one output.
-struct ReferenceReport {
-  std::size_t untraced = 0;   // points whose value is not known: NaN in the result
-  Vector first_untraced{};    // one of them
-  std::string trouble;        // and why
-  std::size_t rates = 0;      // evaluations of the velocity for one point, summed over all
-  std::size_t exhausted = 0;  // points, among the untraced, that would take more steps than are allowed
-};
 
 class Reference {
  public:

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/lattice.hpp"
+#include "gaussdrift/lattice.hpp"
 
 namespace gaussdrift {
 

@@ -26,7 +26,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "render/osmesa_window.hpp"
 
 #ifndef GAUSSDRIFT_FONT

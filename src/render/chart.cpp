@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "render/axes.hpp"
 #include "render/on_canvas.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "gaussdrift/frame.hpp"
 #include "render/colour.hpp"
-#include "sim/frame.hpp"
 
 namespace gaussdrift::render {
 

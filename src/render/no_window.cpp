@@ -1,5 +1,5 @@
 // In place of osmesa_window.cpp where OSMesa was absent at build time: nothing is drawn, and the reason is told.
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "render/osmesa_window.hpp"
 
 namespace gaussdrift::render {

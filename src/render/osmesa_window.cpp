@@ -27,7 +27,7 @@
 #include <cstring>
 #include <string>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 // Found by GLEW before libGLX's. Names of GLX itself must be unknown: OSMesa would make up a stub for any name in gl.
 extern "C" {

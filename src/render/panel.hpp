@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/frame.hpp"
+#include "gaussdrift/frame.hpp"
 
 namespace gaussdrift::render {
 

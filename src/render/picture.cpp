@@ -7,7 +7,7 @@
 #include <mutex>
 #include <tuple>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "render/on_canvas.hpp"
 #include "render/osmesa_window.hpp"
 #include "render/styles.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/frame.hpp"
+#include "gaussdrift/frame.hpp"
 
 namespace gaussdrift::render {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gaussdrift/case.hpp"
-#include "sim/frame.hpp"
+#include "gaussdrift/frame.hpp"
 
 namespace gaussdrift::render {
 

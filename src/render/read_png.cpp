@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::render {
 

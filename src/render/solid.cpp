@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::render {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "gaussdrift/frame.hpp"
 #include "render/height_field.hpp"
-#include "sim/frame.hpp"
 
 namespace gaussdrift::render {
 

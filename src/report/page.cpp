@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "report/html.hpp"
 #include "report/page_style.hpp"
 #include "report/sections.hpp"

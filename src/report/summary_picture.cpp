@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "read/written_run.hpp"
 #include "render/panel.hpp"
 #include "render/picture.hpp"

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "fgtd/fgtd.hpp"
+#include "gaussdrift/error.hpp"
 #include "reproduce/cone.hpp"
 #include "reproduce/measured_sum.hpp"
 #include "reproduce/point_sets.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "base/lattice.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/lattice.hpp"
+#include "gaussdrift/particles.hpp"
 
 namespace gaussdrift::reproduce {
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
+#include "gaussdrift/error.hpp"
 #include "reproduce/fgtd_tables.hpp"
 #include "reproduce/published.hpp"
 

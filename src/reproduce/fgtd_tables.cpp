@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "reproduce/measured_sum.hpp"
 #include "reproduce/point_sets.hpp"
 #include "reproduce/published.hpp"

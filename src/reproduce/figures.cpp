@@ -7,14 +7,14 @@
 #include <cmath>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "input/examples.hpp"
-#include "input/read_case.hpp"
 #include "render/chart.hpp"
 #include "render/styles.hpp"
 #include "reproduce/fgtd.hpp"
-#include "sim/simulation.hpp"
 
 namespace gaussdrift::reproduce {
 
@@ -38,7 +38,7 @@ std::vector<std::pair<double, DensityGrid>> densities(const std::string& name,
   const auto& files = input::example_files();
   const auto file = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.name == name + ".toml"; });
   if (file == files.end()) throw Error(ExitCode::internal, "there is no built-in case " + name);
-  Case scene = input::parse_case(std::string(file->bytes), name + ".toml", overrides, threads).scene;
+  Case scene = parse_case(std::string(file->bytes), name + ".toml", overrides, threads).spec;
   scene.checks.clear();  // nothing is compared, so no exact density is needed
   scene.reference = {};
   std::vector<std::pair<double, DensityGrid>> frames;

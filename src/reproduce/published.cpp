@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::reproduce {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <string>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "field/velocity/value_seconds.hpp"
+#include "gaussdrift/error.hpp"
 #include "reference/lost_velocity.hpp"
 #include "sim/stepper.hpp"
 #include "time/runge_kutta.hpp"

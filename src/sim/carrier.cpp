@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/longest_side.hpp"
 #include "base/number.hpp"
 #include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
+#include "gaussdrift/error.hpp"
 #include "sim/scene.hpp"
 
 namespace gaussdrift {
@@ -130,45 +131,60 @@ void Carrier::warn_of_jumps(const Particles& particles) {
                       : ""));
 }
 
-std::size_t Carrier::carry(Particles& particles, double from, double to, std::size_t steps_before,
-                           base::StageTimes& stages, const std::function<void(double, std::size_t)>& report) {
-  std::size_t steps = 0;
-  if (adaptive_) {
-    for (double now = from; now < to;) {
-      const base::Stopwatch watch;
-      const double before = adaptive_->drift_seconds();
-      now = adaptive_->advance(particles, now, to, steps_before + steps);
-      const double drifts = adaptive_->drift_seconds() - before;
-      stages.add("transport", watch.seconds() - drifts);
-      for (const auto& effect : effects_)
-        if (effect->drift()) stages.add(stage_of(*effect), drifts / static_cast<double>(drifts_.size()));
-      ++steps;
-      if (between_steps_) {
-        settle(particles, now, stages);
-        rearrange(particles, now, stages);
-      }
-      report(now, steps);
+bool Carrier::carry(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+                    const std::function<bool(const Leg& leg)>& go_on) {
+  const bool arrived = adaptive_ ? adapt(particles, leg, steps_before, stages, go_on)
+                                 : step(particles, leg, steps_before, stages, go_on);
+  if (arrived) land(particles, leg.to, stages);
+  return arrived;
+}
+
+std::size_t Carrier::carry(Particles& particles, double from, double to, std::size_t steps_before, StageTimes& stages) {
+  Leg leg{from, to, 0, from};
+  carry(particles, leg, steps_before, stages, [](const Leg&) { return true; });
+  return leg.steps;
+}
+
+bool Carrier::adapt(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+                    const std::function<bool(const Leg& leg)>& go_on) {
+  while (leg.now < leg.to) {
+    const base::Stopwatch watch;
+    const double before = adaptive_->drift_seconds();
+    leg.now = adaptive_->advance(particles, leg.now, leg.to, steps_before + leg.steps);
+    const double drifts = adaptive_->drift_seconds() - before;
+    stages.add("transport", watch.seconds() - drifts);
+    for (const auto& effect : effects_)
+      if (effect->drift()) stages.add(stage_of(*effect), drifts / static_cast<double>(drifts_.size()));
+    ++leg.steps;
+    if (between_steps_) {
+      settle(particles, leg.now, stages);
+      rearrange(particles, leg.now, stages);
     }
-  } else {
-    const time::Interval interval(from, to, case_.time.step);
-    // Batches are short enough for a lively progress line and long enough that threads start rarely.
-    constexpr std::size_t stages_a_batch = 4'000'000;
-    const std::size_t stages_a_step =
-        std::max<std::size_t>(1, particles.size() * static_cast<std::size_t>(tableau_.stages));
-    const std::size_t batch = std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000);
-    while (steps < interval.steps()) {
-      const std::size_t count = std::min(batch, interval.steps() - steps);
-      advance(particles, interval, steps, count, steps_before, stages);
-      steps += count;
-      report(interval.start(steps), steps);
-    }
+    if (!go_on(leg) && leg.now < leg.to) return false;
   }
-  land(particles, to, stages);
-  return steps;
+  return true;
+}
+
+bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+                   const std::function<bool(const Leg& leg)>& go_on) {
+  const time::Interval interval(leg.from, leg.to, case_.time.step);
+  // Batches are short enough for a lively progress line and long enough that threads start rarely.
+  constexpr std::size_t stages_a_batch = 4'000'000;
+  const std::size_t stages_a_step =
+      std::max<std::size_t>(1, particles.size() * static_cast<std::size_t>(tableau_.stages));
+  const std::size_t batch = std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000);
+  while (leg.steps < interval.steps()) {
+    const std::size_t count = std::min(batch, interval.steps() - leg.steps);
+    advance(particles, interval, leg.steps, count, steps_before, stages);
+    leg.steps += count;
+    leg.now = interval.start(leg.steps);
+    if (!go_on(leg) && leg.steps < interval.steps()) return false;
+  }
+  return true;
 }
 
 void Carrier::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-                      std::size_t steps_before, base::StageTimes& stages) {
+                      std::size_t steps_before, StageTimes& stages) {
   if (!between_steps_) return take_steps(particles, interval, first, count, steps_before, stages);
   // Strang's splitting: half a step of exchange on either side of each step; two halves that meet are one.
   for (std::size_t i = first; i < first + count; ++i) {
@@ -185,7 +201,7 @@ void Carrier::advance(Particles& particles, const time::Interval& interval, std:
 }
 
 void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-                         std::size_t steps_before, base::StageTimes& stages) const {
+                         std::size_t steps_before, StageTimes& stages) const {
   const base::Stopwatch watch;
   const StepperSeconds spent = stepper_.advance(particles, interval, first, count, steps_before);
   // With drifts there is one block, on one thread.
@@ -198,7 +214,7 @@ void Carrier::take_steps(Particles& particles, const time::Interval& interval, s
     stages.add(stage_of(*effect), integrals / static_cast<double>(integrating_.size()));
 }
 
-void Carrier::settle(Particles& particles, double time, base::StageTimes& stages) const {
+void Carrier::settle(Particles& particles, double time, StageTimes& stages) const {
   for (std::size_t q = 0; q < integrating_.size(); ++q)
     stages.run(stage_of(*integrating_[q]), [&] {
       integrating_[q]->settle(particles, particles.path[q].data(), time);
@@ -206,7 +222,7 @@ void Carrier::settle(Particles& particles, double time, base::StageTimes& stages
     });
 }
 
-void Carrier::exchange(Particles& particles, double time, double length, base::StageTimes& stages) const {
+void Carrier::exchange(Particles& particles, double time, double length, StageTimes& stages) const {
   for (const auto& effect : effects_)
     if (effect->acts_between_steps()) stages.run(stage_of(*effect), [&] { effect->exchange(particles, time, length); });
 }
@@ -223,7 +239,7 @@ void Carrier::follow(Particles& particles) const {
     integrating_[q]->settle(particles, particles.path[q].data(), now);
 }
 
-void Carrier::rearrange(Particles& particles, double time, base::StageTimes& stages) {
+void Carrier::rearrange(Particles& particles, double time, StageTimes& stages) {
   bool replaced = false;
   for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->land(particles, time); });
   for (const auto& effect : effects_)
@@ -235,7 +251,7 @@ void Carrier::rearrange(Particles& particles, double time, base::StageTimes& sta
   for (auto& integral : particles.path) integral.assign(particles.size(), 0.0);
 }
 
-void Carrier::land(Particles& particles, double time, base::StageTimes& stages) const {
+void Carrier::land(Particles& particles, double time, StageTimes& stages) const {
   settle(particles, time, stages);
   for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->land(particles, time); });
 }

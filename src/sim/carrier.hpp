@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "base/stopwatch.hpp"
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/stage_times.hpp"
 #include "sim/adaptive_stepper.hpp"
 #include "sim/effects.hpp"
 #include "sim/stable_step.hpp"
@@ -35,15 +35,25 @@ class Carrier {
   /// Warnings about the steps of this case, as sentences for the user. Call it after begin().
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Carries the particles from one output time to the next and brings weights and widths up to it. `steps_before` is
-  /// the number of earlier steps. `report(time, steps)` is called between batches of steps. Seconds are booked under
-  /// "transport" and "effect <name>". Returns the steps taken.
-  std::size_t carry(Particles& particles, double from, double to, std::size_t steps_before, base::StageTimes& stages,
-                    const std::function<void(double time, std::size_t steps)>& report);
+  /// The way from one landing time to the next, and how far along it the particles are.
+  struct Leg {
+    double from = 0, to = 0;
+    std::size_t steps = 0;  // taken on it
+    double now = 0;         // reached
+  };
+
+  /// Carries the particles on along the leg, and at its end brings weights and widths up to it. `steps_before` is the
+  /// number of steps before the leg. `go_on` is called between batches of steps, with the leg so far; where it returns
+  /// false the particles stay there, and another call goes on with the same bits. Seconds are booked under "transport"
+  /// and "effect <name>". Returns true if the end is reached.
+  bool carry(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+             const std::function<bool(const Leg& leg)>& go_on);
+  /// A whole leg; returns the steps taken.
+  std::size_t carry(Particles& particles, double from, double to, std::size_t steps_before, StageTimes& stages);
 
   /// Steps of a fixed length alone: steps first .. first + count - 1 of the interval.
   void advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-               std::size_t steps_before, base::StageTimes& stages);
+               std::size_t steps_before, StageTimes& stages);
 
   /// True if steps are chosen by their error (time.tolerance) instead of by time.step.
   bool is_adaptive() const { return adaptive_.has_value(); }
@@ -62,15 +72,21 @@ class Carrier {
   void refuse_unstable_step() const;
   void warn_of_jumps(const Particles& particles);
 
+  // To the end of the leg by steps that are chosen, and by steps of a fixed length; false if `go_on` said no before.
+  bool adapt(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+             const std::function<bool(const Leg& leg)>& go_on);
+  bool step(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+            const std::function<bool(const Leg& leg)>& go_on);
+
   // Brings weights and widths up to `time`, at which the positions are.
-  void land(Particles& particles, double time, base::StageTimes& stages) const;
+  void land(Particles& particles, double time, StageTimes& stages) const;
 
   void take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
-                  std::size_t steps_before, base::StageTimes& stages) const;
-  void exchange(Particles& particles, double time, double length, base::StageTimes& stages) const;
-  void rearrange(Particles& particles, double time, base::StageTimes& stages);
+                  std::size_t steps_before, StageTimes& stages) const;
+  void exchange(Particles& particles, double time, double length, StageTimes& stages) const;
+  void rearrange(Particles& particles, double time, StageTimes& stages);
   void follow(Particles& particles) const;
-  void settle(Particles& particles, double time, base::StageTimes& stages) const;
+  void settle(Particles& particles, double time, StageTimes& stages) const;
 
   Effects effects_;
   std::vector<Effect*> integrating_;  // those with a path integral, in the order of Particles::path

@@ -5,17 +5,9 @@
 #include <vector>
 
 #include "gaussdrift/case.hpp"
-#include "sim/frame.hpp"
+#include "gaussdrift/summary.hpp"
 
 namespace gaussdrift {
-
-struct CheckResult {
-  CheckSpec check;
-  double value = 0;  // farthest beyond a limit, or nearest to it if none is passed; NaN where it cannot be judged
-  double time = 0;   // of that output
-  bool passed = false;
-  std::string text;  // "Linf = 0.0261 at t = 6.28319, at most 0.03"
-};
 
 /// "Linf", "L1", "L2", "mass".
 std::string to_string(CheckSpec::Quantity quantity);

@@ -6,11 +6,11 @@
 #include <variant>
 #include <vector>
 
-#include "base/lattice.hpp"
 #include "field/density/shapes.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/gridded.hpp"
 #include "field/named/named_fields.hpp"
+#include "gaussdrift/lattice.hpp"
 
 namespace gaussdrift {
 

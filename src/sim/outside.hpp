@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/lattice.hpp"
 #include "gaussdrift/case.hpp"
-#include "particle/particles.hpp"
-#include "sim/frame.hpp"
+#include "gaussdrift/frame.hpp"
+#include "gaussdrift/lattice.hpp"
+#include "gaussdrift/particles.hpp"
 
 namespace gaussdrift {
 

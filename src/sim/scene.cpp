@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
 #include "particle/seeding.hpp"
 #include "sim/make_fields.hpp"
 

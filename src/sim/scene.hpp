@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "base/lattice.hpp"
 #include "field/density/density.hpp"
 #include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/lattice.hpp"
 #include "particle/cutoff.hpp"
 #include "particle/seeding.hpp"
 

@@ -1,16 +1,27 @@
-#include "sim/simulation.hpp"
+#include "gaussdrift/simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
-#include "base/error.hpp"
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
+#include "reference/norms.hpp"
+#include "reference/reference.hpp"
 #include "reference/sample.hpp"
+#include "sim/carrier.hpp"
+#include "sim/checks.hpp"
+#include "sim/comparison.hpp"
+#include "sim/landings.hpp"
 #include "sim/outside.hpp"
+#include "sim/scene.hpp"
 #include "sim/stepper.hpp"
 #include "sim/transform.hpp"
 
@@ -35,15 +46,9 @@ FrameNumbers measure_frame(const Particles& particles, const DensityGrid& densit
   return numbers;
 }
 
-double seconds_of(const base::StageTimes& stages, const std::string& wanted) {
-  for (const auto& [name, seconds] : stages.stages())
-    if (name == wanted) return seconds;
-  return 0;
-}
-
 void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& summary) {
   summary.effects.push_back({"transport",
-                             seconds_of(summary.stages, "transport"),
+                             summary.stages.of("transport"),
                              "X' = u(X, t), " + scene.velocity->describe(),
                              "every weight",
                              {"position"},
@@ -51,7 +56,7 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
                              ""});
   for (const auto& effect : effects) {
     EffectSummary row{effect->name(),
-                      seconds_of(summary.stages, "effect " + effect->name()),
+                      summary.stages.of("effect " + effect->name()),
                       effect->describe(),
                       effect->conserves(),
                       {},
@@ -74,20 +79,78 @@ DensityOptions density_options(const EvaluateSpec& evaluate, int threads) {
   return options;
 }
 
+/// A function as an observer.
+class FunctionObserver : public Observer {
+ public:
+  FunctionObserver(std::string name, std::function<void(const Frame&)> see)
+      : name_(std::move(name)), see_(std::move(see)) {}
+  std::string name() const override { return name_; }
+  void frame(const Frame& frame) override { see_(frame); }
+
+ private:
+  std::string name_;
+  std::function<void(const Frame&)> see_;
+};
+
 }  // namespace
 
-Simulation::Simulation(const Case& description, int threads)
-    : case_(description),
-      threads_(base::resolve_threads(threads)),
-      scene_(make_scene(case_, threads_)),
-      carrier_(case_, scene_, threads_) {}
+class Simulation::Parts {
+ public:
+  Parts(const Case& spec, int threads)
+      : case_(spec),
+        threads_(base::resolve_threads(threads)),
+        scene_(make_scene(case_, threads_)),
+        carrier_(case_, scene_, threads_),
+        landings_(landings(case_)) {}
 
-void Simulation::prepare() {
+  void prepare();
+  RunSummary run();
+  const Particles& particles() const { return particles_; }
+
+  std::vector<std::unique_ptr<Observer>> observers;
+  std::function<bool(const Progress&)> go_on;
+
+ private:
+  void begin();
+  std::vector<double> velocity_at_particles(double time) const;
+  void check_density_seconds() const;
+  bool carry();
+  void show_frame(double time);
+  void compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
+  void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
+  bool is_output(double time) const {
+    return std::find(case_.output.times.begin(), case_.output.times.end(), time) != case_.output.times.end();
+  }
+  void end();
+
+  const Case case_;
+  int threads_;
+  Scene scene_;
+  Carrier carrier_;
+  const std::vector<double> landings_;
+  Particles particles_;
+  std::unique_ptr<Reference> reference_;  // null for none
+  SeedReport seeding_;
+  double seed_seconds_ = 0, mass_at_start_ = 0, beyond_at_start_ = 0;
+  double largest_at_start_ = 0;  // of |rho_0| on the lattice
+  Comparison compared_;
+
+  // How far the run is. `leg_` leads to landings_[landed_].
+  enum class Stage { made, prepared, under_way, ended } stage_ = Stage::made;
+  std::size_t landed_ = 0, steps_before_ = 0, steps_total_ = 0;
+  int index_ = 0;  // of the next output
+  Carrier::Leg leg_;
+  double seconds_before_ = 0;  // of earlier calls of run()
+  base::Stopwatch watch_;
+  RunSummary summary_;
+};
+
+void Simulation::Parts::prepare() {
+  if (stage_ != Stage::made) return;
   const base::Stopwatch seeding;
   particles_ = seed_scene(scene_, threads_, &seeding_);
   seed_seconds_ = seeding.seconds();
   mass_at_start_ = std::accumulate(particles_.alpha.begin(), particles_.alpha.end(), 0.0);
-  largest_at_start_ = 0;
   for (const double alpha : particles_.alpha) largest_at_start_ = std::max(largest_at_start_, std::abs(alpha));
   largest_at_start_ /= std::pow(scene_.seeding.spacing, scene_.seeding.dimension);
   beyond_at_start_ = part_beyond(scene_.density->mass(), particles_, scene_.seeding);
@@ -96,34 +159,42 @@ void Simulation::prepare() {
   check_density_seconds();
   compared_ = plan_comparison(case_, scene_, particles_.size(), threads_);
   if (compared_.points > 0) reference_ = make_reference(case_, scene_, threads_, compared_.following);
+  stage_ = Stage::prepared;
 }
 
 // [j][dimension]. Throws NumericalError where the field is not finite.
-std::vector<double> Simulation::velocity_at_particles(double time) const {
+std::vector<double> Simulation::Parts::velocity_at_particles(double time) const {
   const auto dimension = static_cast<std::size_t>(particles_.dimension);
   const std::size_t count = particles_.size();
   std::vector<double> columns(count * dimension, 0.0), velocity(count * dimension);
   VectorsView u{particles_.dimension, count, {}};
   for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * count;
   add_flow_and_drifts(*scene_.velocity, carrier_.drifts(), time, particles_, particles_.view(), u, threads_);
-  check_velocity(*scene_.velocity, particles_, u, time, steps_done_);
+  check_velocity(*scene_.velocity, particles_, u, time, steps_before_);
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
   return velocity;
 }
 
-void Simulation::carry(double from, double to, RunSummary& summary) {
-  const std::size_t before = steps_done_;
-  steps_done_ += carrier_.carry(particles_, from, to, before, summary.stages, [&](double now, std::size_t steps) {
-    if (!progress_) return;
-    double stepping = seconds_of(summary.stages, "transport");
-    for (const auto& effect : carrier_.effects()) stepping += seconds_of(summary.stages, "effect " + effect->name());
-    progress_({before + steps, steps_total_, now, case_.time.end, watch_.seconds(), stepping});
+// To the next landing time; false if the run is to stop before.
+bool Simulation::Parts::carry() {
+  bool wanted = true;
+  const bool arrived = carrier_.carry(particles_, leg_, steps_before_, summary_.stages, [&](const Carrier::Leg& leg) {
+    if (!go_on) return true;
+    double stepping = summary_.stages.of("transport");
+    for (const auto& effect : carrier_.effects()) stepping += summary_.stages.of("effect " + effect->name());
+    wanted = go_on({steps_before_ + leg.steps, steps_total_, leg.now, case_.time.end,
+                    seconds_before_ + watch_.seconds(), stepping});
+    return wanted;
   });
+  if (!arrived) return false;
+  steps_before_ += leg_.steps;
+  leg_.steps = 0;
+  return wanted;
 }
 
 // The density at the start stands for all: a run that has begun is not stopped.
-void Simulation::check_density_seconds() const {
+void Simulation::Parts::check_density_seconds() const {
   const EvaluateSpec& evaluate = case_.evaluate;
   if (!limits_seconds(evaluate)) return;
   const auto predicted = [&](const std::string& method) {
@@ -135,22 +206,22 @@ void Simulation::check_density_seconds() const {
                 [&] { return predicted("auto"); });
 }
 
-void Simulation::show_frame(int index, double time, RunSummary& summary) {
+void Simulation::Parts::show_frame(double time) {
   DensityReport report;
   const DensityOptions options = density_options(case_.evaluate, threads_);
   const Cutoff& start = scene_.cutoff;
   const Cutoff blob = particles_.spread > 0 ? spread_cutoff(start, particles_.dimension, particles_.spread) : start;
   const DensityGrid density = evaluate_density(particles_, blob, scene_.evaluation, options, &report);
-  summary.stages.add("density", report.evaluate_seconds);
-  summary.stages.add("measure transform error", report.measure_seconds);
-  summary.transform_choice = report.choice;
-  summary.transform_achievable = std::max(summary.transform_achievable, report.achievable);
+  summary_.stages.add("density", report.evaluate_seconds);
+  summary_.stages.add("measure transform error", report.measure_seconds);
+  summary_.transform_choice = report.choice;
+  summary_.transform_achievable = std::max(summary_.transform_achievable, report.achievable);
 
   const std::vector<double> velocity = velocity_at_particles(time);
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
 
   Frame frame;
-  frame.index = index;
+  frame.index = index_++;
   frame.time = time;
   frame.particles = &particles_;
   frame.velocity = velocity_wanted ? &velocity : nullptr;
@@ -162,34 +233,35 @@ void Simulation::show_frame(int index, double time, RunSummary& summary) {
   frame.numbers.evaluate_seconds = report.evaluate_seconds;
   if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding);
   std::vector<double> exact;
-  if (reference_) {
-    summary.stages.run("reference", [&] {
-      ReferenceReport traced;
-      if (compared_.points >= density.rho.size()) {
-        traced = reference_->evaluate(time, exact);
-        frame.exact = &exact;
-        frame.numbers.error = compare(density.rho, exact);
-        frame.numbers.compared = density.rho.size();
-      } else {
-        const GridSample sample = sample_of_grid(scene_.evaluation, density.rho, compared_.points);
-        traced = reference_->evaluate_at(time, sample.points, exact);
-        frame.numbers.error = compare(density.rho, sample, exact);
-        frame.numbers.compared = sample.points.size();
-      }
-      frame.numbers.untraced = traced.untraced;
-      judge_norms(exact, frame.numbers);
-      if (summary.reference.untraced == 0)
-        summary.reference = traced;
-      else
-        summary.reference.untraced += traced.untraced;
-    });
+  if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
+  summary_.frames.emplace_back(time, frame.numbers);
+  for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
+}
+
+// On the whole grid, or on a sample of it.
+void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact) {
+  ReferenceReport traced;
+  if (compared_.points >= density.rho.size()) {
+    traced = reference_->evaluate(frame.time, exact);
+    frame.exact = &exact;
+    frame.numbers.error = compare(density.rho, exact);
+    frame.numbers.compared = density.rho.size();
+  } else {
+    const GridSample sample = sample_of_grid(scene_.evaluation, density.rho, compared_.points);
+    traced = reference_->evaluate_at(frame.time, sample.points, exact);
+    frame.numbers.error = compare(density.rho, sample, exact);
+    frame.numbers.compared = sample.points.size();
   }
-  summary.frames.emplace_back(time, frame.numbers);
-  for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->frame(frame); });
+  frame.numbers.untraced = traced.untraced;
+  judge_norms(exact, frame.numbers);
+  if (summary_.reference.untraced == 0)
+    summary_.reference = traced;
+  else
+    summary_.reference.untraced += traced.untraced;
 }
 
 // Norms are relative to the exact density. They mean nothing where that is nearly 0.
-void Simulation::judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const {
+void Simulation::Parts::judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const {
   double largest = -1;
   for (const double value : exact) largest = std::max(largest, std::abs(value));  // not of NaN
   if (largest < 0) {
@@ -201,42 +273,74 @@ void Simulation::judge_norms(const std::vector<double>& exact, FrameNumbers& num
   }
 }
 
-RunSummary Simulation::run() {
-  watch_ = base::Stopwatch();
-  steps_done_ = 0;
+// What is known before the first step.
+void Simulation::Parts::begin() {
   steps_total_ = total_steps(case_);
-  RunSummary summary;
-  summary.threads = threads_;
-  summary.transform_tolerance = case_.evaluate.tolerance;
-  const double before = particles_.size() == 0 ? 0 : seed_seconds_;  // prepared before this watch ran
-  if (particles_.size() == 0) prepare();
-  summary.stages.add("seed", seed_seconds_);
-  summary.lattice_points = scene_.seeding.size();
-  summary.particles = particles_.size();
-  summary.seeding = seeding_;
-  summary.beyond_at_start = beyond_at_start_;
-  summary.grid_points = scene_.evaluation.size();
-  summary.spacing = scene_.seeding.spacing;
-  summary.core_radius = scene_.core_radius;
-
-  double now = 0;
-  int index = 0;
-  for (const double landing : landings(case_)) {
-    carry(now, landing, summary);
-    now = landing;
-    const auto& outputs = case_.output.times;
-    if (std::find(outputs.begin(), outputs.end(), landing) != outputs.end()) show_frame(index++, landing, summary);
-  }
-  for (const auto& observer : observers_) summary.stages.run(observer->name(), [&] { observer->finish(); });
-  summary.checks = judge(case_.checks, mass_at_start_, summary.frames);
-  summary.steps = steps_done_;
-  summary.steps_rejected = carrier_.steps_rejected();
-  summary.warnings = carrier_.warnings();
-  if (!compared_.left_out.empty()) summary.warnings.push_back(compared_.left_out);
-  summary.reference_word = compared_.word;
-  summarise_effects(carrier_.effects(), scene_, summary);
-  summary.seconds = before + watch_.seconds();
-  return summary;
+  seconds_before_ = seed_seconds_;  // before the watch of run()
+  summary_.threads = threads_;
+  summary_.transform_tolerance = case_.evaluate.tolerance;
+  summary_.stages.add("seed", seed_seconds_);
+  summary_.lattice_points = scene_.seeding.size();
+  summary_.particles = particles_.size();
+  summary_.seeding = seeding_;
+  summary_.beyond_at_start = beyond_at_start_;
+  summary_.grid_points = scene_.evaluation.size();
+  summary_.spacing = scene_.seeding.spacing;
+  summary_.core_radius = scene_.core_radius;
+  leg_ = {0, landings_.front(), 0, 0};
+  stage_ = Stage::under_way;
 }
+
+RunSummary Simulation::Parts::run() {
+  if (stage_ == Stage::ended) throw std::logic_error("Simulation::run(): this run has ended");
+  prepare();
+  const bool begins = stage_ == Stage::prepared;
+  watch_ = base::Stopwatch();
+  if (begins) begin();
+  stage_ = Stage::ended;  // if something is thrown
+  bool wanted = true;
+  while (wanted && landed_ < landings_.size()) {
+    wanted = carry();
+    if (leg_.now < leg_.to) break;
+    if (is_output(leg_.to)) show_frame(leg_.to);
+    if (++landed_ < landings_.size()) leg_ = {leg_.to, landings_[landed_], 0, leg_.to};
+  }
+  end();
+  return summary_;
+}
+
+// What is known after the last step so far.
+void Simulation::Parts::end() {
+  summary_.complete = landed_ == landings_.size();
+  summary_.time = leg_.now;
+  if (summary_.complete)
+    for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->finish(); });
+  else
+    stage_ = Stage::under_way;
+  summary_.checks = judge(case_.checks, mass_at_start_, summary_.frames);
+  summary_.steps = steps_before_ + leg_.steps;
+  summary_.steps_rejected = carrier_.steps_rejected();
+  summary_.warnings = carrier_.warnings();
+  if (!compared_.left_out.empty()) summary_.warnings.push_back(compared_.left_out);
+  summary_.reference_word = compared_.word;
+  summary_.effects.clear();
+  summarise_effects(carrier_.effects(), scene_, summary_);
+  seconds_before_ += watch_.seconds();
+  summary_.seconds = seconds_before_;
+}
+
+Simulation::Simulation(const Case& spec, int threads) : parts_(std::make_unique<Parts>(spec, threads)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+void Simulation::observe(std::unique_ptr<Observer> observer) { parts_->observers.push_back(std::move(observer)); }
+void Simulation::observe(const std::string& name, std::function<void(const Frame&)> see) {
+  observe(std::make_unique<FunctionObserver>(name, std::move(see)));
+}
+void Simulation::on_progress(std::function<bool(const Progress&)> go_on) { parts_->go_on = std::move(go_on); }
+void Simulation::prepare() { parts_->prepare(); }
+RunSummary Simulation::run() { return parts_->run(); }
+const Particles& Simulation::particles() const { return parts_->particles(); }
 
 }  // namespace gaussdrift

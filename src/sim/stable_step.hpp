@@ -9,7 +9,7 @@
 
 #include "field/velocity/differences.hpp"
 #include "field/velocity/velocity.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/particles.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "field/velocity/value_seconds.hpp"
+#include "gaussdrift/error.hpp"
 #include "time/runge_kutta.hpp"
 
 namespace gaussdrift {

@@ -8,7 +8,7 @@
 #include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
 #include "field/velocity/velocity.hpp"
-#include "particle/particles.hpp"
+#include "gaussdrift/particles.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
 

@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "base/duration_text.hpp"
-#include "base/error.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "base/weight_within.hpp"
+#include "gaussdrift/error.hpp"
 #include "particle/fgtd_points.hpp"
 
 namespace gaussdrift {

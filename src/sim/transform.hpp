@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/frame.hpp"
 #include "particle/cutoff.hpp"
-#include "sim/frame.hpp"
 
 namespace gaussdrift {
 

@@ -8,7 +8,6 @@
 
 #include "accuracy/target.hpp"
 #include "accuracy/would_run.hpp"
-#include "base/error.hpp"
 #include "base/longest_side.hpp"
 #include "base/number.hpp"
 #include "base/parallel.hpp"
@@ -16,10 +15,12 @@
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "particle/cutoff.hpp"
 #include "particle/subset.hpp"
 #include "reference/exact_paths.hpp"
-#include "sim/simulation.hpp"
+#include "sim/carrier.hpp"
 #include "sim/transform.hpp"
 #include "study/study.hpp"
 #include "time/tableau.hpp"
@@ -202,8 +203,8 @@ Paths paths_of_each_other(Case scene, const Scene& parts, const Particles& all, 
     } catch (const InputError&) {  // not stable: half of it may be
       continue;
     }
-    base::StageTimes ignored;
-    carrier.carry(moved, 0, time, 0, ignored, [](double, std::size_t) {});
+    StageTimes ignored;
+    carrier.carry(moved, 0, time, 0, ignored);
     // Halving takes away 15/16 of the error.
     if (last > 0) paths.known = largest_distance(moved, paths.exact) / 15 / parts.core_radius;
     paths.exact = std::move(moved);
@@ -318,9 +319,9 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
         Particles moved = paths.start;
         Carrier carrier(varied, parts, threads);
         if (each_other) carrier.begin(moved);
-        base::StageTimes ignored;
+        StageTimes ignored;
         const base::Stopwatch work;
-        sample.steps = carrier.carry(moved, 0, time, 0, ignored, [](double, std::size_t) {});
+        sample.steps = carrier.carry(moved, 0, time, 0, ignored);
         base::RepeatedTime times;
         const double first = work.seconds();
         if (each_other)
@@ -330,7 +331,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
             Particles again = paths.start;
             if (each_other) carrier.begin(again);
             const base::Stopwatch once;
-            carrier.carry(again, 0, time, 0, ignored, [](double, std::size_t) {});
+            carrier.carry(again, 0, time, 0, ignored);
             times.add(once.seconds());
           }
         } else {

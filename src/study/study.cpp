@@ -8,13 +8,13 @@
 #include <limits>
 
 #include "accuracy/footprint.hpp"
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "particle/cutoff.hpp"
-#include "sim/simulation.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -183,7 +183,7 @@ void finish(Experiment& experiment, const Case& scene) {
 
 Study run_study(const StudyOptions& options) {
   const base::Stopwatch watch;
-  const Case scene = input::read_case(options.file, options.overrides, options.threads).scene;
+  const Case scene = read_case(options.file, options.overrides, options.threads).spec;
   Study study{scene.name, scene.title, {}, base::resolve_threads(options.threads), 0};
   if (options.vary.empty()) {
     const auto tell = [&](const std::string& what) {
@@ -247,7 +247,7 @@ Study run_study(const StudyOptions& options) {
     // A key that the case does not have shows at once; a wrong value among others is a row that says so.
     Sample sample;
     try {
-      varied = input::read_case(options.file, overrides, options.threads).scene;
+      varied = read_case(options.file, overrides, options.threads).spec;
       sample = measure_run(*varied, options);
     } catch (const InputError& error) {
       if (!varied) throw;

@@ -8,10 +8,10 @@
 #include <sstream>
 #include <type_traits>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
+#include "gaussdrift/error.hpp"
 #include "sum/first_lines.hpp"
 
 namespace gaussdrift::sum {

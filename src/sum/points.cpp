@@ -13,11 +13,11 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/number.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
+#include "gaussdrift/error.hpp"
 #include "sum/first_lines.hpp"
 
 namespace gaussdrift::sum {

@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/number.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::sum {
 

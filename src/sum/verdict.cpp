@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/duration_text.hpp"
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::sum {
 

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::write {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "base/catalogue.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/frame.hpp"
+#include "gaussdrift/frame.hpp"
 
 namespace gaussdrift::write {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
 #include "write/output_files.hpp"
 #include "write/series_table.hpp"

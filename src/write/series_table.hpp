@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "sim/frame.hpp"
+#include "gaussdrift/frame.hpp"
 
 namespace gaussdrift::write {
 

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "reference/reference.hpp"
+#include "sim/checks.hpp"
+
 namespace gaussdrift::write {
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift::write {
 

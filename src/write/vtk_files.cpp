@@ -26,7 +26,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
 
 namespace gaussdrift::write {

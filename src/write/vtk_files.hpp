@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/frame.hpp"
+#include "gaussdrift/frame.hpp"
 
 namespace gaussdrift::write {
 

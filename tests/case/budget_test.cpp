@@ -8,8 +8,11 @@
 #include <numbers>
 
 #include "accuracy/target.hpp"
-#include "base/error.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "reference/sample.hpp"
+#include "sim/comparison.hpp"
+#include "sim/work.hpp"
 
 namespace gaussdrift::accuracy {
 namespace {
@@ -17,7 +20,7 @@ namespace {
 using std::numbers::pi;
 
 Case built_in(const std::string& name, const std::vector<std::string>& overrides) {
-  return input::read_case(std::string(SOURCE_DIR) + "/cases/" + name + ".toml", overrides).scene;
+  return gaussdrift::read_case(std::string(SOURCE_DIR) + "/cases/" + name + ".toml", overrides).spec;
 }
 
 Budget predicted(const Case& scene) { return predict_budget(scene, make_scene(scene), Effort::whatever, 0); }
@@ -149,13 +152,14 @@ TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
 // which paths stick, a wind with a kink at every cell, a rate that no step likes.
 TEST(PointsCompared, TakeNoMoreWorkThanIsAllowed) {
   const auto scene_of = [](const std::string& velocity, const std::string& more = "") {
-    return input::parse_case("gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
-                                 "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
-                                 "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
-                                 "[evaluate]\nper_axis = 64\n" +
-                                 more,
-                             "stiff.toml")
-        .scene;
+    return gaussdrift::parse_case(
+               "gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
+                   "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
+                   "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
+                   "[evaluate]\nper_axis = 64\n" +
+                   more,
+               "stiff.toml")
+        .spec;
   };
   const double few = 2.5e6;  // a tenth of a second
   for (const char* velocity :
@@ -281,12 +285,12 @@ TEST(Budget, NamesTheThresholdWhereItDominates) {
 // reach: a square root with its branch point at the edge, and a velocity that is no number beyond it.
 TEST(Budget, KnowsNothingOutsideTheDomain) {
   const auto edge = [](const std::string& velocity, const std::string& density) {
-    return input::parse_case("gaussdrift = 1\n[domain]\nmin = [0, -1]\nmax = [2, 1]\n" + velocity +
-                                 "\n[density]\nexpression = \"" + density +
-                                 "\"\n[particles]\nper_axis = 60\n[time]\nend = 0.2\nstep = 0.05\n[output]\n"
-                                 "times = [0.2]\nimages = []\n[evaluate]\nper_axis = 61\n",
-                             "edge.toml")
-        .scene;
+    return gaussdrift::parse_case("gaussdrift = 1\n[domain]\nmin = [0, -1]\nmax = [2, 1]\n" + velocity +
+                                      "\n[density]\nexpression = \"" + density +
+                                      "\"\n[particles]\nper_axis = 60\n[time]\nend = 0.2\nstep = 0.05\n[output]\n"
+                                      "times = [0.2]\nimages = []\n[evaluate]\nper_axis = 61\n",
+                                  "edge.toml")
+        .spec;
   };
   const Case root = edge("[velocity]\nfield = \"rotation\"\nrate = 0.1", "sqrt(x)*exp(-8*((x-0.3)^2+y^2))");
   const Case inflow = edge("[velocity]\nu = [\"0.1*sqrt(x)*(2-x)\", \"0\"]", "exp(-4*((x-1)^2+y^2))+0.1");

@@ -7,9 +7,10 @@
 #include <numbers>
 
 #include "fgtd/fgtd.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "reproduce/published.hpp"
-#include "sim/simulation.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -54,7 +55,7 @@ class CompareWithExact : public Observer {
 };
 
 std::vector<Errors> errors_of(const std::string& name, const std::vector<std::string>& overrides) {
-  const Case scene = input::read_case(cases_folder + name + ".toml", overrides).scene;
+  const Case scene = gaussdrift::read_case(cases_folder + name + ".toml", overrides).spec;
   const Scene parts = make_scene(scene);
   std::vector<Errors> errors;
   Simulation simulation(scene);
@@ -120,7 +121,7 @@ const std::vector<Reduced> reduced_cases = {
 };
 
 std::vector<FrameNumbers> run_reduced(const Reduced& reduced) {
-  const Case scene = input::read_case(cases_folder + reduced.name + ".toml", reduced.overrides).scene;
+  const Case scene = gaussdrift::read_case(cases_folder + reduced.name + ".toml", reduced.overrides).spec;
   Simulation simulation(scene);
   std::vector<FrameNumbers> numbers;
   for (const auto& [time, frame] : simulation.run().frames) numbers.push_back(frame);
@@ -170,7 +171,7 @@ TEST(Cases, StayNearTheirExactDensityAndKeepTheirMass) {
 TEST(Cases, ThatTurnBackAreCheckedWhereTheyTurn) {
   int found = 0;
   for (const std::string& name : all_cases()) {
-    const Case scene = input::read_case(cases_folder + name + ".toml", {}).scene;
+    const Case scene = gaussdrift::read_case(cases_folder + name + ".toml", {}).spec;
     for (const VelocitySpec& part : scene.velocity) {
       const auto* named = std::get_if<NamedVelocity>(&part);
       if (!named || (named->field != "swirl" && named->field != "deformation")) continue;
@@ -188,14 +189,15 @@ TEST(Cases, ThatTurnBackAreCheckedWhereTheyTurn) {
 }
 
 TEST(Decay, IsExactWhateverTheStep) {
-  const Case scene = input::read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).scene;
+  const Case scene =
+      gaussdrift::read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).spec;
   const auto frames = Simulation(scene).run().frames;
   for (const auto& [time, frame] : frames)
     EXPECT_NEAR(frame.mass / frames.front().second.mass, std::exp(-0.3 * time), 2.3e-15);  // rounding of the exponent
 }
 
 TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
-  const Case scene = input::read_case(cases_folder + "stiff_reaction.toml", {"particles.per_axis=200"}).scene;
+  const Case scene = gaussdrift::read_case(cases_folder + "stiff_reaction.toml", {"particles.per_axis=200"}).spec;
   Simulation simulation(scene);
   const RunSummary summary = simulation.run();
   const Particles& particles = simulation.particles();
@@ -213,9 +215,9 @@ TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
 TEST(SwirlRemesh, KeepsTheFilamentWhole) {
   // The exact density is at most 1; without remeshing rows of spots stand out of the filament.
   const auto height = [](bool remesh) {
-    Case scene = input::read_case(cases_folder + "swirl_remesh.toml",
-                                  {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
-                     .scene;
+    Case scene = gaussdrift::read_case(cases_folder + "swirl_remesh.toml",
+                                       {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
+                     .spec;
     scene.reference = {}, scene.checks.clear();
     if (!remesh) scene.effects.remove("remesh");
     return Simulation(scene).run().frames.back().second.maximum;
@@ -226,7 +228,7 @@ TEST(SwirlRemesh, KeepsTheFilamentWhole) {
 
 TEST(ScatteredSamples, AreAsGoodAsTheFormulaTheyAreTakenFrom) {
   const std::vector<std::string> size{"particles.per_axis=200", "evaluate.per_axis=61", "output.times=[\"2*pi\"]"};
-  Case fitted = input::read_case(cases_folder + "scattered_samples.toml", size).scene, exact = fitted;
+  Case fitted = gaussdrift::read_case(cases_folder + "scattered_samples.toml", size).spec, exact = fitted;
   exact.velocity = {ExpressionVelocity{{"-y*exp(-x^2 - y^2)", "x*exp(-x^2 - y^2)"}}};
   const auto error = [](const Case& scene) { return Simulation(scene).run().frames.back().second.error->l1; };
   EXPECT_NEAR(error(fitted), error(exact), 8e-4 * error(exact));
@@ -242,9 +244,9 @@ TEST(RotatingCone, ApproachesTheExactConeAtEveryOutput) {
 
 TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
   const Case scene =
-      input::read_case(cases_folder + "rotating_cone.toml",
-                       {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"})
-          .scene;
+      gaussdrift::read_case(cases_folder + "rotating_cone.toml",
+                            {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"})
+          .spec;
   Simulation simulation(scene);
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.particles, 4384u);  // two of 4386 lattice points have 3e-18 of the largest weight

@@ -13,8 +13,8 @@
 #include "accuracy/picture_seconds.hpp"
 #include "accuracy/target.hpp"
 #include "accuracy/trial.hpp"
-#include "base/error.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "render/styles.hpp"
 
 namespace gaussdrift::accuracy {
@@ -34,11 +34,11 @@ std::string text_of(int dimension) {
 }
 
 Case bump(std::vector<std::string> overrides, int dimension = 2) {
-  return input::parse_case(text_of(dimension), "bump.toml", overrides).scene;
+  return gaussdrift::parse_case(text_of(dimension), "bump.toml", overrides).spec;
 }
 
 Case built_in(const std::string& name, const std::vector<std::string>& overrides) {
-  return input::read_case(SOURCE_DIR "/cases/" + name + ".toml", overrides).scene;
+  return gaussdrift::read_case(SOURCE_DIR "/cases/" + name + ".toml", overrides).spec;
 }
 
 TEST(Trial, OfAFewParticlesIsTheCase) {

@@ -5,15 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "input/read_case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift {
 namespace {
 
 using std::numbers::pi;
 
-Case scene_of(const std::string& text) { return input::parse_case(text, "scene.toml").scene; }
+Case scene_of(const std::string& text) { return gaussdrift::parse_case(text, "scene.toml").spec; }
 
 const std::string rest =
     "[evaluate]\nper_axis = 5\n[output]\ntimes = [\"T\"]\nvtk = []\nimages = []\nreport = \"none\"\n[reference]\nkind "

@@ -7,8 +7,10 @@
 #include "accuracy/budget.hpp"
 #include "accuracy/target.hpp"
 #include "accuracy/would_run.hpp"
-#include "base/error.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "sim/scene.hpp"
+#include "sim/work.hpp"
 #include "study/study.hpp"
 
 namespace gaussdrift::study {
@@ -31,7 +33,7 @@ struct Reduced {
   Case scene(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> all = overrides;
     all.insert(all.end(), more.begin(), more.end());
-    return input::read_case(file, all).scene;
+    return gaussdrift::read_case(file, all).spec;
   }
   /// Why the case with these settings does not begin; empty: it does.
   std::string refusal(const std::vector<std::string>& settings) const {
@@ -47,7 +49,7 @@ struct Reduced {
 /// A case of the gallery, small: what is recommended for it is of no use, but it is found in the same way.
 Reduced reduced(const std::string& name) {
   const std::string file = std::string(SOURCE_DIR) + "/cases/" + name + ".toml";
-  const bool space = input::read_case(file).scene.domain.dimension == 3;
+  const bool space = gaussdrift::read_case(file).spec.domain.dimension == 3;
   return {file,
           {std::string("particles.per_axis=") + (space ? "13" : "25"),
            std::string("evaluate.per_axis=") + (space ? "9" : "15"), "output.images=[]", "output.vtk=[]"}};

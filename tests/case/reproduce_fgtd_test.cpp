@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "reproduce/point_sets.hpp"
 
 namespace gaussdrift::reproduce {

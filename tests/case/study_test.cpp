@@ -7,8 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
 
 namespace gaussdrift::study {
 namespace {
@@ -99,12 +99,12 @@ TEST(Study, VariesKeysAndKeepsWhatCannotRun) {
 // A cone that has been blown out of the domain at the end: no lattice and no target changes that.
 TEST(Study, ConcludesNothingFromRunsWithNothingLeft) {
   const Case blown =
-      input::parse_case(
+      gaussdrift::parse_case(
           "gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\nu = [\"1\", \"0\"]\n"
           "[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\nper_axis = 20\n"
           "[time]\nend = 2\nstep = 0.1\n[evaluate]\nper_axis = 11\n[output]\ntimes = [2]\nimages = []\n",
           "blown.toml", {})
-          .scene;
+          .spec;
   StudyOptions options;
   options.repeats = 0;
   for (const Experiment& experiment : {study_lattice(blown, options, 0.1), study_whole(blown, options, 0.1)}) {
@@ -159,7 +159,7 @@ kind = "none"
 }
 
 TEST(StandardStudies, SeeTheOrdersOfTheMethods) {
-  const Case scene = input::read_case(cases + "rotating_cone.toml", {"particles.per_axis=60"}).scene;
+  const Case scene = gaussdrift::read_case(cases + "rotating_cone.toml", {"particles.per_axis=60"}).spec;
   const Experiment steps = study_steps(scene, 0, 5);
   for (const std::string wanted : {"euler: observed order 1.0", "heun: observed order 2.0", "rk4: observed order 4.0"})
     EXPECT_TRUE(std::any_of(steps.notes.begin(), steps.notes.end(), [&](const std::string& note) {

@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "sum/pairs.hpp"
 #include "sum/points.hpp"
 

@@ -13,15 +13,15 @@
 #include "accuracy/budget.hpp"
 #include "accuracy/forecast.hpp"
 #include "base/catalogue.hpp"
-#include "base/error.hpp"
 #include "effect/catalogue.hpp"
 #include "effect/remesh_kernel.hpp"
+#include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "input/effect_rules.hpp"
 #include "input/explain.hpp"
-#include "input/read_case.hpp"
 #include "input/registry.hpp"
 #include "particle/cutoff.hpp"
-#include "sim/simulation.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift {
@@ -53,14 +53,14 @@ report = "none"
 )";
 
 Case read(const std::string& more, const std::vector<std::string>& overrides = {}) {
-  return input::parse_case(turning + more, "toy.toml", overrides).scene;
+  return gaussdrift::parse_case(turning + more, "toy.toml", overrides).spec;
 }
 
 /// The errors of a case that is refused.
 std::string refusal(const std::string& more, const std::vector<std::string>& overrides = {}) {
   try {
     read(more, overrides);
-  } catch (const input::CaseError& error) {
+  } catch (const gaussdrift::CaseError& error) {
     return error.what();
   }
   return "";
@@ -120,8 +120,8 @@ TEST(Toy, EffectIsAddedThroughItsCatalogueAlone) {
 
   const std::string table = "[effects.fading]\nstrength = 0.8\ntimes = \"twice\"\n";
   const Case spec = read(table);
-  EXPECT_TRUE(has(input::resolved_toml(spec), table));
-  EXPECT_EQ(input::parse_case(input::resolved_toml(spec), "again.toml").scene.effects, spec.effects);
+  EXPECT_TRUE(has(case_text(spec), table));
+  EXPECT_EQ(gaussdrift::parse_case(case_text(spec), "again.toml").spec.effects, spec.effects);
   EXPECT_TRUE(has(checked(spec), "weights fade at the rate 1.6"));
 
   const RunSummary summary = Simulation(spec, 1).run();
@@ -184,7 +184,7 @@ TEST(Toy, CutoffIsAddedThroughItsCatalogueAlone) {
   EXPECT_TRUE(has(refusal("", {"particles.cutoff=wide", "particles.wideness=2.7"}), "too wide"));
 
   const Case spec = read("", {"particles.cutoff=wide", "particles.wideness=2"});
-  EXPECT_TRUE(has(input::resolved_toml(spec), "cutoff = \"wide\"\nwideness = 2\n"));
+  EXPECT_TRUE(has(case_text(spec), "cutoff = \"wide\"\nwideness = 2\n"));
   EXPECT_TRUE(has(checked(spec), "wide"));
   const double blob = 2 * 2 * 0.05, radius = 0.3;  // two core radii of two spacings
   const RunSummary summary = Simulation(spec, 1).run();
@@ -211,7 +211,7 @@ TEST(Toy, RemeshKernelIsAddedThroughItsCatalogueAlone) {
   EXPECT_TRUE(has(explained("nearest"), "`nearest` gives all to the nearest node"));
   EXPECT_TRUE(has(input::schema_json(), "\"nearest\""));
   const Case spec = read(table);
-  EXPECT_TRUE(has(input::resolved_toml(spec), table));
+  EXPECT_TRUE(has(case_text(spec), table));
   EXPECT_TRUE(has(checked(spec), "remesh every 5 steps by nearest"));
   Simulation simulation(spec, 1);
   const RunSummary summary = simulation.run();
@@ -239,7 +239,7 @@ TEST(Toy, TableauIsAddedThroughItsCatalogueAlone) {
   EXPECT_TRUE(has(explained("midpoint"), "`midpoint` is the midpoint rule, of order 2"));
   EXPECT_TRUE(has(input::schema_json(), "\"midpoint\""));
   const Case spec = read("", {"time.method=midpoint"});
-  EXPECT_TRUE(has(input::resolved_toml(spec), "method = \"midpoint\"\n"));
+  EXPECT_TRUE(has(case_text(spec), "method = \"midpoint\"\n"));
   EXPECT_TRUE(has(checked(spec), "5 steps"));
   Simulation simulation(spec, 1);
   simulation.prepare();

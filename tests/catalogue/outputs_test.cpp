@@ -9,8 +9,8 @@
 #include "accuracy/forecast.hpp"
 #include "base/catalogue.hpp"
 #include "cli/verbs.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "input/explain.hpp"
-#include "input/read_case.hpp"
 #include "input/registry.hpp"
 #include "render/canvas.hpp"
 #include "render/styles.hpp"
@@ -87,13 +87,13 @@ std::string said(const std::function<void()>& run) {
 
 TEST(OutputFile, OfACatalogueIsKnownToAll) {
   EXPECT_FALSE(explains("toy", "file"));
-  EXPECT_THROW(input::parse_case(small_case, "small.toml"), Error) << "before it is added";
+  EXPECT_THROW(gaussdrift::parse_case(small_case, "small.toml"), Error) << "before it is added";
   const base::Added<write::FileKind> added(toy_file());
   EXPECT_TRUE(explains("toy", "file"));
   EXPECT_TRUE(has(input::schema_json(), "\"toy\""));
   EXPECT_TRUE(has(input::registry_markdown(), "| `toy` | how many particles move |"));
-  const Case spec = input::parse_case(small_case, "small.toml").scene;
-  EXPECT_TRUE(has(input::resolved_toml(spec), "vtk = [\"density\", \"toy\"]"));
+  const Case spec = gaussdrift::parse_case(small_case, "small.toml").spec;
+  EXPECT_TRUE(has(case_text(spec), "vtk = [\"density\", \"toy\"]"));
   Case without = spec;
   without.output.files.pop_back();
   const accuracy::Forecast with = accuracy::forecast(spec, 1), bare = accuracy::forecast(without, 1);
@@ -131,14 +131,14 @@ TEST(OutputFile, OfACatalogueIsWrittenByARunAndRemovedByTheNext) {
 TEST(PictureStyle, OfACatalogueIsKnownToAll) {
   const std::vector<std::string> overrides{"output.images=[\"toy_picture\"]", "output.vtk=[]"};
   EXPECT_FALSE(explains("toy_picture", "picture"));
-  EXPECT_THROW(input::parse_case(small_case, "small.toml", overrides), Error) << "before it is added";
+  EXPECT_THROW(gaussdrift::parse_case(small_case, "small.toml", overrides), Error) << "before it is added";
   const base::Added<render::Style> added(toy_style());
   EXPECT_TRUE(explains("toy_picture", "picture"));
   EXPECT_TRUE(has(input::schema_json(), "\"toy_picture\""));
   EXPECT_TRUE(has(input::registry_markdown(), "| `toy_picture` | 2 | one colour |"));
   EXPECT_TRUE(has(std::string(input::find_key("output", "images").meaning), "`heatmap` and `toy_picture`; in 3D"));
-  const Case spec = input::parse_case(small_case, "small.toml", overrides).scene;
-  EXPECT_TRUE(has(input::resolved_toml(spec), "images = [\"toy_picture\"]"));
+  const Case spec = gaussdrift::parse_case(small_case, "small.toml", overrides).spec;
+  EXPECT_TRUE(has(case_text(spec), "images = [\"toy_picture\"]"));
   Case without = spec;
   without.output.images.clear();
   const accuracy::Forecast with = accuracy::forecast(spec, 1), bare = accuracy::forecast(without, 1);

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "fgtd/catalogue.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "input/explain.hpp"
-#include "input/read_case.hpp"
-#include "sim/simulation.hpp"
 #include "sum/points.hpp"
 
 namespace gaussdrift {
@@ -133,7 +133,7 @@ TEST(ToyMethod, IsAValueOfACaseFile) {
 }
 
 TEST(ToyMethod, SumsTheDensityOfARun) {
-  const Case spec = input::parse_case(R"(gaussdrift = 1
+  const Case spec = gaussdrift::parse_case(R"(gaussdrift = 1
 [domain]
 min = [-1, -1]
 max = [1, 1]
@@ -152,8 +152,8 @@ step = 0.05
 per_axis = 20
 method = "toy"
 )",
-                                      "toy.toml")
-                        .scene;
+                                           "toy.toml")
+                        .spec;
   Simulation simulation(spec, 1);
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.transform_choice.rfind("toy: ", 0), 0u) << summary.transform_choice;

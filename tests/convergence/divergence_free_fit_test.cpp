@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.hpp"
 #include "field/gaussians/divergence_free.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 namespace {

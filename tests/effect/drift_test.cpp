@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.hpp"
 #include "effect/charge.hpp"
 #include "effect/vortex.hpp"
 #include "field/velocity/velocity.hpp"
+#include "gaussdrift/error.hpp"
 #include "scene.hpp"
+#include "sim/carrier.hpp"
+#include "sim/scene.hpp"
 #include "sim/stepper.hpp"
 #include "time/tableau.hpp"
 
@@ -304,10 +306,11 @@ TEST(Drift, FollowsTheFlowAsWell) {
 }
 
 TEST(Drift, IsNotThereUnlessACaseNamesIt) {
-  Simulation plain(scene_of({})), charged(disc({"effects.charge.mobility=0.3"}));
-  EXPECT_TRUE(plain.effects().empty());
-  ASSERT_EQ(charged.effects().size(), 1U);
-  EXPECT_NE(charged.effects()[0]->drift(), nullptr);
+  const Case plain = scene_of({}), spec = disc({"effects.charge.mobility=0.3"});
+  const Scene scene = make_scene(plain), charges = make_scene(spec);
+  EXPECT_TRUE(Carrier(plain, scene, 1).drifts().empty());
+  EXPECT_EQ(Carrier(spec, charges, 1).drifts().size(), 1U);
+  Simulation charged(spec);
   const RunSummary summary = charged.run();
   ASSERT_EQ(summary.effects.size(), 2U);
   EXPECT_EQ(summary.effects[1].name, "charge");

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.hpp"
 #include "effect/particle_exchange.hpp"
+#include "gaussdrift/error.hpp"
 #include "scene.hpp"
+#include "sim/scene.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {

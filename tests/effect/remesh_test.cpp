@@ -8,7 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
+#include "particle/seeding.hpp"
 #include "scene.hpp"
 #include "sim/transform.hpp"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "input/read_case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift {
 
@@ -34,7 +34,7 @@ images = []
 )";
 
 inline Case scene_of(const std::vector<std::string>& overrides, const std::string& text = resting_gaussian) {
-  return input::parse_case(text, "scene.toml", overrides).scene;
+  return gaussdrift::parse_case(text, "scene.toml", overrides).spec;
 }
 
 /// The particles at the end.

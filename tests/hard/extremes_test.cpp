@@ -5,7 +5,7 @@
 #include <fgtd/fgtd.hpp>
 #include <numbers>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "scenes.hpp"
 
 namespace gaussdrift {

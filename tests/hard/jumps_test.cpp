@@ -3,8 +3,8 @@
 
 #include <regex>
 
-#include "base/error.hpp"
 #include "field/gridded/grid_data.hpp"
+#include "gaussdrift/error.hpp"
 #include "scenes.hpp"
 
 namespace gaussdrift {

@@ -5,18 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "input/read_case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
+#include "sim/scene.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
 
 inline Case built_in(const std::string& name, const std::vector<std::string>& overrides = {}) {
-  return input::read_case(std::string(SOURCE_DIR) + "/cases/" + name + ".toml", overrides).scene;
+  return gaussdrift::read_case(std::string(SOURCE_DIR) + "/cases/" + name + ".toml", overrides).spec;
 }
 
 inline Case written(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return input::parse_case(text, "scene.toml", overrides).scene;
+  return gaussdrift::parse_case(text, "scene.toml", overrides).spec;
 }
 
 /// What a run leaves: numbers of its outputs, particles at its end.

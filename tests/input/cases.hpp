@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
 
 namespace gaussdrift::input {
 

@@ -6,9 +6,9 @@
 
 #include <string>
 
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "input/explain.hpp"
-#include "input/read_case.hpp"
-#include "sim/simulation.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -61,7 +61,7 @@ TEST(EffectRules, AreWhatTheReaderAndTheProgramKeep) {
     ASSERT_NO_THROW(read = parse_case(text, "scene.toml")) << text;
     ++taken;
     if (e.reaction + e.diffusion + e.charge + e.vortex + e.remesh > 2) continue;  // pairs are what the rules are about
-    Simulation simulation(read.scene, 1);
+    Simulation simulation(read.spec, 1);
     if (e.space) {  // remeshing takes seconds there
       EXPECT_NO_THROW(simulation.prepare()) << text;
       continue;

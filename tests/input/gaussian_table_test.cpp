@@ -42,7 +42,7 @@ class GaussianTables : public ::testing::Test {
   Case read(const std::string& velocity, const std::string& scene = cone) const {
     return parse_case(with(scene, scene == cone ? "u = [\"-y\", \"x\"]" : "u = [\"y\", \"z*t\", \"x\"]", velocity),
                       folder_ / "cone.toml")
-        .scene;
+        .spec;
   }
   std::string message(const std::string& velocity, const std::string& scene = cone) const {
     try {
@@ -99,7 +99,7 @@ TEST_F(GaussianTables, MayHoldVorticityOrCoefficients) {
 TEST_F(GaussianTables, AreWrittenIntoTheResolvedCase) {
   write_rotation("samples.csv");
   const Case scene = read("gaussians = \"samples.csv\"\nresidual = 1e-4\nregularisation = 1e-9");
-  const Case again = parse_case(resolved_toml(scene), "elsewhere/run.toml").scene;
+  const Case again = parse_case(case_text(scene), "elsewhere/run.toml").spec;
   EXPECT_EQ(spec_of(again).model->coefficients, spec_of(scene).model->coefficients);
   EXPECT_EQ(spec_of(again).residual, 1e-4);
   EXPECT_EQ(spec_of(again).regularisation, 1e-9);
@@ -138,7 +138,7 @@ TEST_F(GaussianTables, OfRandomPointsAreFittedWithTheLeastRegularisationThatWill
         EXPECT_NEAR(v, -std::cos(2 * x) * std::sin(2 * y), 2e-3) << seed;
       }
     // The run's own case file names what was chosen, and gives the same field.
-    const Case again = parse_case(resolved_toml(scene), "elsewhere/run.toml").scene;
+    const Case again = parse_case(case_text(scene), "elsewhere/run.toml").spec;
     EXPECT_EQ(spec_of(again).regularisation, spec_of(scene).regularisation);
     EXPECT_EQ(spec_of(again).model->coefficients, model.coefficients);
   }

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "field/gridded/gridded.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "grid_files.hpp"
-#include "sim/simulation.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -36,7 +36,7 @@ constexpr auto turning = [](double x, double y) { return std::pair(-y, x); };
 
 TEST_F(GridFile, IsReadAndSurvivesTheWayToAFileAndBack) {
   write_vti("wind.vti", 5, 5, 1, "u", 2, sampled(5, turning));
-  const Case scene = parse_case(case_with("file = \"wind.vti\"\noutside = \"clamp\""), folder_ / "cone.toml").scene;
+  const Case scene = parse_case(case_with("file = \"wind.vti\"\noutside = \"clamp\""), folder_ / "cone.toml").spec;
   const auto& spec = std::get<FileVelocity>(scene.velocity.at(0));
   EXPECT_EQ(spec.outside, "clamp");
   EXPECT_EQ(spec.interpolation, "linear");
@@ -44,7 +44,7 @@ TEST_F(GridFile, IsReadAndSurvivesTheWayToAFileAndBack) {
   EXPECT_EQ(spec.data->points(), 25u);
   EXPECT_EQ(spec.data->values[0][0], 1);
   EXPECT_EQ(spec.data->values[0][1], -1);
-  const Case again = parse_case(resolved_toml(scene), "/elsewhere/run.toml").scene;  // the path is absolute
+  const Case again = parse_case(case_text(scene), "/elsewhere/run.toml").spec;  // the path is absolute
   EXPECT_EQ(std::get<FileVelocity>(again.velocity.at(0)).data->values, spec.data->values);
 }
 
@@ -66,7 +66,7 @@ TEST_F(GridFile, MayBeRectilinear) {
          "Name=\"u\" NumberOfComponents=\"3\" format=\"ascii\">"
       << u.str() << "</DataArray></PointData><Coordinates>" << axis("x", x_text.str()) << axis("y", y_text.str())
       << axis("z", "0") << "</Coordinates></Piece></RectilinearGrid></VTKFile>\n";
-  const Case scene = parse_case(case_with("file = \"wind.vtr\""), folder_ / "cone.toml").scene;
+  const Case scene = parse_case(case_with("file = \"wind.vtr\""), folder_ / "cone.toml").spec;
   const auto& data = std::get<FileVelocity>(scene.velocity.at(0)).data;
   EXPECT_EQ(data->axis[0], xs);
   EXPECT_EQ(data->axis[1], ys);
@@ -86,7 +86,7 @@ TEST_F(GridFile, IsNamedWhereAParticleLeavesIt) {
   write_vti("wind.vti", 3, 3, 1, "u", 2, sampled(3, [](double, double) { return std::pair(1., 0.); }));
   const Case scene = parse_case(case_with("file = \"wind.vti\""), folder_ / "cone.toml",
                                 {"time.end=1", "output.times=[0, 1]", "reference.kind=none"})
-                         .scene;
+                         .spec;
   try {
     Simulation(scene).run();
     FAIL() << "the cone has left the grid";

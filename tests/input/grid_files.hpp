@@ -12,7 +12,7 @@
 #include <string>
 
 #include "cases.hpp"
-#include "input/read_case.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "read/grid_file.hpp"
 
 namespace gaussdrift::input {

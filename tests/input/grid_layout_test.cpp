@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "field/gridded/gridded.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "grid_files.hpp"
-#include "sim/simulation.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -48,11 +48,11 @@ TEST_F(GridLayout, OfSeveralArraysIsInTheCaseAndInItsResolvedForm) {
   const Case scene = parse_case(case_with("file = \"wind.vti\"\narrays = [\"u\", \"v\"]\nmissing = \"nearest\"\n"
                                           "missing_value = -7"),
                                 folder_ / "cone.toml")
-                         .scene;
-  const std::string resolved = resolved_toml(scene);
+                         .spec;
+  const std::string resolved = case_text(scene);
   for (const char* line : {"arrays = [\"u\", \"v\"]", "missing = \"nearest\"", "missing_value = -7"})
     EXPECT_NE(resolved.find(line), std::string::npos) << line;
-  const Case again = parse_case(resolved, "/elsewhere/run.toml").scene;
+  const Case again = parse_case(resolved, "/elsewhere/run.toml").spec;
   EXPECT_EQ(std::get<FileVelocity>(again.velocity.at(0)).data->values,
             std::get<FileVelocity>(scene.velocity.at(0)).data->values);
   EXPECT_NE(
@@ -140,7 +140,7 @@ TEST_F(GridLayout, IsTheTrueReasonWhereThePastOfAPointLeavesTheWind) {
   write_image("wind.vti", 2, 2, data(array("u", 2, "1 0  1 0  1 0  1 0")), "Origin=\"-1 -1 0\" Spacing=\"2 2 1\"");
   const Case scene = parse_case(case_with("file = \"wind.vti\""), folder_ / "cone.toml",
                                 {"time.end=0.1", "time.step=0.05", "output.times=[0, 0.1]", "evaluate.per_axis=20"})
-                         .scene;
+                         .spec;
   const RunSummary summary = Simulation(scene).run();
   ASSERT_GT(summary.reference.untraced, 0u);  // those whose past is beyond x = -1
   EXPECT_NE(summary.reference.trouble.find("on its way back in time x = -1.000"), std::string::npos)

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "input/points_table.hpp"
 
 namespace gaussdrift::input {

@@ -19,7 +19,7 @@ namespace gaussdrift::input {
 namespace {
 
 Case parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return parse_case(text, "folder/cone.toml", overrides).scene;
+  return parse_case(text, "folder/cone.toml", overrides).spec;
 }
 
 /// Field by field, without name, file and source.
@@ -145,7 +145,7 @@ TEST(Case, LeavesNothingOutByItselfWhereWeightsChange) {
 TEST(Case, TakesItsDefaultsFromTheRegistryAndTheyAreValid) {
   const ReadResult result = parse_case(least, "least.toml");
   EXPECT_TRUE(result.warnings.empty());
-  const Case& scene = result.scene;
+  const Case& scene = result.spec;
   const ParticleSpec particles;
   const TimeSpec time;
   const EvaluateSpec evaluate;
@@ -200,14 +200,14 @@ TEST(Case, AddsUpSeveralVelocitiesAndDensities) {
   ASSERT_EQ(scene.density.size(), 2u);
   EXPECT_EQ(std::get<ExpressionDensity>(scene.density[0]).text, "x");
   EXPECT_EQ(number(std::get<ShapeDensity>(scene.density[1]).arguments, "height"), 4);
-  expect_same(parse(resolved_toml(scene)), scene);
+  expect_same(parse(case_text(scene)), scene);
 }
 
 TEST(Case, LimitsTheSecondsOfADensityIfAsked) {
   EXPECT_EQ(parse(cone).evaluate.most_seconds, 0);
   const Case scene = parse(cone, {"evaluate.most_seconds=2.5"});
   EXPECT_EQ(scene.evaluate.most_seconds, 2.5);
-  expect_same(parse(resolved_toml(scene)), scene);
+  expect_same(parse(case_text(scene)), scene);
   EXPECT_THROW(parse(cone, {"evaluate.most_seconds=0"}), CaseError);
 }
 
@@ -291,15 +291,15 @@ TEST(ResolvedCase, IsTheSameCaseAgain) {
           "[[check]]\nwhat = \"mass\"\nmin = 1\nat = \"turn\"\n"};
   for (const std::string& text : texts) {
     const Case scene = parse(text);
-    const std::string resolved = resolved_toml(scene);
+    const std::string resolved = case_text(scene);
     const Case again = parse(resolved);
     expect_same(again, scene);
-    EXPECT_EQ(resolved_toml(again), resolved) << "resolving twice changes nothing";
+    EXPECT_EQ(case_text(again), resolved) << "resolving twice changes nothing";
   }
 }
 
 TEST(ResolvedCase, SpellsOutDefaultsAndOverrides) {
-  const std::string resolved = resolved_toml(parse(least, {"time.end=2/3"}));
+  const std::string resolved = case_text(parse(least, {"time.end=2/3"}));
   EXPECT_EQ(resolved, R"text(gaussdrift = 1
 
 [case]
@@ -447,7 +447,7 @@ TEST(Damage, IsRefusedOrReadButNeverFatal) {
     try {
       const Case scene = parse(text, given);
       ++read;
-      expect_same(parse(resolved_toml(scene)), scene);
+      expect_same(parse(case_text(scene)), scene);
     } catch (const CaseError& error) {
       ++refused;
       const std::string message = error.what();

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "write/files.hpp"
 #ifdef GAUSSDRIFT_PICTURES
 #include "render/read_png.hpp"

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "render/styles.hpp"
 #include "write/disk.hpp"
 #include "write/files.hpp"

@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "render/styles.hpp"
 #include "write/files.hpp"
 #ifdef GAUSSDRIFT_PICTURES

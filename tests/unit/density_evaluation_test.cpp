@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.hpp"
 #include "base/weight_within.hpp"
 #include "field/density/density.hpp"
+#include "gaussdrift/error.hpp"
 #include "particle/seeding.hpp"
 
 namespace gaussdrift {

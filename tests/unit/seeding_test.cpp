@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.hpp"
 #include "field/density/density.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 namespace {

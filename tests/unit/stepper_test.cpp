@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "base/error.hpp"
 #include "field/named/named_fields.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 namespace {

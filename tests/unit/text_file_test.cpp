@@ -8,8 +8,8 @@
 #include <fstream>
 #include <string>
 
-#include "base/error.hpp"
 #include "base/text_file.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift::base {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "write/disk.hpp"
 #include "write/files.hpp"
 

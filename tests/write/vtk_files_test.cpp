@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-#include "base/error.hpp"
+#include "gaussdrift/error.hpp"
 #include "write/disk.hpp"
 #include "write/files.hpp"
 

@@ -10,9 +10,9 @@
 #include <numeric>
 #include <vector>
 
-#include "base/error.hpp"
 #include "field/gaussians/divergence_free.hpp"
 #include "field/gaussians/overlapping_blocks.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

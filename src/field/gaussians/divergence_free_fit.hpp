@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "base/error.hpp"
 #include "field/gaussians/pairs.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
-#include "base/error.hpp"
 #include "base/number.hpp"
 #include "base/users_words.hpp"
 #include "field/gaussians/divergence_free.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

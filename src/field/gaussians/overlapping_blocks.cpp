@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
-#include "base/points.hpp"
 #include "core/dispatch.hpp"
 #include "field/gaussians/pairs_job.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

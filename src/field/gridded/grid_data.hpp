@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/points.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/points.hpp"
 #include "expression/expression.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 

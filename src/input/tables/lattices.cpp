@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/lattice.hpp"
+#include "gaussdrift/lattice.hpp"
 #include "input/tables/tables.hpp"
 
 namespace gaussdrift::input {

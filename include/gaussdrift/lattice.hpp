@@ -1,23 +1,27 @@
-// Uniform lattices over a box: n points on the longest axis, the same spacing on all axes.
+/// @file
+/// Uniform lattices over a box: n points on the longest axis, the same spacing on all axes.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
-#include "base/points.hpp"
+#include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 
 /// Points origin + index * spacing, first axis fastest. Axes beyond the dimension have one point.
 struct Lattice {
-  int dimension = 2;
-  std::array<std::size_t, max_dimension> points{1, 1, 1};
-  Vector origin{};
-  double spacing = 0;
+  int dimension = 2;                                       ///< 2 or 3
+  std::array<std::size_t, max_dimension> points{1, 1, 1};  ///< on each axis
+  Vector origin{};                                         ///< of the point with index 0 on every axis
+  double spacing = 0;                                      ///< the same on all axes, a length of the case
 
+  /// Number of points.
   std::size_t size() const { return points[0] * points[1] * points[2]; }
+  /// Of the points with this index on that axis.
   double coordinate(int axis, std::size_t index) const { return origin[axis] + static_cast<double>(index) * spacing; }
+  /// All coordinates on an axis, ascending.
   std::vector<double> nodes(int axis) const;
 };
 

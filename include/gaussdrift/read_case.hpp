@@ -1,28 +1,32 @@
-// From a case file to a Case: parse, override, validate; and back.
+/// @file
+/// From a case file to a Case: parse, override, validate; and back.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/error.hpp"
 
-namespace gaussdrift::input {
+namespace gaussdrift {
 
-/// Several complaints about one case file, already laid out for people (place, line, caret, rule, remedy).
+/// Complaints about one case file, laid out for people (place, line, caret, rule, remedy).
 class CaseError : public InputError {
  public:
+  /// `count` complaints in one text.
   CaseError(const std::string& text, int count) : InputError(text), count_(count) {}
+  /// How many complaints there are.
   int count() const { return count_; }
 
  private:
   int count_;
 };
 
+/// What reading a case gives.
 struct ReadResult {
-  Case scene;
-  std::vector<std::string> warnings;  // laid out like the errors: unused parameters, small overlap, ...
+  Case spec;                          ///< complete and valid
+  std::vector<std::string> warnings;  ///< laid out like the errors: unused parameters, small overlap, ...
 };
 
 /// Reads and validates. `overrides` are "key=value" with dotted keys as in --set; values have the types of the file.
@@ -31,22 +35,13 @@ struct ReadResult {
 ReadResult read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {},
                      int threads = 0);
 
-/// The same from a text; `file` names it in messages.
+/// The same from a text; `file` names it in messages, and data files are looked for in its folder.
 ReadResult parse_case(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides = {}, int threads = 0);
 
-/// The resolved case as a case file: defaults and overrides spelt out; reading it gives the same Case, but for
+/// The case as the text of a case file: defaults and overrides spelt out; reading it gives the same Case, but for
 /// parameters that only stood in numbers, which are written as values. Data files are named by their absolute paths, or
 /// as seen from `folder`, where the text is to lie.
-std::string resolved_toml(const Case& scene, const std::filesystem::path& folder = {});
+std::string case_text(const Case& spec, const std::filesystem::path& folder = {});
 
-/// Grids and tables that the case reads, in its order; those that a .pvd lists follow it.
-std::vector<std::filesystem::path> data_files(const Case& scene);
-
-/// The case with the names of its data files without their folders; its text then is the same wherever they lie.
-Case with_bare_names(Case scene);
-
-/// `file` as seen from `folder`: relative, whatever links lead there; absolute where that cannot be.
-std::filesystem::path seen_from(const std::filesystem::path& folder, const std::filesystem::path& file);
-
-}  // namespace gaussdrift::input
+}  // namespace gaussdrift

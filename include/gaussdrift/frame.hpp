@@ -1,0 +1,62 @@
+/// @file
+/// What a run shows at each output time, and who looks at it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gaussdrift/density_grid.hpp"
+#include "gaussdrift/norms.hpp"
+#include "gaussdrift/particles.hpp"
+#include "gaussdrift/points.hpp"
+
+namespace gaussdrift {
+
+/// Numbers of one output, a row of series.csv.
+struct FrameNumbers {
+  double mass = 0;     ///< sum_j alpha_j, the exact integral of rho_eps^h over all space
+  double minimum = 0;  ///< of rho on the grid
+  double maximum = 0;  ///< of rho on the grid
+  Vector centroid{};   ///< sum_j alpha_j X_j / mass; NaN where positive and negative weights cancel
+  /// Of the Gauss transform, measured on a sample of the grid against `direct`, relative to max |rho|.
+  double transform_error = 0;
+  double transform_tolerance = 0;  ///< per-term tolerance that was asked of fgtd
+  double evaluate_seconds = 0;     ///< preparing and evaluating the transform
+  /// Largest distance of particles that start as lattice neighbours, in spacings; 0: they are replaced.
+  double stretch = 0;
+  double weight = 0;                ///< sum_j |alpha_j|
+  double outside = 0;               ///< part of sum |alpha_j| whose particles are outside the domain
+  std::optional<ErrorNorms> error;  ///< only with a reference
+  std::string no_norms;      ///< why they are NaN, for people: nothing is left to compare; empty: they are numbers
+  std::size_t compared = 0;  ///< grid points that the norms are taken over; a sample if fewer than the grid has
+  std::size_t untraced = 0;  ///< grid points where the reference is not known; the norms leave them out
+};
+
+/// One output. What it points at belongs to the run and stays as it is until the observer returns.
+struct Frame {
+  int index = 0;                         ///< 0 for the first output
+  double time = 0;                       ///< of the scene
+  const Particles* particles = nullptr;  ///< never null
+  /// u(X_j, t) [j][dimension]; only if files that the case names need it, else null
+  const std::vector<double>* velocity = nullptr;
+  const DensityGrid* density = nullptr;  ///< never null
+  /// rho at the points of the density, NaN where not known; null without a reference and where a sample is compared
+  const std::vector<double>* exact = nullptr;
+  FrameNumbers numbers;  ///< of this output
+};
+
+/// Looks at the frames of a run. What it throws ends the run, and comes out of Simulation::run().
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Names the stage in RunSummary::stages.
+  virtual std::string name() const = 0;
+  /// Called once for each output time, in their order, on the thread of run().
+  virtual void frame(const Frame& frame) = 0;
+  /// Called once after the last frame; not if the run ends before.
+  virtual void finish() {}
+};
+
+}  // namespace gaussdrift

@@ -1,0 +1,55 @@
+/// @file
+/// A run: seeds the particles of a case, carries them from output time to output time, and shows each frame to
+/// observers.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "gaussdrift/case.hpp"
+#include "gaussdrift/frame.hpp"
+#include "gaussdrift/particles.hpp"
+#include "gaussdrift/summary.hpp"
+
+namespace gaussdrift {
+
+/// One run of one case. It prints nothing and writes no file; observers see what comes out.
+class Simulation {
+ public:
+  /// Makes the fields and effects that the case names. The settings of the case count as they are: `accuracy.target`
+  /// is not looked at (see choose_settings()). threads: 0 for all; results do not depend on it. Throws InputError.
+  explicit Simulation(const Case& spec, int threads = 0);
+  Simulation(Simulation&&) noexcept;             ///< what is left may only be destroyed
+  Simulation& operator=(Simulation&&) noexcept;  ///< what is left may only be destroyed
+  ~Simulation();
+
+  /// Adds one that sees every frame, after those that were added before.
+  void observe(std::unique_ptr<Observer> observer);
+  /// The same with a function; `name` is the stage that its seconds are booked under.
+  void observe(const std::string& name, std::function<void(const Frame&)> see);
+
+  /// `go_on` is called between batches of steps, several times a second at most, on the thread of run(). Where it
+  /// returns false the run stops after that step.
+  void on_progress(std::function<bool(const Progress&)> go_on);
+
+  /// Seeds the particles and looks at the velocity there, so that what cannot begin is refused early: InputError where
+  /// there is no density, a step is unstable or a named method too slow; NumericalError where a field is not finite;
+  /// std::bad_alloc. run() does it if it was not done.
+  void prepare();
+
+  /// Runs to time.end, or until on_progress() says no; called again it goes on from there, with the same bits as a run
+  /// that never stopped. Throws NumericalError naming step, time, particle and place where a value is not finite, what
+  /// prepare() throws, and what observers throw; frames already shown stay as they are. std::logic_error if the run is
+  /// complete or an error ended it.
+  RunSummary run();
+
+  /// As they are now, without copies; empty before prepare(). Weights and widths are those of the last output.
+  const Particles& particles() const;
+
+ private:
+  class Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace gaussdrift
