@@ -1,20 +1,29 @@
-# install_library(name) installs a library as a package that find_package(name) finds: header, static library, exported target
-# name::name. `cmake --install <build> --component <name>` installs it alone.
+# install_library(name [TARGET target] [COMPONENT component] [CONFIG file]) installs a library as a package that find_package(name)
+# finds: headers, static library, exported target name::name. `cmake --install <build> --component <component>` installs it alone.
+# Target and component have the name of the library unless they are given.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 function(install_library library)
+  cmake_parse_arguments(INSTALL "" "TARGET;COMPONENT;CONFIG" "" ${ARGN})
+  foreach(default TARGET=${library} COMPONENT=${library} CONFIG=libraryConfig.cmake.in)
+    string(REPLACE "=" ";" default ${default})
+    list(GET default 0 key)
+    if(NOT INSTALL_${key})
+      list(GET default 1 INSTALL_${key})
+    endif()
+  endforeach()
   set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/${library})
-  install(TARGETS ${library} EXPORT ${library}Targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${library})
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${library})
-  install(EXPORT ${library}Targets NAMESPACE ${library}:: DESTINATION ${package_folder} COMPONENT ${library})
+  install(TARGETS ${INSTALL_TARGET} EXPORT ${library}Targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${INSTALL_COMPONENT})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${INSTALL_COMPONENT})
+  install(EXPORT ${library}Targets NAMESPACE ${library}:: DESTINATION ${package_folder} COMPONENT ${INSTALL_COMPONENT})
 
   set(uses_openmp ${OpenMP_CXX_FOUND})
-  configure_package_config_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/libraryConfig.cmake.in
+  configure_package_config_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${INSTALL_CONFIG}
     ${PROJECT_BINARY_DIR}/${library}Config.cmake INSTALL_DESTINATION ${package_folder})
   # Before 1.0 a new minor version may change the interface.
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/${library}ConfigVersion.cmake VERSION ${PROJECT_VERSION}
     COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/${library}Config.cmake ${PROJECT_BINARY_DIR}/${library}ConfigVersion.cmake
-    DESTINATION ${package_folder} COMPONENT ${library})
+    DESTINATION ${package_folder} COMPONENT ${INSTALL_COMPONENT})
 endfunction()

@@ -2,8 +2,10 @@
 # program runs (src/core/dispatch.hpp), so that one binary runs everywhere and is fast where it can be.
 
 set(core_x86 OFF)
+set(core_instruction_sets baseline)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(core_x86 ON)
+  list(APPEND core_instruction_sets avx2 avx512)
 endif()
 
 # dispatch_sources(a.cpp ...) tells those sources of the current folder which instruction sets are compiled.

@@ -12,6 +12,7 @@
 #include "accuracy/budget.hpp"
 #include "accuracy/trial.hpp"
 #include "effect/catalogue.hpp"
+#include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "render/styles.hpp"
@@ -106,6 +107,12 @@ double memory_of_this_machine() {
   return std::min({bytes, limit_of(RLIMIT_AS), limit_of(RLIMIT_DATA), limit_of_group()});
 }
 
+}  // namespace gaussdrift::accuracy
+
+namespace gaussdrift {
+
+using namespace accuracy;  // this is the public face of that module
+
 void refuse_what_does_not_fit(const Case& spec, int threads) {
   const Domain& domain = spec.domain;
   const auto lattice =
@@ -133,4 +140,4 @@ void refuse_what_does_not_fit(const Case& spec, int threads) {
       extent.particles > extent.grid_points ? "particles.per_axis" : "evaluate.per_axis"));
 }
 
-}  // namespace gaussdrift::accuracy
+}  // namespace gaussdrift

@@ -23,8 +23,4 @@ double memory_of_this_process();
 /// Bytes that a process may hold here: of the machine, or of the limits that are set for it.
 double memory_of_this_machine();
 
-/// Throws InputError if the run of this case would take more memory than there is, naming both. Looks at a sample of
-/// the particles, and at nothing where the lattices are small.
-void refuse_what_does_not_fit(const Case& spec, int threads);
-
 }  // namespace gaussdrift::accuracy

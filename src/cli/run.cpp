@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "accuracy/footprint.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "cli/asked_case.hpp"
@@ -15,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "cli/run_words.hpp"
 #include "cli/terminal.hpp"
+#include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/data_files.hpp"
 #include "render/picture.hpp"
@@ -84,7 +84,7 @@ class Run {
         folder_(options.folder.empty() ? fs::path("output") / spec_.name : options.folder) {}
 
   void simulate() {
-    accuracy::refuse_what_does_not_fit(spec_, threads());
+    refuse_what_does_not_fit(spec_, threads());
     Simulation simulation(spec_, threads());
     simulation.prepare();  // what cannot begin must not cost an earlier run
     const std::string provenance = provenance_of(spec_, folder_, options_);

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 
-#include "accuracy/would_run.hpp"
 #include "base/stopwatch.hpp"
 #include "sim/checks.hpp"
-#include "sim/outside.hpp"
 #include "write/output_files.hpp"
 #include "write/series_table.hpp"
 
@@ -53,13 +51,6 @@ std::string seconds_text(const RunSummary& summary) {
     if (text.empty() || seconds >= 0.01 * summary.seconds)
       text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", name, seconds);
   return text;
-}
-
-std::string place_text(const Vector& place, int dimension) {
-  std::string text;
-  for (int k = 0; k < dimension; ++k)
-    text += fmt::format("{}{:.4g}", k ? ", " : "(", place[static_cast<std::size_t>(k)]);
-  return text + ")";
 }
 
 std::string left_out_text(const Case& spec, const SeedReport& seeding) {
@@ -144,36 +135,6 @@ std::string ending_text(const Case& spec, const RunSummary& summary, const std::
   for (const CheckResult& result : summary.checks)
     text += fmt::format("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
   return text + files_text(folder);
-}
-
-std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary) {
-  std::vector<std::string> warnings;
-  if (summary.transform_achievable > spec.evaluate.tolerance)
-    warnings.push_back(
-        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights. The error of the sum is at most "
-                    "{:.1e} of max rho.",
-                    spec.evaluate.tolerance, summary.transform_achievable));
-  for (const auto& [time, numbers] : summary.frames)
-    if (numbers.stretch > spec.particles.overlap) {
-      const std::string table = accuracy::table_against_gaps(spec);
-      warnings.push_back(fmt::format(
-          "at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart. Blobs {:g} spacings wide "
-          "no longer overlap there, so the density has false gaps and peaks. Use {}more overlap on a finer lattice.",
-          time, numbers.stretch, spec.particles.overlap, table.empty() ? "" : table + ", or "));
-      break;
-    }
-  warnings.insert(warnings.end(), summary.warnings.begin(), summary.warnings.end());
-  for (const EffectSummary& effect : summary.effects)
-    if (!effect.warning.empty()) warnings.push_back(fmt::format("{}: {}", effect.name, effect.warning));
-  if (summary.reference.untraced > 0)
-    warnings.push_back(
-        fmt::format("the exact density is not known at {} grid points of all outputs (one is {}: {}); the norms of the "
-                    "error leave them out",
-                    summary.reference.untraced, place_text(summary.reference.first_untraced, spec.domain.dimension),
-                    summary.reference.trouble));
-  for (const std::string& text : {about_leaving(summary.frames), about_beyond(summary.beyond_at_start)})
-    if (!text.empty()) warnings.push_back(text);
-  return warnings;
 }
 
 }  // namespace gaussdrift::cli

@@ -16,7 +16,4 @@ namespace gaussdrift::cli {
 std::string ending_text(const Case& spec, const RunSummary& summary, const std::optional<accuracy::Budget>& budget,
                         std::optional<double> target, const std::filesystem::path& folder);
 
-/// Warnings: facts that the results do not show by themselves. For the terminal, the page and the log.
-std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary);
-
 }  // namespace gaussdrift::cli

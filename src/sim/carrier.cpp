@@ -172,7 +172,8 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
   constexpr std::size_t stages_a_batch = 4'000'000;
   const std::size_t stages_a_step =
       std::max<std::size_t>(1, particles.size() * static_cast<std::size_t>(tableau_.stages));
-  const std::size_t batch = std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000);
+  const bool quick = drifts_.empty() && !between_steps_;
+  const std::size_t batch = quick ? std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000) : 1;
   while (leg.steps < interval.steps()) {
     const std::size_t count = std::min(batch, interval.steps() - leg.steps);
     advance(particles, interval, leg.steps, count, steps_before, stages);

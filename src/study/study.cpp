@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "accuracy/footprint.hpp"
 #include "base/parallel.hpp"
 #include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
+#include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
@@ -105,7 +105,7 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
   bare.checks.clear();
   try {
-    accuracy::refuse_what_does_not_fit(bare, options.threads);
+    refuse_what_does_not_fit(bare, options.threads);
     base::RepeatedTime seconds;
     std::string left_out;  // why there is no error
     // Where no two agree the machine is busy with other work: some more, to meet a quiet moment.
@@ -193,7 +193,7 @@ Study run_study(const StudyOptions& options) {
       study.experiments.push_back(std::move(experiment));
       if (options.table_grew) options.table_grew(study.experiments.back());
     };
-    accuracy::refuse_what_does_not_fit(scene, options.threads);
+    refuse_what_does_not_fit(scene, options.threads);
     tell("the Gauss transform");
     add(study_transform(scene, options.threads, 0.1 * options.seconds));
     tell("steps");

@@ -55,6 +55,8 @@ FAULTS = [
     ("docs/usage.md", "", "\n```\ntools/run cases/nothing.toml\n```\n", "there is no cases/nothing.toml"),
     ("docs/usage.md", "", "\nTables 4.1 to 4.10 and Figure 5.3b are there.\n", "there is no Table 4.10"),
     (SOURCE, "", "// as in Figures 3.6 and 3.8\n", "there is no Figure 3.8"),
+    ("examples/gauss_transform.cpp", "count = 20000", "count = 30000", "what it quotes of examples/gauss_transform.cpp"),
+    ("docs/library.md", "// examples/observed_run.cpp", "// observed_run", "examples/observed_run.cpp: no page quotes it"),
     (SOURCE, "", "// see time/tabelau.hpp\n", "there is no time/tabelau.hpp"),
     (SOURCE, "", "// see tabelau.hpp\n", "no folder has a tabelau.hpp"),
     (SOURCE, "", "// tests/reference/schroeder-tab*.csv, tests/{unit,unti}/\n", "there is no tests/{unit,unti}"),

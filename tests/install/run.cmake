@@ -3,6 +3,7 @@
 #   MODE=refuse    the same with the consumer alone compiled for AVX: must not link
 #   MODE=folder    the consumer adds the source folder with add_subdirectory
 #   MODE=page      the two blocks of code in docs/fgtd.md, "Using it in your project", against an installed copy
+#   MODE=library   examples/ and the project of docs/library.md, "In your project", against an installed and moved copy
 #   MODE=program   installs the program and asks it for its version
 # Usage: cmake -D MODE=... -D SOURCE=<source folder> -D BUILD=<build folder> -D SCRATCH=<folder> -D CONFIG=<build type>
 #              -D GENERATOR=... -D COMPILER=... -D FLAGS=... -P run.cmake
@@ -28,8 +29,8 @@ endfunction()
 
 # The installed copy has to work wherever it is, so it is moved before it is used.
 function(install_libraries)
-  foreach(library fgtd farfield)
-    call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --component ${library} --prefix ${SCRATCH}/first)
+  foreach(component fgtd farfield ${ARGN})
+    call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --component ${component} --prefix ${SCRATCH}/first)
   endforeach()
   file(RENAME ${SCRATCH}/first ${SCRATCH}/prefix)
   file(GLOB_RECURSE files ${SCRATCH}/prefix/*.cmake)
@@ -88,6 +89,23 @@ elseif(MODE STREQUAL "refuse")
     message(FATAL_ERROR "a program compiled for other processors than the library should not link; exit code ${code}:\n${said}")
   endif()
   set(said "refused, as it should be")
+elseif(MODE STREQUAL "library")
+  install_libraries(library)
+  configure_and_build(${SOURCE}/examples -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+  foreach(example gauss_transform coulomb_forces observed_run)
+    call(${SCRATCH}/build/${example})
+    string(APPEND all "${said}")
+  endforeach()
+  extract_block(${SOURCE}/docs/library.md "## An example" cpp program)
+  extract_block(${SOURCE}/docs/library.md "## In your project" cmake lists)
+  file(WRITE ${SCRATCH}/page/main.cpp "${program}")
+  file(WRITE ${SCRATCH}/page/CMakeLists.txt "${lists}")
+  file(REMOVE_RECURSE ${SCRATCH}/build)
+  configure_and_build(${SCRATCH}/page -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+  call(${SCRATCH}/build/my_program)
+  if(NOT said MATCHES "stopped at t = 3.142 after 64 steps")
+    message(FATAL_ERROR "the program of the page says:\n${said}")
+  endif()
 elseif(MODE STREQUAL "page")
   install_libraries()
   extract_block(${SOURCE}/docs/fgtd.md "## Interface" cpp program)
