@@ -40,21 +40,21 @@ std::string stage_of(const Effect& effect) { return "effect " + effect.name(); }
 
 }  // namespace
 
-Carrier::Carrier(const Case& description, const Scene& scene, int threads)
+Carrier::Carrier(const Case& spec, const Scene& scene, int threads)
     : effects_(make_effects(
-          description, scene, [this](Particles& particles) { follow(particles); }, threads)),
+          spec, scene, [this](Particles& particles) { follow(particles); }, threads)),
       integrating_(integrating(effects_)),
       drifts_(drifts_of(effects_)),
       between_steps_(std::any_of(effects_.begin(), effects_.end(),
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
-      tableau_(time::find_tableau(description.time.method)),
-      case_(description),
+      tableau_(time::find_tableau(spec.time.method)),
+      case_(spec),
       scene_(scene),
       stepper_(*scene.velocity, tableau_, threads, integrals_of(integrating_), drifts_),
       threads_(base::resolve_threads(threads)) {
   if (!time::is_adaptive(tableau_)) return;
-  AdaptiveStepper::Options options{description.time.tolerance, 0, description.time.step, threads};
-  options.length = longest_side(description.domain.dimension, description.domain.min, description.domain.max);
+  AdaptiveStepper::Options options{spec.time.tolerance, 0, spec.time.step, threads};
+  options.length = longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max);
   adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), drifts_, options);
 }
 

@@ -20,7 +20,7 @@ namespace gaussdrift {
 class Carrier {
  public:
   /// Constructs the effects that the case names. Case and scene must outlive the carrier. threads: 0 for all.
-  Carrier(const Case& description, const Scene& scene, int threads);
+  Carrier(const Case& spec, const Scene& scene, int threads);
   Carrier(const Carrier&) = delete;  // effects refer to it
   Carrier& operator=(const Carrier&) = delete;
 

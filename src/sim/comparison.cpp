@@ -18,17 +18,17 @@ namespace gaussdrift {
 
 namespace {
 
-std::size_t usual_most_steps(const Case& description) { return 10'000 + total_steps(description); }
+std::size_t usual_most_steps(const Case& spec) { return 10'000 + total_steps(spec); }
 
 }  // namespace
 
-std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads,
+std::unique_ptr<Reference> make_reference(const Case& spec, const Scene& scene, int threads,
                                           const Following& following) {
-  switch (description.reference.kind) {
+  switch (spec.reference.kind) {
     case ReferenceSpec::Kind::none:
       return nullptr;
     case ReferenceSpec::Kind::exact:
-      return formula(description.reference.rho, description.params, scene.evaluation);
+      return formula(spec.reference.rho, spec.params, scene.evaluation);
     case ReferenceSpec::Kind::characteristics: {
       ScalarRate growth;
       const VelocityField* diverging = scene.velocity->is_solenoidal() ? nullptr : scene.velocity.get();
@@ -38,27 +38,26 @@ std::unique_ptr<Reference> make_reference(const Case& description, const Scene& 
           if (diverging) diverging->add_divergence(t, x, values);
           if (decay) decay->add(t, x, values);
         };
-      const time::Tableau& tableau = time::find_tableau(description.time.method);
+      const time::Tableau& tableau = time::find_tableau(spec.time.method);
       const bool by_steps = following.by_half_steps && !time::is_adaptive(tableau);
-      return characteristics(
-          *scene.velocity, *scene.density, growth, scene.evaluation,
-          {.tolerance = has_smooth_paths(scene) ? 1e-12 : 1e-9,  // short steps at every kink
-           .smooth = has_smooth_paths(scene),
-           .steady = scene.velocity->is_steady() && (!decay || decay->is_steady()),
-           .end = description.time.end,
-           .most_steps = following.most_steps > 0 ? following.most_steps : usual_most_steps(description),
-           .steps_by = by_steps ? &tableau : nullptr,
-           .step = by_steps ? description.time.step / 2 : 0,
-           .threads = threads});
+      return characteristics(*scene.velocity, *scene.density, growth, scene.evaluation,
+                             {.tolerance = has_smooth_paths(scene) ? 1e-12 : 1e-9,  // short steps at every kink
+                              .smooth = has_smooth_paths(scene),
+                              .steady = scene.velocity->is_steady() && (!decay || decay->is_steady()),
+                              .end = spec.time.end,
+                              .most_steps = following.most_steps > 0 ? following.most_steps : usual_most_steps(spec),
+                              .steps_by = by_steps ? &tableau : nullptr,
+                              .step = by_steps ? spec.time.step / 2 : 0,
+                              .threads = threads});
     }
   }
   return nullptr;
 }
 
-Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads) {
+Affordable affordable_paths(const Case& spec, const Scene& scene, double allowed, double outputs, int threads) {
   constexpr std::size_t least = 16, stages = 12;
-  const std::size_t whole = scene.evaluation.size(), usual = usual_most_steps(description);
-  const double rate = work_of_exact_rate(scene), last = description.output.times.back();
+  const std::size_t whole = scene.evaluation.size(), usual = usual_most_steps(spec);
+  const double rate = work_of_exact_rate(scene), last = spec.output.times.back();
   outputs = std::max(outputs, 1e-9);  // an output at the start alone: no path at all
   const auto points_for = [&](double each) {
     return each > 0 ? static_cast<std::size_t>(std::min(allowed / (each * outputs), static_cast<double>(whole)))
@@ -77,7 +76,7 @@ Affordable affordable_paths(const Case& description, const Scene& scene, double 
     }
     std::vector<double> ignored;
     const ReferenceReport trial =
-        make_reference(description, scene, threads, {.most_steps = most})->evaluate_at(last, points, ignored);
+        make_reference(spec, scene, threads, {.most_steps = most})->evaluate_at(last, points, ignored);
     if (most < usual && 2 * trial.exhausted > tried) continue;
     found.work = rate * static_cast<double>(trial.rates) / static_cast<double>(tried);
     found.points = points_for(found.work);
@@ -87,9 +86,9 @@ Affordable affordable_paths(const Case& description, const Scene& scene, double 
     found.following.most_steps = most < usual ? std::min(usual, std::max<std::size_t>(200, times * steps)) : usual;
     break;
   }
-  const time::Tableau& tableau = time::find_tableau(description.time.method);
+  const time::Tableau& tableau = time::find_tableau(spec.time.method);
   if (!has_smooth_paths(scene) && !time::is_adaptive(tableau) && found.points < std::min<std::size_t>(64, whole)) {
-    const double steps = 2 * static_cast<double>(time::Interval(0, last, description.time.step).steps());
+    const double steps = 2 * static_cast<double>(time::Interval(0, last, spec.time.step).steps());
     found.work = steps * tableau.stages * rate;
     found.points = points_for(found.work);
     found.following = {.by_half_steps = true};
@@ -99,27 +98,26 @@ Affordable affordable_paths(const Case& description, const Scene& scene, double 
   return found;
 }
 
-Comparison plan_comparison(const Case& description, const Scene& scene, std::size_t particles, int threads) {
+Comparison plan_comparison(const Case& spec, const Scene& scene, std::size_t particles, int threads) {
   const std::size_t whole = scene.evaluation.size();
-  if (description.reference.kind == ReferenceSpec::Kind::none) return {};
-  if (description.reference.points)
-    return {.points = std::min(whole, static_cast<std::size_t>(*description.reference.points))};
-  if (description.reference.kind != ReferenceSpec::Kind::characteristics || description.output.times.empty() ||
-      base::has_one(description.output.images, &PictureStyle::shows_error))
+  if (spec.reference.kind == ReferenceSpec::Kind::none) return {};
+  if (spec.reference.points) return {.points = std::min(whole, static_cast<std::size_t>(*spec.reference.points))};
+  if (spec.reference.kind != ReferenceSpec::Kind::characteristics || spec.output.times.empty() ||
+      base::has_one(spec.output.images, &PictureStyle::shows_error))
     return {.points = whole};
   constexpr double share = 0.15, few = 2.5e6;
-  const auto& times = description.output.times;
-  const bool shown = base::has_one(description.output.files, &OutputFile::shows_density);
+  const auto& times = spec.output.times;
+  const bool shown = base::has_one(spec.output.files, &OutputFile::shows_density);
   const bool steady = scene.velocity->is_steady() && (!scene.decay_rate || scene.decay_rate->is_steady());
   // Steady: the last output goes on from the feet of those before, if all points do; else each is traced to the start.
   const double outputs = times.back() > 0 ? std::accumulate(times.begin(), times.end(), 0.0) / times.back() : 0.0;
-  const double allowed = std::max(few, share * work_of(description, scene, particles).total());
-  const Affordable paths = affordable_paths(description, scene, allowed, outputs, threads);
+  const double allowed = std::max(few, share * work_of(spec, scene, particles).total());
+  const Affordable paths = affordable_paths(spec, scene, allowed, outputs, threads);
   Comparison plan{.points = paths.points, .following = paths.following, .word = paths.word};
   if (paths.points == 0) {
     // A number that is asked for is measured, whatever it takes.
-    const bool asked = description.accuracy.target ||
-                       std::any_of(description.checks.begin(), description.checks.end(),
+    const bool asked = spec.accuracy.target ||
+                       std::any_of(spec.checks.begin(), spec.checks.end(),
                                    [](const CheckSpec& check) { return check.what != CheckSpec::Quantity::mass; });
     constexpr std::size_t fewest = 64;
     if (asked) return {.points = std::min(whole, fewest)};

@@ -18,7 +18,7 @@ struct Following {
 };
 
 /// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.
-std::unique_ptr<Reference> make_reference(const Case& description, const Scene& scene, int threads,
+std::unique_ptr<Reference> make_reference(const Case& spec, const Scene& scene, int threads,
                                           const Following& following = {});
 
 /// Paths that can be followed within some work, and how.
@@ -32,7 +32,7 @@ struct Affordable {
 /// How many exact paths can be followed from grid points to the start with the work `allowed`, for `outputs` outputs
 /// (in units of the last one): at least 16, or none. Paths with kinks that are too expensive are followed by steps half
 /// as long as those of the case. The answer comes from following some paths, which takes at most a quarter of the work.
-Affordable affordable_paths(const Case& description, const Scene& scene, double allowed, double outputs, int threads);
+Affordable affordable_paths(const Case& spec, const Scene& scene, double allowed, double outputs, int threads);
 
 /// The part of an output that is compared with the reference.
 struct Comparison {
@@ -46,6 +46,6 @@ struct Comparison {
 /// as many as 15 % of the work of the run allow (or a tenth of a second): all if density files are written, else at
 /// most 4096, and at most 256 where paths have kinks. None if fewer than 16 are allowed, unless a check or a target
 /// needs them.
-Comparison plan_comparison(const Case& description, const Scene& scene, std::size_t particles, int threads);
+Comparison plan_comparison(const Case& spec, const Scene& scene, std::size_t particles, int threads);
 
 }  // namespace gaussdrift

@@ -8,22 +8,22 @@
 
 namespace gaussdrift {
 
-Effects make_effects(const Case& description, const Scene& scene, const Follow& follow, int threads) {
+Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow, int threads) {
   Effects made;
-  for (const auto& [effect, spec] : effects_of(description.effects)) {
+  for (const auto& [effect, values] : effects_of(spec.effects)) {
     const auto fields = std::find_if(scene.effect_fields.begin(), scene.effect_fields.end(),
                                      [&name = spec.name](const EffectFields& one) { return one.effect == name; });
     const bool any = fields != scene.effect_fields.end();
-    made.push_back(effect->make(spec, {.spec = description,
-                                       .velocity = *scene.velocity,
-                                       .seeding = scene.seeding,
-                                       .core_radius = scene.core_radius,
-                                       .distance = difference_length(scene),
-                                       .spreading = spreading(description.effects),
-                                       .decay = any ? fields->decay.get() : nullptr,
-                                       .carried = any ? fields->carried.get() : nullptr,
-                                       .follow = follow,
-                                       .threads = threads}));
+    made.push_back(effect->make(values, {.spec = spec,
+                                         .velocity = *scene.velocity,
+                                         .seeding = scene.seeding,
+                                         .core_radius = scene.core_radius,
+                                         .distance = difference_length(scene),
+                                         .spreading = spreading(spec.effects),
+                                         .decay = any ? fields->decay.get() : nullptr,
+                                         .carried = any ? fields->carried.get() : nullptr,
+                                         .follow = follow,
+                                         .threads = threads}));
   }
   return made;
 }

@@ -18,6 +18,6 @@ using Effects = std::vector<std::unique_ptr<Effect>>;
 using Follow = std::function<void(Particles& particles)>;
 
 /// In the order in which they act. The scene and what `follow` refers to must outlive them.
-Effects make_effects(const Case& description, const Scene& scene, const Follow& follow, int threads);
+Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow, int threads);
 
 }  // namespace gaussdrift

@@ -9,9 +9,9 @@
 namespace gaussdrift {
 
 /// The times on which steps land exactly: outputs, and time.end.
-std::vector<double> landings(const Case& description);
+std::vector<double> landings(const Case& spec);
 
 /// Steps from t = 0 to time.end with landings on all output times; 0 if they are chosen by their error.
-std::size_t total_steps(const Case& description);
+std::size_t total_steps(const Case& spec);
 
 }  // namespace gaussdrift

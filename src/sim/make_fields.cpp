@@ -18,16 +18,16 @@ namespace {
 
 Box box_of(const Domain& domain) { return {domain.dimension, domain.min, domain.max}; }
 
-std::unique_ptr<VelocityField> make_part(const ExpressionVelocity& spec, const Case& description, int /*threads*/) {
-  return std::make_unique<ExpressionField>(spec.components, description.params);
+std::unique_ptr<VelocityField> make_part(const ExpressionVelocity& part, const Case& spec, int /*threads*/) {
+  return std::make_unique<ExpressionField>(part.components, spec.params);
 }
 
-std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocity& spec, const Case& description, int /*threads*/) {
-  return std::make_unique<StreamfunctionField>(spec.psi, description.params);
+std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocity& part, const Case& spec, int /*threads*/) {
+  return std::make_unique<StreamfunctionField>(part.psi, spec.params);
 }
 
-std::unique_ptr<VelocityField> make_part(const NamedVelocity& spec, const Case& description, int /*threads*/) {
-  return make_named_field(spec.field, box_of(description.domain), spec.arguments);
+std::unique_ptr<VelocityField> make_part(const NamedVelocity& part, const Case& spec, int /*threads*/) {
+  return make_named_field(part.field, box_of(spec.domain), part.arguments);
 }
 
 /// The choice of that name; the case is valid.
@@ -37,52 +37,52 @@ Choice named_choice(const std::array<std::string_view, n>& names, const std::str
 }
 
 template <class FileSpec>
-GridInterpolator interpolator(const FileSpec& spec) {
-  return {spec.data, named_choice<Interpolation>(interpolation_names, spec.interpolation),
-          named_choice<Outside>(outside_names, spec.outside)};
+GridInterpolator interpolator(const FileSpec& part) {
+  return {part.data, named_choice<Interpolation>(interpolation_names, part.interpolation),
+          named_choice<Outside>(outside_names, part.outside)};
 }
 
-std::unique_ptr<VelocityField> make_part(const FileVelocity& spec, const Case& /*description*/, int /*threads*/) {
-  return std::make_unique<GriddedVelocity>(interpolator(spec));
+std::unique_ptr<VelocityField> make_part(const FileVelocity& part, const Case& /*spec*/, int /*threads*/) {
+  return std::make_unique<GriddedVelocity>(interpolator(part));
 }
 
-std::unique_ptr<VelocityField> make_part(const GaussianVelocitySpec& spec, const Case& description, int threads) {
-  const Domain& domain = description.domain;
-  const Lattice seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
-  return make_gaussian_velocity(*spec.model, seeding.size(), threads);
+std::unique_ptr<VelocityField> make_part(const GaussianVelocitySpec& part, const Case& spec, int threads) {
+  const Domain& domain = spec.domain;
+  const Lattice seeding = make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis);
+  return make_gaussian_velocity(*part.model, seeding.size(), threads);
 }
 
-std::unique_ptr<InitialDensity> make_part(const FileDensity& spec, const Case& /*description*/, int /*threads*/) {
-  return std::make_unique<GriddedDensity>(interpolator(spec));
+std::unique_ptr<InitialDensity> make_part(const FileDensity& part, const Case& /*spec*/, int /*threads*/) {
+  return std::make_unique<GriddedDensity>(interpolator(part));
 }
 
-std::unique_ptr<InitialDensity> make_part(const ExpressionDensity& spec, const Case& description, int /*threads*/) {
-  return std::make_unique<WrittenDensity>(spec.text, description.domain.dimension, description.params);
+std::unique_ptr<InitialDensity> make_part(const ExpressionDensity& part, const Case& spec, int /*threads*/) {
+  return std::make_unique<WrittenDensity>(part.text, spec.domain.dimension, spec.params);
 }
 
-std::unique_ptr<InitialDensity> make_part(const ShapeDensity& spec, const Case& description, int /*threads*/) {
-  const NamedShape& shape = find_named_shape(spec.shape);
-  return shape.make(description.domain.dimension, complete(shape.about, spec.arguments, box_of(description.domain)));
+std::unique_ptr<InitialDensity> make_part(const ShapeDensity& part, const Case& spec, int /*threads*/) {
+  const NamedShape& shape = find_named_shape(part.shape);
+  return shape.make(spec.domain.dimension, complete(shape.about, part.arguments, box_of(spec.domain)));
 }
 
 /// The parts of a case; Sum adds several up.
 template <class Sum, class Part, class Spec>
-std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& description, int threads) {
+std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& spec, int threads) {
   std::vector<std::unique_ptr<Part>> parts;
-  for (const Spec& spec : specs)
-    parts.push_back(std::visit([&](const auto& one) { return make_part(one, description, threads); }, spec));
+  for (const Spec& part : specs)
+    parts.push_back(std::visit([&](const auto& one) { return make_part(one, spec, threads); }, part));
   if (parts.size() == 1) return std::move(parts.front());
   return std::make_unique<Sum>(std::move(parts));
 }
 
 }  // namespace
 
-std::unique_ptr<VelocityField> make_velocity(const Case& description, int threads) {
-  return make_sum<SumField, VelocityField>(description.velocity, description, threads);
+std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads) {
+  return make_sum<SumField, VelocityField>(spec.velocity, spec, threads);
 }
 
-std::unique_ptr<InitialDensity> make_density(const Case& description) {
-  return make_sum<SumDensity, InitialDensity>(description.density, description, 1);
+std::unique_ptr<InitialDensity> make_density(const Case& spec) {
+  return make_sum<SumDensity, InitialDensity>(spec.density, spec, 1);
 }
 
 }  // namespace gaussdrift

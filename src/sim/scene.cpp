@@ -13,17 +13,17 @@ namespace gaussdrift {
 
 namespace {
 
-void make_effect_fields(const Case& description, Scene& scene) {
-  const int dimension = description.domain.dimension;
+void make_effect_fields(const Case& spec, Scene& scene) {
+  const int dimension = spec.domain.dimension;
   std::vector<std::unique_ptr<ScalarField>> decays;
-  for (const auto& [effect, spec] : effects_of(description.effects)) {
-    const auto field_of = [&, &spec = spec](std::string_view key) -> std::unique_ptr<ScalarField> {
-      if (key.empty() || !spec.has(key)) return nullptr;
-      return std::make_unique<WrittenScalar>(spec.text(key), dimension, description.params);
+  for (const auto& [effect, values] : effects_of(spec.effects)) {
+    const auto field_of = [&, &values = values](std::string_view key) -> std::unique_ptr<ScalarField> {
+      if (key.empty() || !values.has(key)) return nullptr;
+      return std::make_unique<WrittenScalar>(values.text(key), dimension, spec.params);
     };
     if (auto decay = field_of(effect->decay_rate)) decays.push_back(std::move(decay));
-    scene.effect_fields.push_back({spec.name, field_of(effect->decay_rate), field_of(effect->carried),
-                                   fmt::format("effects.{}.{}", spec.name, effect->carried)});
+    scene.effect_fields.push_back({values.name, field_of(effect->decay_rate), field_of(effect->carried),
+                                   fmt::format("effects.{}.{}", values.name, effect->carried)});
   }
   if (decays.size() == 1) scene.decay_rate = std::move(decays.front());
   if (decays.size() > 1) scene.decay_rate = std::make_unique<SumOfScalars>(std::move(decays));
@@ -31,21 +31,21 @@ void make_effect_fields(const Case& description, Scene& scene) {
 
 }  // namespace
 
-Scene make_scene(const Case& description, int threads) {
+Scene make_scene(const Case& spec, int threads) {
   Scene scene;
-  const Domain& domain = description.domain;
-  scene.velocity = make_velocity(description, threads);
-  scene.density = make_density(description);
-  make_effect_fields(description, scene);
-  scene.threshold = description.particles.threshold;
-  scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, description.particles.per_axis);
-  const EvaluateSpec& evaluate = description.evaluate;
+  const Domain& domain = spec.domain;
+  scene.velocity = make_velocity(spec, threads);
+  scene.density = make_density(spec);
+  make_effect_fields(spec, scene);
+  scene.threshold = spec.particles.threshold;
+  scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis);
+  const EvaluateSpec& evaluate = spec.evaluate;
   scene.evaluation = evaluate.spacing > 0
                          ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, evaluate.spacing)
                          : make_lattice(domain.dimension, domain.min, domain.max, evaluate.per_axis);
-  scene.core_radius = description.particles.overlap * scene.seeding.spacing;
-  scene.cutoff = make_cutoff(description.particles.cutoff, domain.dimension, scene.core_radius,
-                             description.particles.cutoff_arguments);
+  scene.core_radius = spec.particles.overlap * scene.seeding.spacing;
+  scene.cutoff =
+      make_cutoff(spec.particles.cutoff, domain.dimension, scene.core_radius, spec.particles.cutoff_arguments);
   return scene;
 }
 

@@ -41,7 +41,7 @@ struct Scene {
 inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius; }
 
 /// threads: see make_velocity().
-Scene make_scene(const Case& description, int threads = 0);
+Scene make_scene(const Case& spec, int threads = 0);
 
 /// False if the velocity or the rate of a reaction has kinks. Methods of high order take short steps at each.
 bool has_smooth_paths(const Scene& scene);

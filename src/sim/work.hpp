@@ -15,10 +15,10 @@ struct Work {
   double total() const { return transport + density + pictures; }
 };
 
-Work work_of(const Case& description, const Scene& scene, std::size_t particles);
+Work work_of(const Case& spec, const Scene& scene, std::size_t particles);
 
 /// The work of one evaluation of the velocity at all particles, with what they do to each other.
-double work_of_rate(const Case& description, const Scene& scene, std::size_t particles);
+double work_of_rate(const Case& spec, const Scene& scene, std::size_t particles);
 
 /// The work of one evaluation on an exact path, the integrator included.
 double work_of_exact_rate(const Scene& scene);
