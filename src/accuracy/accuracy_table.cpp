@@ -14,7 +14,7 @@
 
 namespace gaussdrift::accuracy {
 
-nlohmann::ordered_json accuracy_table(const Case& scene, const RunSummary& summary, const LastFrame::Kept& last,
+nlohmann::ordered_json accuracy_table(const Case& spec, const RunSummary& summary, const LastFrame::Kept& last,
                                       int threads) {
   using json = nlohmann::ordered_json;
   if (!last.any || last.particles.size() == 0) return {{"accuracy_table_left_out", "no particles are left at the end"}};
@@ -28,10 +28,10 @@ nlohmann::ordered_json accuracy_table(const Case& scene, const RunSummary& summa
              fmt::format("a Gauss transform of this size takes {:.2g} s, and {} of them would be more than a tenth of "
                          "the run",
                          once, rows)}};
-  const Scene parts = make_scene(scene, threads);
+  const Scene scene = make_scene(spec, threads);
   const Cutoff blob = last.particles.spread > 0
-                          ? spread_cutoff(parts.cutoff, last.particles.dimension, last.particles.spread)
-                          : parts.cutoff;
+                          ? spread_cutoff(scene.cutoff, last.particles.dimension, last.particles.spread)
+                          : scene.cutoff;
   const base::EnoughTimes enough{.long_enough = most / rows, .most = 6};
   std::vector<base::RepeatedTime> times(rows);
   std::array<double, rows> error{};
@@ -43,8 +43,8 @@ nlohmann::ordered_json accuracy_table(const Case& scene, const RunSummary& summa
     for (const std::size_t i : open) {
       DensityReport report;
       evaluate_density(
-          last.particles, blob, parts.evaluation,
-          {.tolerance = tolerances[i], .method = scene.evaluate.method, .threads = threads, .measure = round == 0},
+          last.particles, blob, scene.evaluation,
+          {.tolerance = tolerances[i], .method = spec.evaluate.method, .threads = threads, .measure = round == 0},
           &report);
       if (round == 0) error[i] = report.measured_error;
       times[i].add(report.evaluate_seconds);

@@ -40,8 +40,8 @@ constexpr double share_measured = 0.09, share_predicted = 0.05, few = 2.5e6;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 1e-14;  // no cause is told to be smaller
 
-double extent(const Case& description) {
-  return longest_side(description.domain.dimension, description.domain.min, description.domain.max);
+double extent(const Case& spec) {
+  return longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max);
 }
 
 /// Beyond `widths` of the widest Gaussian nothing is summed: 5 leave 1e-11 of a blob's height, 6 leave 1e-15.
@@ -169,7 +169,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
 }
 
 /// At least `rounding`; NaN stays NaN.
-double told(double error) { return error < rounding ? rounding : error; }
+double at_least_rounding(double error) { return error < rounding ? rounding : error; }
 
 /// A budget with a number that could not be computed says so instead.
 Budget checked(Budget budget) {
@@ -236,14 +236,14 @@ void find_dominating(Budget& budget) {
 double number_of(const std::string& text) { return *base::read_number<double>(text); }
 
 /// The longest round time.step up to `longest`, at least twice that of the case, that `run` takes; nothing if none is.
-std::optional<double> longer_step(const Case& description, const Scene& scene, double longest, int threads) {
-  const time::Tableau& tableau = time::find_tableau(description.time.method);
+std::optional<double> longer_step(const Case& spec, const Scene& scene, double longest, int threads) {
+  const time::Tableau& tableau = time::find_tableau(spec.time.method);
   // Judged as in a run: particles stand where they start.
-  const double stable = estimate_stable_step(*scene.velocity, seed_scene(scene, threads), tableau, description.time.end,
+  const double stable = estimate_stable_step(*scene.velocity, seed_scene(scene, threads), tableau, spec.time.end,
                                              longest, difference_length(scene))
                             .step;
-  Case changed = description;
-  for (double step = round_below(std::min(longest, stable)); step >= 2 * description.time.step;
+  Case changed = spec;
+  for (double step = round_below(std::min(longest, stable)); step >= 2 * spec.time.step;
        step = round_below(0.99 * step)) {
     changed.time.step = step;
     if (why_refused(changed, threads).empty()) return step;
@@ -253,24 +253,24 @@ std::optional<double> longer_step(const Case& description, const Scene& scene, d
 
 /// Advice that follows from the numbers, and that `run` does not refuse. `better`: the smoothing of cutoffs of higher
 /// order at the same width.
-void give_advice(const Case& description, const Scene& scene, const std::vector<std::pair<std::string, double>>& better,
+void give_advice(const Case& spec, const Scene& scene, const std::vector<std::pair<std::string, double>>& better,
                  int threads, Budget& budget) {
-  const time::Tableau& tableau = time::find_tableau(description.time.method);
+  const time::Tableau& tableau = time::find_tableau(spec.time.method);
   const double others = std::max({budget.smoothing, budget.quadrature, budget.transform, budget.left_out});
   const auto runs = [&](const auto& change) {
-    Case changed = description;
+    Case changed = spec;
     change(changed);
     const Domain& domain = changed.domain;
     const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, changed.particles.per_axis);
     return static_cast<double>(lattice.size()) <= most_judged && why_refused(changed, threads).empty();
   };
-  if (!time::is_adaptive(tableau) && description.time.step > 0) {
-    const double step = description.time.step, order = tableau.time_order;
+  if (!time::is_adaptive(tableau) && spec.time.step > 0) {
+    const double step = spec.time.step, order = tableau.time_order;
     const double now = std::max(budget.time_stepping, rounding);
     if (now < 1e-2 * others) {
-      const double longest = std::min(step * std::pow(1e-2 * others / now, 1 / order), description.time.end / 8);
+      const double longest = std::min(step * std::pow(1e-2 * others / now, 1 / order), spec.time.end / 8);
       if (longest >= 2 * step)
-        if (const auto longer = longer_step(description, scene, longest, threads))
+        if (const auto longer = longer_step(spec, scene, longest, threads))
           budget.advice.push_back(fmt::format("time.step = {:g} is as accurate, with {:.0f} times fewer steps", *longer,
                                               std::floor(*longer / step + 1e-6)));
     } else if (budget.dominates == "time stepping") {
@@ -292,14 +292,14 @@ void give_advice(const Case& description, const Scene& scene, const std::vector<
           fmt::format("particles.cutoff = \"{}\" lowers the smoothing to {:.2g}", cutoff, smoothing));
       break;
     }
-    const int finer = 2 * description.particles.per_axis - 1;
+    const int finer = 2 * spec.particles.per_axis - 1;
     if (runs([&](Case& changed) { changed.particles.per_axis = finer; }))
       budget.advice.push_back(fmt::format(
           "particles.per_axis = {} halves the width of the blobs: a smooth density's smoothing falls {} times", finer,
-          1 << find_cutoff(description.particles.cutoff).order));
+          1 << find_cutoff(spec.particles.cutoff).order));
   }
   if (budget.dominates == "quadrature") {
-    const double wider = number_of(fmt::format("{:.3g}", 1.5 * description.particles.overlap));
+    const double wider = number_of(fmt::format("{:.3g}", 1.5 * spec.particles.overlap));
     std::string remedies;
     if (runs([&](Case& changed) { changed.particles.overlap = wider; }))
       remedies = fmt::format("particles.overlap = {:g}", wider);
@@ -311,7 +311,7 @@ void give_advice(const Case& description, const Scene& scene, const std::vector<
   if (budget.dominates == "Gauss transform") {
     const double sharper =
         number_of(fmt::format("{:.0e}", std::max(1e-13, 1e-3 * std::max(budget.smoothing, budget.quadrature))));
-    if (sharper < description.evaluate.tolerance && runs([&](Case& changed) { changed.evaluate.tolerance = sharper; }))
+    if (sharper < spec.evaluate.tolerance && runs([&](Case& changed) { changed.evaluate.tolerance = sharper; }))
       budget.advice.push_back(
           fmt::format("evaluate.tolerance = {:.0e} removes the largest error at little cost", sharper));
   }
@@ -320,8 +320,8 @@ void give_advice(const Case& description, const Scene& scene, const std::vector<
 }
 
 /// Cutoffs of higher order than the case's that need no parameters, by name.
-std::vector<std::string> higher_cutoffs(const Case& description) {
-  const int order = find_cutoff(description.particles.cutoff).order;
+std::vector<std::string> higher_cutoffs(const Case& spec) {
+  const int order = find_cutoff(spec.particles.cutoff).order;
   std::vector<std::string> names;
   for (const NamedCutoff& cutoff : cutoffs())
     if (cutoff.parameters.empty() && cutoff.order > order) names.emplace_back(cutoff.name);
@@ -335,8 +335,8 @@ struct Carrying {
   double factor = 1;
 };
 
-void carry_by_steps(const Case& description, const Scene& scene, Particles& particles, double factor, int threads) {
-  Case longer = description;
+void carry_by_steps(const Case& spec, const Scene& scene, Particles& particles, double factor, int threads) {
+  Case longer = spec;
   longer.time.step *= factor;
   if (time::is_adaptive(time::find_tableau(longer.time.method))) longer.time.tolerance *= std::pow(factor, 5);
   Carrier carrier(longer, scene, threads);
@@ -344,8 +344,8 @@ void carry_by_steps(const Case& description, const Scene& scene, Particles& part
   StageTimes ignored;
   double now = 0;
   std::size_t steps = 0;
-  const double last = description.output.times.back();
-  for (const double to : landings(description)) {
+  const double last = spec.output.times.back();
+  for (const double to : landings(spec)) {
     if (to > last) break;
     steps += carrier.carry(particles, now, to, steps, ignored);
     now = to;
@@ -353,19 +353,19 @@ void carry_by_steps(const Case& description, const Scene& scene, Particles& part
 }
 
 /// False if a path could not be followed.
-bool carry(const Case& description, const Scene& scene, const Carrying& how, Particles& particles) {
+bool carry(const Case& spec, const Scene& scene, const Carrying& how, Particles& particles) {
   if (particles.size() == 0) return true;
   if (how.exactly)
-    return carry_exactly(*scene.velocity, scene.decay_rate.get(), particles, 0, description.output.times.back(),
+    return carry_exactly(*scene.velocity, scene.decay_rate.get(), particles, 0, spec.output.times.back(),
                          how.paths)
                .lost == 0;
-  carry_by_steps(description, scene, particles, how.factor, how.paths.threads);
+  carry_by_steps(spec, scene, particles, how.factor, how.paths.threads);
   return true;
 }
 
 /// The error of the steps is what halving them changes, times this. Past a kink a method has order 2 at most.
-double of_halved_steps(const Case& description, const Scene& scene) {
-  const int order = time::find_tableau(description.time.method).time_order;
+double of_halved_steps(const Case& spec, const Scene& scene) {
+  const int order = time::find_tableau(spec.time.method).time_order;
   return 1 / (1 - std::pow(0.5, has_smooth_paths(scene) ? order : std::min(order, 2)));
 }
 
@@ -400,10 +400,10 @@ constexpr const char* lost_paths = "the paths of some particles could not be fol
 using Better = std::vector<std::pair<std::string, double>>;
 
 /// The smoothing of cutoffs of higher order, of the same width.
-Better smoothing_of_others(const Case& description, const Scene& scene, const std::vector<Probe>& probes,
+Better smoothing_of_others(const Case& spec, const Scene& scene, const std::vector<Probe>& probes,
                            const Particles& particles, double norm, int threads) {
   Better better;
-  for (const std::string& name : higher_cutoffs(description)) {
+  for (const std::string& name : higher_cutoffs(spec)) {
     const Cutoff cutoff = make_cutoff(name, particles.dimension, scene.core_radius);
     better.emplace_back(name, largest_difference(sums_at(probes, particles, cutoff, threads), exact_of(probes)) / norm);
   }
@@ -413,19 +413,19 @@ Better smoothing_of_others(const Case& description, const Scene& scene, const st
 /// Smoothing and quadrature at the probes: sums over the lattice (`sums`, of particles that began at `start`) and over
 /// the same lattice half a spacing aside. Moving a lattice changes the sign of its error, but for a far smaller part.
 /// So the mean of the two sums is the integral, and half their difference is the error.
-void tell_smoothing_and_quadrature(const Case& description, const Scene& scene, const std::vector<Probe>& probes,
+void tell_smoothing_and_quadrature(const Case& spec, const Scene& scene, const std::vector<Probe>& probes,
                                    const Particles& start, std::vector<double> sums, double norm, const Carrying& how,
                                    Budget& budget, Better& better) {
   Particles aside = between(start, scene);
-  if (!carry(description, scene, how, aside)) {
+  if (!carry(spec, scene, how, aside)) {
     budget.not_covered = lost_paths;
     return;
   }
   const std::vector<double> other = sums_at(probes, aside, scene.cutoff, how.paths.threads);
-  budget.quadrature = told(largest_difference(sums, other) / 2 / norm);
+  budget.quadrature = at_least_rounding(largest_difference(sums, other) / 2 / norm);
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = (sums[i] + other[i]) / 2;
-  budget.smoothing = told(largest_difference(sums, exact_of(probes)) / norm);
-  better = smoothing_of_others(description, scene, probes, aside, norm, how.paths.threads);
+  budget.smoothing = at_least_rounding(largest_difference(sums, exact_of(probes)) / norm);
+  better = smoothing_of_others(spec, scene, probes, aside, norm, how.paths.threads);
 }
 
 /// Every `stride`-th lattice point on each axis, weights scaled.
@@ -445,53 +445,53 @@ Particles thinned(const Particles& particles, const Lattice& lattice, std::size_
   return thin;
 }
 
-double predict_time_stepping(const Case& description, const Scene& scene, const Particles& seeded,
+double predict_time_stepping(const Case& spec, const Scene& scene, const Particles& seeded,
                              const std::vector<Probe>& places, double norm, const ExactPathsOptions& paths) {
-  const time::Tableau& tableau = time::find_tableau(description.time.method);
-  const double time = description.output.times.back();
+  const time::Tableau& tableau = time::find_tableau(spec.time.method);
+  const double time = spec.output.times.back();
   const bool smooth_paths = has_smooth_paths(scene);
   std::size_t stride = 1;
   Particles thin = seeded;
   // As long as the blobs still overlap.
-  while (thin.size() > 3000 && static_cast<double>(stride) < 2 * description.particles.overlap)
+  while (thin.size() > 3000 && static_cast<double>(stride) < 2 * spec.particles.overlap)
     thin = thinned(seeded, scene.seeding, ++stride);
   if (thin.size() == 0) thin = seeded;
   // Longer steps if those of the case are many, as long as they stay stable; their error is scaled back.
   double factor = 1;
   constexpr double affordable = 4e7;  // particles times steps times stages: a fifth of a second on a core
-  const auto steps = static_cast<double>(total_steps(description));
+  const auto steps = static_cast<double>(total_steps(spec));
   if (!time::is_adaptive(tableau) && smooth_paths)
     while (static_cast<double>(thin.size()) * steps * tableau.stages / factor > affordable &&
-           2 * factor * description.time.step < time / 16 &&
-           estimate_stable_step(*scene.velocity, thin, tableau, description.time.end,
-                                2 * factor * description.time.step, difference_length(scene))
-                   .step >= 2 * factor * description.time.step)
+           2 * factor * spec.time.step < time / 16 &&
+           estimate_stable_step(*scene.velocity, thin, tableau, spec.time.end,
+                                2 * factor * spec.time.step, difference_length(scene))
+                   .step >= 2 * factor * spec.time.step)
       factor *= 2;
   Particles stepped = thin, followed = thin;
-  carry_by_steps(description, scene, stepped, factor, paths.threads);
+  carry_by_steps(spec, scene, stepped, factor, paths.threads);
   Carrying better{.exactly = smooth_paths, .paths = paths, .factor = 0.5};
   better.paths.tolerance = 1e-13;
-  if (!carry(description, scene, better, followed)) return nan;
+  if (!carry(spec, scene, better, followed)) return nan;
   double changed = largest_difference(sums_at(places, stepped, scene.cutoff, paths.threads),
                                       sums_at(places, followed, scene.cutoff, paths.threads));
-  if (!smooth_paths) changed *= of_halved_steps(description, scene);
-  return told(changed / norm * std::pow(factor, -tableau.time_order));
+  if (!smooth_paths) changed *= of_halved_steps(spec, scene);
+  return at_least_rounding(changed / norm * std::pow(factor, -tableau.time_order));
 }
 
 /// Evaluations of the velocity of one particle in all steps.
-double rates_of_steps(const Case& description, const Scene& scene) {
-  return work_of(description, scene, 1).transport / scene.velocity->cost();
+double rates_of_steps(const Case& spec, const Scene& scene) {
+  return work_of(spec, scene, 1).transport / scene.velocity->cost();
 }
 
-double work_allowed(const Case& description, const Scene& scene, std::size_t particles, double share) {
-  return std::max(few, share * work_of(description, scene, particles).total());
+double work_allowed(const Case& spec, const Scene& scene, std::size_t particles, double share) {
+  return std::max(few, share * work_of(spec, scene, particles).total());
 }
 
 /// The work of carrying one particle along its exact path, found with a few particles. An eighth of `allowed` may be
 /// spent on that; infinite if it is not enough.
-double work_of_a_path(const Case& description, const Scene& scene, const Particles& particles, const Carrying& how,
+double work_of_a_path(const Case& spec, const Scene& scene, const Particles& particles, const Carrying& how,
                       double allowed) {
-  if (!how.exactly) return rates_of_steps(description, scene) * scene.velocity->cost() / how.factor;
+  if (!how.exactly) return rates_of_steps(spec, scene) * scene.velocity->cost() / how.factor;
   std::vector<std::size_t> some;
   const std::size_t wanted = std::min<std::size_t>(32, particles.size());
   for (std::size_t i = 0; i < wanted; ++i) some.push_back(i * particles.size() / wanted);
@@ -501,7 +501,7 @@ double work_of_a_path(const Case& description, const Scene& scene, const Particl
   const double bound = allowed / (8 * stages * static_cast<double>(wanted) * work_of_exact_rate(scene));
   options.most_steps = static_cast<std::size_t>(std::clamp(bound, 16.0, static_cast<double>(how.paths.most_steps)));
   const ExactPaths paths =
-      carry_exactly(*scene.velocity, scene.decay_rate.get(), trial, 0, description.output.times.back(), options);
+      carry_exactly(*scene.velocity, scene.decay_rate.get(), trial, 0, spec.output.times.back(), options);
   if (options.most_steps < how.paths.most_steps && 2 * paths.lost > wanted)
     return std::numeric_limits<double>::infinity();
   return std::max(1.0, static_cast<double>(paths.rates) / static_cast<double>(wanted)) * work_of_exact_rate(scene);
@@ -519,17 +519,17 @@ struct Telling {
 
 /// The sharpest way whose work is allowed. Many probes come before one, and all paths at 3e-14 before some at 1e-10 or
 /// by shorter steps. None if even one probe takes too much.
-std::optional<Telling> choose_telling(const Case& description, const Scene& scene, const Particles& particles,
+std::optional<Telling> choose_telling(const Case& spec, const Scene& scene, const Particles& particles,
                                       const std::vector<Probe>& places, Effort effort, const ExactPathsOptions& paths) {
-  const auto overlaps = std::max<std::size_t>(1, static_cast<std::size_t>(description.particles.overlap / 1.5));
+  const auto overlaps = std::max<std::size_t>(1, static_cast<std::size_t>(spec.particles.overlap / 1.5));
   const bool smooth = has_smooth_paths(scene);
   const Carrying steps{.exactly = false, .paths = paths};
   Carrying halves = steps;
   halves.factor = 0.5;
   const double allowed = effort == Effort::whatever
                              ? std::numeric_limits<double>::infinity()
-                             : work_allowed(description, scene, particles.size(), share_measured) * 2 / 3;
-  const double step_work = work_of_a_path(description, scene, particles, steps, allowed);
+                             : work_allowed(spec, scene, particles.size(), share_measured) * 2 / 3;
+  const double step_work = work_of_a_path(spec, scene, particles, steps, allowed);
   struct Way {
     double widths;
     std::size_t stride;
@@ -545,7 +545,7 @@ std::optional<Telling> choose_telling(const Case& description, const Scene& scen
       sharp = {.exactly = true, .paths = paths};
       sharp.paths.tolerance = way.tolerance;
     }
-    const double exact_work = work_of_a_path(description, scene, particles, sharp, allowed);
+    const double exact_work = work_of_a_path(spec, scene, particles, sharp, allowed);
     tellings.push_back({way.widths, way.stride, sharp, sharp.exactly && exact_work < step_work ? sharp : steps});
     work.push_back({exact_work / std::pow(way.stride, particles.dimension), std::min(exact_work, step_work)});
   }
@@ -560,22 +560,22 @@ std::optional<Telling> choose_telling(const Case& description, const Scene& scen
   return std::nullopt;
 }
 
-std::unique_ptr<Reference> exact_density(const Case& description, const Scene& scene, const Following& following,
+std::unique_ptr<Reference> exact_density(const Case& spec, const Scene& scene, const Following& following,
                                          int threads) {
-  if (description.reference.kind == ReferenceSpec::Kind::exact) return make_reference(description, scene, threads);
-  Case traced = description;
+  if (spec.reference.kind == ReferenceSpec::Kind::exact) return make_reference(spec, scene, threads);
+  Case traced = spec;
   traced.reference = {};
   traced.reference.kind = ReferenceSpec::Kind::characteristics;
   return make_reference(traced, scene, threads, following);
 }
 
 /// Grid points at which the exact density can be known within some work, at most `wanted`.
-Affordable points_to_know(const Case& description, const Scene& scene, std::size_t wanted, double allowed,
+Affordable points_to_know(const Case& spec, const Scene& scene, std::size_t wanted, double allowed,
                           int threads) {
-  if (description.reference.kind == ReferenceSpec::Kind::exact) return {.points = wanted};
+  if (spec.reference.kind == ReferenceSpec::Kind::exact) return {.points = wanted};
   const bool whatever = std::isinf(allowed);
   if (whatever) allowed = 2e7;  // a second: a few paths that stick to a jump would take longer than all others
-  Case traced = description;
+  Case traced = spec;
   traced.reference = {};
   traced.reference.kind = ReferenceSpec::Kind::characteristics;
   Affordable known = affordable_paths(traced, scene, allowed, 1, threads);
@@ -597,42 +597,42 @@ Budget covered_or_why(const Tell& tell) {
 }
 
 /// `allowance`: null for any work.
-Budget predict(const Case& description, const Scene& scene, Effort effort, Allowance* allowance, int threads,
+Budget predict(const Case& spec, const Scene& scene, Effort effort, Allowance* allowance, int threads,
                Causes causes);
-Budget measure(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads);
+Budget measure(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads);
 
 }  // namespace
 
-std::string budget_not_covered(const Case& description) {
-  if (const std::string reason = beyond_budgets(description.effects, description.domain.dimension); !reason.empty())
+std::string budget_not_covered(const Case& spec) {
+  if (const std::string reason = beyond_budgets(spec.effects, spec.domain.dimension); !reason.empty())
     return reason;
-  if (description.output.times.empty()) return "there is no output";
+  if (spec.output.times.empty()) return "there is no output";
   return "";
 }
 
-Budget predict_budget(const Case& description, const Scene& scene, Effort effort, int threads, Causes causes) {
-  return covered_or_why([&] { return predict(description, scene, effort, nullptr, threads, causes); });
+Budget predict_budget(const Case& spec, const Scene& scene, Effort effort, int threads, Causes causes) {
+  return covered_or_why([&] { return predict(spec, scene, effort, nullptr, threads, causes); });
 }
 
-Budget predict_budget(const Case& description, const Scene& scene, Allowance& allowance, int threads, Causes causes) {
-  return covered_or_why([&] { return predict(description, scene, Effort::whatever, &allowance, threads, causes); });
+Budget predict_budget(const Case& spec, const Scene& scene, Allowance& allowance, int threads, Causes causes) {
+  return covered_or_why([&] { return predict(spec, scene, Effort::whatever, &allowance, threads, causes); });
 }
 
-Budget measure_budget(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort,
+Budget measure_budget(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort,
                       int threads) {
-  return covered_or_why([&] { return measure(description, scene, last, effort, threads); });
+  return covered_or_why([&] { return measure(spec, scene, last, effort, threads); });
 }
 
 namespace {
 
 /// What predict() will take, roughly, beside the exact density.
-double work_of_prediction(const Case& description, const Scene& scene, const Particles& seeded, const Carrying& how,
+double work_of_prediction(const Case& spec, const Scene& scene, const Particles& seeded, const Carrying& how,
                           double allowed, Causes causes) {
   const auto n = static_cast<double>(seeded.size()), d = static_cast<double>(seeded.dimension);
   const bool smooth = has_smooth_paths(scene);
   // In blocks of particles a formula takes less than half of what one alone does.
   const double together = smooth && scene.velocity->cost() <= 2 ? 0.4 : 1;
-  const double path = together * work_of_a_path(description, scene, seeded, how, allowed);
+  const double path = together * work_of_a_path(spec, scene, seeded, how, allowed);
   // The step of a method of order 8 goes with the eighth root of the tolerance: 1e-12 and 1e-13 instead of 1e-8. A
   // path through kinks costs milliseconds.
   const double sharp = smooth ? 4 * path : 1e5 * work_of_exact_rate(scene);
@@ -640,21 +640,21 @@ double work_of_prediction(const Case& description, const Scene& scene, const Par
   double work = 2 * n * path + 2 * sum;
   if (causes == Causes::all) {
     const double thin = std::min(n, 3000 * std::pow(2, d));
-    const double steps = thin * rates_of_steps(description, scene);
-    work += static_cast<double>(higher_cutoffs(description).size()) * sum;
+    const double steps = thin * rates_of_steps(spec, scene);
+    work += static_cast<double>(higher_cutoffs(spec).size()) * sum;
     work += smooth ? std::min(steps, 4e7) * scene.velocity->cost() + thin * sharp : 3 * steps * scene.velocity->cost();
   }
   return work;
 }
 
-Budget predict(const Case& description, const Scene& scene, Effort effort, Allowance* allowance, int threads,
+Budget predict(const Case& spec, const Scene& scene, Effort effort, Allowance* allowance, int threads,
                Causes causes) {
   Budget budget;
-  budget.not_covered = budget_not_covered(description);
+  budget.not_covered = budget_not_covered(spec);
   if (!budget.known()) return budget;
-  const double time = description.output.times.back();
+  const double time = spec.output.times.back();
   const bool smooth_paths = has_smooth_paths(scene);
-  const ExactPathsOptions paths{.tolerance = 1e-8, .length = extent(description), .threads = threads};
+  const ExactPathsOptions paths{.tolerance = 1e-8, .length = extent(spec), .threads = threads};
   // A path through kinks is dear: then by the steps of the case.
   const Carrying how{.exactly = smooth_paths, .paths = paths};
 
@@ -676,33 +676,33 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, Allow
   const double allowed = allowance ? allowance->left() - looking
                          : effort == Effort::whatever
                              ? std::numeric_limits<double>::infinity()
-                             : work_allowed(description, scene, seeded.size(), share_predicted);
-  const Affordable knowable = points_to_know(description, scene, smooth_paths ? 2048 : 128, allowed / 3, threads);
+                             : work_allowed(spec, scene, seeded.size(), share_predicted);
+  const Affordable knowable = points_to_know(spec, scene, smooth_paths ? 2048 : 128, allowed / 3, threads);
   if (allowance) {
     // A fifth of it at most has gone into finding that out.
     if (knowable.points == 0) return too_dear(looking + allowed / 5);
     const double work = static_cast<double>(knowable.points) * knowable.work +
-                        work_of_prediction(description, scene, seeded, how, allowed, causes);
+                        work_of_prediction(spec, scene, seeded, how, allowed, causes);
     if (!(work <= allowed)) return too_dear(looking + allowed / 5);
     allowance->spent += looking + work;
   } else if (knowable.points == 0 ||
              (effort == Effort::share_of_run &&
-              static_cast<double>(seeded.size() * 2) * 1.3 * work_of_a_path(description, scene, seeded, how, allowed) +
+              static_cast<double>(seeded.size() * 2) * 1.3 * work_of_a_path(spec, scene, seeded, how, allowed) +
                       static_cast<double>(knowable.points) * knowable.work >
                   allowed)) {
     budget.not_covered = "it would cost more than a tenth of the run; `check` predicts it";
     return budget;
   }
   Particles carried = seeded;
-  if (!carry(description, scene, how, carried)) {
+  if (!carry(spec, scene, how, carried)) {
     budget.not_covered = lost_paths;
     return budget;
   }
-  budget.outside = part_outside(carried, description.domain);
+  budget.outside = part_outside(carried, spec.domain);
   budget.not_covered = nothing_to_explain(carried, budget.outside, time);
   if (!budget.known()) return budget;
   Particles aside = between(seeded, scene);
-  if (!carry(description, scene, how, aside)) {
+  if (!carry(spec, scene, how, aside)) {
     budget.not_covered = lost_paths;
     return budget;
   }
@@ -716,7 +716,7 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, Allow
   budget.lowest = *lowest, budget.highest = *highest;
   const GridSample sample = sample_of_grid(scene.evaluation, density, knowable.points);
   std::vector<double> exact;
-  exact_density(description, scene, knowable.following, threads)->evaluate_at(time, sample.points, exact);
+  exact_density(spec, scene, knowable.following, threads)->evaluate_at(time, sample.points, exact);
   const auto farthest = [&](const auto& value) {  // from the exact density, over the sample
     std::vector<double> values, known;
     for (std::size_t i = 0; i < exact.size(); ++i)
@@ -732,8 +732,8 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, Allow
     return budget;
   }
   budget.probes = sample.points.size();
-  budget.quadrature = told(largest_difference(density, other) / 2 / norm);
-  budget.smoothing = told(farthest([&](std::size_t i) { return (density[i] + other[i]) / 2; }) / norm);
+  budget.quadrature = at_least_rounding(largest_difference(density, other) / 2 / norm);
+  budget.smoothing = at_least_rounding(farthest([&](std::size_t i) { return (density[i] + other[i]) / 2; }) / norm);
   const double worst = farthest([&](std::size_t i) { return density[i]; }) / norm;
   budget.total = worst;
   if (causes == Causes::lattice) return budget;
@@ -742,22 +742,22 @@ Budget predict(const Case& description, const Scene& scene, Effort effort, Allow
   for (std::size_t i = 0; i < sample.points.size(); ++i)
     if (std::abs(density[sample.points[i]]) > 1e-6 * norm)
       places.push_back({sample.points[i], grid_point(scene.evaluation, sample.points[i]), exact[i]});
-  budget.time_stepping = predict_time_stepping(description, scene, seeded, places, norm, paths);
+  budget.time_stepping = predict_time_stepping(spec, scene, seeded, places, norm, paths);
   if (std::isnan(budget.time_stepping)) {
     budget.not_covered = lost_paths;
     return budget;
   }
-  budget.transform = description.evaluate.tolerance;
+  budget.transform = spec.evaluate.tolerance;
   budget.left_out = bound_of_left_out(scene, seeding, seeded, carried, norm);
   budget.total = worst + budget.time_stepping + budget.transform + budget.left_out;
   find_dominating(budget);
   Better better;
-  for (const std::string& name : higher_cutoffs(description)) {
+  for (const std::string& name : higher_cutoffs(spec)) {
     const Cutoff cutoff = make_cutoff(name, seeded.dimension, scene.core_radius);
     const std::vector<double> sharper = summed(carried, cutoff);
     better.emplace_back(name, farthest([&](std::size_t i) { return sharper[i]; }) / norm);
   }
-  give_advice(description, scene, better, threads, budget);
+  give_advice(spec, scene, better, threads, budget);
   return budget;
 }
 
@@ -775,9 +775,9 @@ void LastFrame::frame(const Frame& frame) {
 
 namespace {
 
-Budget measure(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads) {
+Budget measure(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads) {
   Budget budget;
-  budget.not_covered = budget_not_covered(description);
+  budget.not_covered = budget_not_covered(spec);
   if (budget.known() && !last.any) budget.not_covered = "there was no output";
   if (budget.known() && last.particles.size() == 0) budget.not_covered = "no particle carries weight";
   budget.outside = last.numbers.outside;
@@ -800,14 +800,14 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
   } else {
     const double allowed = effort == Effort::whatever
                                ? std::numeric_limits<double>::infinity()
-                               : work_allowed(description, scene, last.particles.size(), share_measured) / 3;
-    const Affordable known = points_to_know(description, scene, smooth_paths ? 1024 : 64, allowed, threads);
+                               : work_allowed(spec, scene, last.particles.size(), share_measured) / 3;
+    const Affordable known = points_to_know(spec, scene, smooth_paths ? 1024 : 64, allowed, threads);
     if (known.points == 0) {
       budget.not_covered = "it would cost more than a tenth of the run; accuracy.budget = \"measured\" measures it";
       return budget;
     }
     points = sample_of_grid(scene.evaluation, rho, known.points).points;
-    exact_density(description, scene, known.following, threads)->evaluate_at(last.time, points, exact);
+    exact_density(spec, scene, known.following, threads)->evaluate_at(last.time, points, exact);
     for (const std::size_t point : points) values.push_back(rho[point]);
   }
   double norm = 0, worst = 0;
@@ -823,8 +823,8 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
   budget.total = last.numbers.error ? last.numbers.error->linf : worst / norm;
 
   const std::vector<Probe> places = choose_probes(scene.evaluation, points, values, exact, 3 * scene.core_radius, 6);
-  const ExactPathsOptions paths{.length = extent(description), .threads = threads};
-  const std::optional<Telling> chosen = choose_telling(description, scene, last.particles, places, effort, paths);
+  const ExactPathsOptions paths{.length = extent(spec), .threads = threads};
+  const std::optional<Telling> chosen = choose_telling(spec, scene, last.particles, places, effort, paths);
   if (!chosen) {
     budget.not_covered = "it would cost more than a tenth of the run; accuracy.budget = \"measured\" measures it";
     return budget;
@@ -843,24 +843,24 @@ Budget measure(const Case& description, const Scene& scene, const LastFrame::Kep
   std::iota(all.begin(), all.end(), std::size_t{0});
   Particles followed = at_start(ran_thin, all, scene);
   for (double& alpha : followed.alpha) alpha *= cells;
-  if (!carry(description, scene, chosen->sharp, followed)) {
+  if (!carry(spec, scene, chosen->sharp, followed)) {
     budget.not_covered = lost_paths;
     return budget;
   }
   std::vector<double> exactly = sums_at(probes, followed, scene.cutoff, threads);
   const std::vector<double> stepped = sums_at(probes, ran_thin, scene.cutoff, threads);
   budget.time_stepping = largest_difference(exactly, stepped) / norm;
-  if (!chosen->sharp.exactly) budget.time_stepping *= of_halved_steps(description, scene);
-  budget.time_stepping = told(budget.time_stepping);
+  if (!chosen->sharp.exactly) budget.time_stepping *= of_halved_steps(spec, scene);
+  budget.time_stepping = at_least_rounding(budget.time_stepping);
   for (std::size_t i = 0; i < exactly.size(); ++i) exactly[i] += by_steps[i] - stepped[i];
   Better better;
-  tell_smoothing_and_quadrature(description, scene, probes, at_start(last.particles, chosen->around, scene),
+  tell_smoothing_and_quadrature(spec, scene, probes, at_start(last.particles, chosen->around, scene),
                                 chosen->moved.exactly ? exactly : by_steps, norm, chosen->moved, budget, better);
   if (!budget.known()) return budget;
   budget.transform = last.numbers.transform_error;
   budget.left_out = bound_of_left_out(scene, seeding, seeded, last.particles, norm);
   find_dominating(budget);
-  give_advice(description, scene, better, threads, budget);
+  give_advice(spec, scene, better, threads, budget);
   return budget;
 }
 

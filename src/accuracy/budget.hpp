@@ -37,7 +37,7 @@ struct Budget {
 };
 
 /// Why a case has no budget: effects that move weight between particles, ...; empty if it has one.
-std::string budget_not_covered(const Case& description);
+std::string budget_not_covered(const Case& spec);
 
 /// How much work may be spent on it.
 enum class Effort {
@@ -59,11 +59,11 @@ enum class Causes { lattice, all };
 
 /// Before the run. Paths are followed at 1e-8, exact densities are taken at some thousand grid points. Steps are tried
 /// with a sample of the particles, or with longer steps whose error is scaled back by the method's order.
-Budget predict_budget(const Case& description, const Scene& scene, Effort effort, int threads,
+Budget predict_budget(const Case& spec, const Scene& scene, Effort effort, int threads,
                       Causes causes = Causes::all);
 
 /// The same for at most what is left of the allowance, else Budget::too_dear.
-Budget predict_budget(const Case& description, const Scene& scene, Allowance& allowance, int threads,
+Budget predict_budget(const Case& spec, const Scene& scene, Allowance& allowance, int threads,
                       Causes causes = Causes::all);
 
 /// Keeps what measure_budget() needs: the last output of a run.
@@ -87,7 +87,7 @@ class LastFrame : public Observer {
 };
 
 /// After the run, at the points with the largest errors; how many follows from what the run cost.
-Budget measure_budget(const Case& description, const Scene& scene, const LastFrame::Kept& last, Effort effort,
+Budget measure_budget(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort,
                       int threads);
 
 /// A line a cause, the dominating one marked, and the advice.

@@ -26,15 +26,15 @@ constexpr double most_particles = 4e6;  // on the lattice; each costs a path for
 constexpr std::array aims{0.45, 0.8};
 constexpr int fewest_per_axis = 12;
 
-int most_per_axis(const Case& description) {
+int most_per_axis(const Case& spec) {
   // Lattice points along the longest axis, for the shape of this domain.
   double longest = 0, volume = 1;
-  for (int k = 0; k < description.domain.dimension; ++k) {
-    const double side = description.domain.max[k] - description.domain.min[k];
+  for (int k = 0; k < spec.domain.dimension; ++k) {
+    const double side = spec.domain.max[k] - spec.domain.min[k];
     longest = std::max(longest, side);
     volume *= side;
   }
-  const double d = description.domain.dimension;
+  const double d = spec.domain.dimension;
   return static_cast<int>(std::pow(most_particles * std::pow(longest, d) / volume, 1 / d));
 }
 
@@ -58,15 +58,15 @@ struct Search {
 
 /// Nothing if the prediction would take too much work: more than is left, or more than a sixth of the whole search,
 /// because chosen settings are predicted some six times more.
-std::optional<Settings> try_lattice(Case scene, int per_axis, double overlap, Search& search) {
-  scene.particles.per_axis = per_axis;
-  scene.particles.overlap = overlap;
+std::optional<Settings> try_lattice(Case spec, int per_axis, double overlap, Search& search) {
+  spec.particles.per_axis = per_axis;
+  spec.particles.overlap = overlap;
   if (search.doing)
-    search.doing(fmt::format("trying cutoff = \"{}\", overlap = {:g}, per_axis = {}", scene.particles.cutoff, overlap,
+    search.doing(fmt::format("trying cutoff = \"{}\", overlap = {:g}, per_axis = {}", spec.particles.cutoff, overlap,
                              per_axis));
-  const Scene parts = make_scene(scene, search.threads);
+  const Scene scene = make_scene(spec, search.threads);
   Allowance one{std::min(search.allowance.left(), search.allowance.work / 6)};
-  const Budget budget = predict_budget(scene, parts, one, search.threads, Causes::lattice);
+  const Budget budget = predict_budget(spec, scene, one, search.threads, Causes::lattice);
   search.allowance.spent += one.spent;
   if (budget.too_dear) {
     search.stopped = true;
@@ -80,16 +80,16 @@ std::optional<Settings> try_lattice(Case scene, int per_axis, double overlap, Se
 /// The coarsest lattice of this cutoff and overlap that meets `wanted`, with no more particles than `most_carried`;
 /// nothing if none does, or if the search ends. `best`: the smallest error seen. `gaps`: more overlap would help, a
 /// finer lattice would not.
-std::optional<Settings> find_lattice(const Case& scene, double wanted, double overlap, double most_carried,
+std::optional<Settings> find_lattice(const Case& spec, double wanted, double overlap, double most_carried,
                                      Search& search, double& best, bool& gaps) {
-  const int order = find_cutoff(scene.particles.cutoff).order;
-  int most = most_per_axis(scene);
+  const int order = find_cutoff(spec.particles.cutoff).order;
+  int most = most_per_axis(spec);
   gaps = false;
-  int per_axis = std::clamp(scene.particles.per_axis, fewest_per_axis, most);
+  int per_axis = std::clamp(spec.particles.per_axis, fewest_per_axis, most);
   std::optional<Settings> good;
   int too_coarse = 0;
   for (int round = 0; round < 7; ++round) {
-    const std::optional<Settings> tried = try_lattice(scene, per_axis, overlap, search);
+    const std::optional<Settings> tried = try_lattice(spec, per_axis, overlap, search);
     if (!tried) {  // too dear: is a coarser one good enough?
       most = per_axis - 1;
       per_axis = good ? (too_coarse + good->per_axis) / 2 : per_axis / 2;
@@ -120,22 +120,22 @@ std::optional<Settings> find_lattice(const Case& scene, double wanted, double ov
   return good;
 }
 
-double step_for(const Case& scene, const Scene& parts, double wanted, int threads) {
-  const time::Tableau& tableau = time::find_tableau(scene.time.method);
-  Case trial = scene;
-  const Particles particles = seed_scene(parts, threads);
+double step_for(const Case& spec, const Scene& scene, double wanted, int threads) {
+  const time::Tableau& tableau = time::find_tableau(spec.time.method);
+  Case trial = spec;
+  const Particles particles = seed_scene(scene, threads);
   const auto stable = [&](double step) {
-    return estimate_stable_step(*parts.velocity, particles, tableau, scene.time.end, step, difference_length(parts))
+    return estimate_stable_step(*scene.velocity, particles, tableau, spec.time.end, step, difference_length(scene))
         .step;
   };
-  trial.time.step = stable(std::min(scene.time.end / 16, 10 * scene.time.step));
+  trial.time.step = stable(std::min(spec.time.end / 16, 10 * spec.time.step));
   for (int round = 0; round < 4; ++round) {
-    const Budget budget = predict_budget(trial, parts, Effort::whatever, threads);
+    const Budget budget = predict_budget(trial, scene, Effort::whatever, threads);
     const double ratio = budget.time_stepping / wanted;
     if (ratio <= 1 && (ratio > 0.05 || round > 0)) break;
     const double next = trial.time.step * std::clamp(std::pow(ratio * 1.3, -1.0 / tableau.time_order), 0.05, 4.0);
     if (ratio <= 1 && next <= 1.2 * trial.time.step) break;
-    const double bounded = stable(std::min(next, scene.time.end / 8));
+    const double bounded = stable(std::min(next, spec.time.end / 8));
     if (std::abs(bounded / trial.time.step - 1) < 0.05) break;
     trial.time.step = bounded;
   }
@@ -153,9 +153,9 @@ std::vector<const NamedCutoff*> cutoffs_to_try() {
 
 }  // namespace
 
-AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads,
+AccuracyChoice choose_for_accuracy(const Case& spec, double target, int threads,
                                    const std::function<void(const std::string&)>& doing, double most_work) {
-  if (const std::string reason = budget_not_covered(description); !reason.empty())
+  if (const std::string reason = budget_not_covered(spec); !reason.empty())
     throw InputError("no settings can be chosen for this accuracy: " + reason);
   AccuracyChoice choice;
   choice.target = target;
@@ -165,22 +165,22 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
   for (const double aim : aims) {
     if (chosen || (std::isfinite(best) && best > target)) break;
     for (const NamedCutoff* cutoff : cutoffs_to_try()) {
-      Case scene = description;
-      scene.particles.cutoff = cutoff->name;
-      scene.particles.cutoff_arguments.clear();
-      scene.evaluate.tolerance = 1e-8;
+      Case varied = spec;
+      varied.particles.cutoff = cutoff->name;
+      varied.particles.cutoff_arguments.clear();
+      varied.evaluate.tolerance = 1e-8;
       // More overlap where the flow draws particles apart.
       for (const double overlap : {2.0, 3.0, 4.5, 7.0}) {
         const double dearer = 1 + 0.1 * cutoff->order;  // more terms in the transform, all in one pass
         bool gaps = false;
         const std::optional<Settings> trial =
-            find_lattice(scene, aim * target, overlap, cheapest / dearer, search, best, gaps);
+            find_lattice(varied, aim * target, overlap, cheapest / dearer, search, best, gaps);
         if (!trial && gaps) continue;
         if (!trial) break;
         const double cost = static_cast<double>(trial->particles) * dearer;
         if (cost < cheapest) {
           cheapest = cost;
-          chosen = scene;
+          chosen = varied;
           chosen->particles.per_axis = trial->per_axis;
           chosen->particles.overlap = overlap;
         }
@@ -208,30 +208,30 @@ AccuracyChoice choose_for_accuracy(const Case& description, double target, int t
         "an error of {:g} cannot be met with at most {:.0e} lattice points: the smallest predicted is {:.1e}; ask for "
         "a larger error, or make the density smoother",
         target, most_particles, best));
-  Case& scene = *chosen;
-  scene.evaluate.tolerance = std::clamp(base::rounded_down(0.02 * target, 2), 1e-13, 1e-3);
+  Case& settled = *chosen;
+  settled.evaluate.tolerance = std::clamp(base::rounded_down(0.02 * target, 2), 1e-13, 1e-3);
   {
-    const Scene parts = make_scene(scene, threads);
-    if (time::is_adaptive(time::find_tableau(scene.time.method)))
-      scene.time.tolerance = std::min(scene.time.tolerance, 1e-2 * target);
+    const Scene scene = make_scene(settled, threads);
+    if (time::is_adaptive(time::find_tableau(settled.time.method)))
+      settled.time.tolerance = std::min(settled.time.tolerance, 1e-2 * target);
     else
-      scene.time.step = base::rounded_down(step_for(scene, parts, 0.2 * target, threads), 2);
-    choice.predicted = predict_budget(scene, parts, Effort::whatever, threads);
+      settled.time.step = base::rounded_down(step_for(settled, scene, 0.2 * target, threads), 2);
+    choice.predicted = predict_budget(settled, scene, Effort::whatever, threads);
   }
   if (choice.predicted.total > target)
     throw InputError(fmt::format("an error of {:g} cannot be met: {} alone is predicted to make {:.1e}", target,
                                  choice.predicted.dominates, choice.predicted.total));
-  scene.accuracy.target.reset();
-  if (const std::string reason = why_refused(scene, threads); !reason.empty())
+  settled.accuracy.target.reset();
+  if (const std::string reason = why_refused(settled, threads); !reason.empty())
     throw InputError(fmt::format("no settings can be chosen for an error of {:g}: {}", target, reason));
-  choice.settings = {fmt::format("particles.per_axis = {}", scene.particles.per_axis),
-                     fmt::format("particles.overlap = {:g}", scene.particles.overlap),
-                     fmt::format("particles.cutoff = \"{}\"", scene.particles.cutoff),
-                     time::is_adaptive(time::find_tableau(scene.time.method))
-                         ? fmt::format("time.tolerance = {:g}", scene.time.tolerance)
-                         : fmt::format("time.step = {:g}", scene.time.step),
-                     fmt::format("evaluate.tolerance = {:g}", scene.evaluate.tolerance)};
-  choice.scene = std::move(scene);
+  choice.settings = {fmt::format("particles.per_axis = {}", settled.particles.per_axis),
+                     fmt::format("particles.overlap = {:g}", settled.particles.overlap),
+                     fmt::format("particles.cutoff = \"{}\"", settled.particles.cutoff),
+                     time::is_adaptive(time::find_tableau(settled.time.method))
+                         ? fmt::format("time.tolerance = {:g}", settled.time.tolerance)
+                         : fmt::format("time.step = {:g}", settled.time.step),
+                     fmt::format("evaluate.tolerance = {:g}", settled.evaluate.tolerance)};
+  choice.spec = std::move(settled);
   return choice;
 }
 

@@ -11,7 +11,7 @@
 namespace gaussdrift::accuracy {
 
 struct AccuracyChoice {
-  Case scene;  // with the chosen settings
+  Case spec;  // with the chosen settings
   double target = 0;
   Budget predicted;
   std::vector<std::string> settings;  // "particles.per_axis = 215", ...
@@ -28,7 +28,7 @@ constexpr double most_work_of_search = 2.5e8;
 /// target. Throws InputError where no budget covers the case, or where the target cannot be met with at most
 /// `most_particles` particles or by a search of at most `most_work`, naming the error that can. `doing` is told what
 /// comes next.
-AccuracyChoice choose_for_accuracy(const Case& description, double target, int threads,
+AccuracyChoice choose_for_accuracy(const Case& spec, double target, int threads,
                                    const std::function<void(const std::string&)>& doing = {},
                                    double most_work = most_work_of_search);
 

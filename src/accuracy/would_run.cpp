@@ -13,14 +13,14 @@ namespace gaussdrift::accuracy {
 namespace {
 
 /// The case without grids and tables: rules of the file are about its keys.
-Case without_data(Case scene) {
-  const auto dimension = static_cast<std::size_t>(scene.domain.dimension);
-  for (VelocitySpec& part : scene.velocity)
+Case without_data(Case spec) {
+  const auto dimension = static_cast<std::size_t>(spec.domain.dimension);
+  for (VelocitySpec& part : spec.velocity)
     if (std::holds_alternative<FileVelocity>(part) || std::holds_alternative<GaussianVelocitySpec>(part))
       part = ExpressionVelocity{std::vector<std::string>(dimension, "0")};
-  for (DensitySpec& part : scene.density)
+  for (DensitySpec& part : spec.density)
     if (std::holds_alternative<FileDensity>(part)) part = ExpressionDensity{"1"};
-  return scene;
+  return spec;
 }
 
 std::string first_line(const std::string& text) {
@@ -30,18 +30,18 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-std::string why_not_read(const Case& scene) {
+std::string why_not_read(const Case& spec) {
   try {
-    parse_case(case_text(without_data(scene)), "run.toml");
+    input::parse_case(input::resolved_toml(without_data(spec)), "run.toml");
   } catch (const Error& error) {
     return first_line(error.what());
   }
   return "";
 }
 
-std::string why_refused(const Case& scene, int threads) {
-  if (std::string reason = why_not_read(scene); !reason.empty()) return reason;
-  Case bare = scene;
+std::string why_refused(const Case& spec, int threads) {
+  if (std::string reason = why_not_read(spec); !reason.empty()) return reason;
+  Case bare = spec;
   bare.reference = {};  // has no part in it
   try {
     Simulation(bare, threads).prepare();
@@ -51,11 +51,11 @@ std::string why_refused(const Case& scene, int threads) {
   return "";
 }
 
-std::string table_against_gaps(Case scene) {
+std::string table_against_gaps(Case spec) {
   const NamedEffect* restorer = overlap_restorer();
   if (!restorer) return "";
-  scene.effects.set(complete_effect(*restorer, {}));
-  return why_not_read(scene).empty() ? restorers_table() : "";
+  spec.effects.set(complete_effect(*restorer, {}));
+  return why_not_read(spec).empty() ? restorers_table() : "";
 }
 
 }  // namespace gaussdrift::accuracy

@@ -24,7 +24,7 @@ Case settled(Case spec, const CaseOptions& options) {
                                            [&](const std::string& what) { line.show(what); });
   }
   put(options.json ? stderr : stdout, accuracy::to_text(choice));
-  return std::move(choice.scene);
+  return std::move(choice.spec);
 }
 
 }  // namespace gaussdrift::cli

@@ -31,8 +31,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double longest_side_of(const Case& scene) {
-  return longest_side(scene.domain.dimension, scene.domain.min, scene.domain.max);
+double longest_side_of(const Case& spec) {
+  return longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max);
 }
 
 template <class SomeExperiment>
@@ -51,7 +51,7 @@ std::string no_error(const Experiment& experiment) {
 
 }  // namespace
 
-Experiment study_transform(const Case& scene, int threads, double seconds) {
+Experiment study_transform(const Case& spec, int threads, double seconds) {
   Experiment experiment{
       .name = "transform",
       .title = "Tolerance and method of the Gauss transform",
@@ -62,7 +62,7 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
       .samples = {},
       .conclusion = {},
       .notes = {}};
-  Case bare = scene;
+  Case bare = spec;
   bare.output.files.clear();
   bare.output.images.clear();
   bare.checks.clear();
@@ -70,27 +70,27 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
   Simulation simulation(bare, threads);
   simulation.run();
-  const Scene parts = make_scene(bare, threads);
+  const Scene scene = make_scene(bare, threads);
   const Particles& particles = simulation.particles();
   const Cutoff blob =
-      particles.spread > 0 ? spread_cutoff(parts.cutoff, particles.dimension, particles.spread) : parts.cutoff;
+      particles.spread > 0 ? spread_cutoff(scene.cutoff, particles.dimension, particles.spread) : scene.cutoff;
   const base::Stopwatch watch;
   double cheapest_auto = nan, dearest_auto = nan, direct = nan;
   for (const fgtd::Method method : fgtd::methods()) {
     // 10^9 pairs a second and core.
     bool too_dear = method == fgtd::Method::direct &&
-                    static_cast<double>(particles.size()) * static_cast<double>(parts.evaluation.size()) > 3e9;
+                    static_cast<double>(particles.size()) * static_cast<double>(scene.evaluation.size()) > 3e9;
     const base::EnoughTimes enough{.long_enough = 0.3, .most = 12};
     std::vector<base::RepeatedTime> times;  // of those that have some
     std::vector<double> tolerances;
     std::vector<std::size_t> place;  // of their samples
     const auto predicted_seconds = [&](double tolerance) {
       const DensityOptions options{.tolerance = tolerance, .method = fgtd::to_string(method), .threads = threads};
-      return predict_density(particles, blob, parts.evaluation, options).seconds / base::resolve_threads(threads);
+      return predict_density(particles, blob, scene.evaluation, options).seconds / base::resolve_threads(threads);
     };
     const auto measure_again = [&](std::size_t i) {
       DensityReport report;
-      evaluate_density(particles, blob, parts.evaluation,
+      evaluate_density(particles, blob, scene.evaluation,
                        {.tolerance = tolerances[i], .method = fgtd::to_string(method), .threads = threads}, &report);
       times[i].add(report.evaluate_seconds);
     };
@@ -106,7 +106,7 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
           }
           DensityReport report;
           evaluate_density(
-              particles, blob, parts.evaluation,
+              particles, blob, scene.evaluation,
               {.tolerance = tolerance, .method = fgtd::to_string(method), .threads = threads, .measure = true},
               &report);
           sample.error = std::max(report.measured_error, 1e-16);
@@ -139,7 +139,7 @@ Experiment study_transform(const Case& scene, int threads, double seconds) {
       cheapest_auto = times.front().fastest(), dearest_auto = times.back().fastest();
     if (method == fgtd::Method::direct) direct = times.front().fastest();
   }
-  finish(experiment, scene);
+  finish(experiment, spec);
   experiment.conclusion = fmt::format(
       "{}: {:.2g} ms at 1e-2, {:.2g} ms at 1e-12",
       dearest_auto < 1.3 * cheapest_auto
@@ -171,7 +171,7 @@ double largest_distance(const Particles& a, const Particles& b) {
 }
 
 /// Some of the particles, and their paths to full precision.
-Paths paths_in_the_flow(const Case& scene, const Scene& parts, const Particles& all, int threads) {
+Paths paths_in_the_flow(const Case& spec, const Scene& scene, const Particles& all, int threads) {
   Paths paths;
   const std::size_t stride = std::max<std::size_t>(1, all.size() / 2000);
   std::vector<std::size_t> chosen;
@@ -180,24 +180,24 @@ Paths paths_in_the_flow(const Case& scene, const Scene& parts, const Particles& 
   paths.scale = static_cast<double>(all.size()) / static_cast<double>(paths.start.size());
   paths.exact = paths.start;
   carry_exactly(
-      *parts.velocity, nullptr, paths.exact, 0, scene.output.times.back(),
-      {.tolerance = parts.velocity->is_smooth() ? 1e-14 : 1e-10, .length = longest_side_of(scene), .threads = threads});
+      *scene.velocity, nullptr, paths.exact, 0, spec.output.times.back(),
+      {.tolerance = scene.velocity->is_smooth() ? 1e-14 : 1e-10, .length = longest_side_of(spec), .threads = threads});
   return paths;
 }
 
 /// Particles that move each other: all of them, and steps of the usual method that are halved until they change nothing more that
 /// matters, or too much time is gone.
-Paths paths_of_each_other(Case scene, const Scene& parts, const Particles& all, int threads, double seconds) {
-  const double time = scene.output.times.back(), enough = 1e-6;
+Paths paths_of_each_other(Case spec, const Scene& scene, const Particles& all, int threads, double seconds) {
+  const double time = spec.output.times.back(), enough = 1e-6;
   Paths paths{all, all, 1, std::numeric_limits<double>::infinity(), ""};
-  scene.time.method = time::tableaux().front().name;
+  spec.time.method = time::tableaux().front().name;
   const base::Stopwatch watch;
   double last = 0;
   for (int k = 0; k < 12 && watch.seconds() + 2 * last < seconds; ++k) {
     const base::Stopwatch one;
-    scene.time.step = time / (16 << k);
+    spec.time.step = time / (16 << k);
     Particles moved = all;
-    Carrier carrier(scene, parts, threads);
+    Carrier carrier(spec, scene, threads);
     try {
       carrier.begin(moved);
     } catch (const InputError&) {  // not stable: half of it may be
@@ -206,13 +206,13 @@ Paths paths_of_each_other(Case scene, const Scene& parts, const Particles& all, 
     StageTimes ignored;
     carrier.carry(moved, 0, time, 0, ignored);
     // Halving takes away 15/16 of the error.
-    if (last > 0) paths.known = largest_distance(moved, paths.exact) / 15 / parts.core_radius;
+    if (last > 0) paths.known = largest_distance(moved, paths.exact) / 15 / scene.core_radius;
     paths.exact = std::move(moved);
     last = one.seconds();
     if (paths.known < enough) break;
   }
-  paths.note = fmt::format("compared with {} at time.step = {:.3g}, whose own error is about {:.1g}", scene.time.method,
-                           scene.time.step, paths.known);
+  paths.note = fmt::format("compared with {} at time.step = {:.3g}, whose own error is about {:.1g}", spec.time.method,
+                           spec.time.step, paths.known);
   return paths;
 }
 
@@ -229,22 +229,22 @@ std::string settings_of(const Sample& sample, const std::vector<std::string>& ke
 }
 
 /// The case with other steps.
-Case with_steps(Case scene, const time::Tableau& tableau, double step, double tolerance) {
-  scene.time.method = tableau.name;
-  scene.time.step = step;
-  if (time::is_adaptive(tableau)) scene.time.tolerance = tolerance;
-  return scene;
+Case with_steps(Case spec, const time::Tableau& tableau, double step, double tolerance) {
+  spec.time.method = tableau.name;
+  spec.time.step = step;
+  if (time::is_adaptive(tableau)) spec.time.tolerance = tolerance;
+  return spec;
 }
 
 /// Why the case with its outputs left out does not run to its end; empty: it does.
-std::string why_it_does_not_finish(Case scene, int threads) {
-  scene.output.files.clear();
-  scene.output.images.clear();
-  scene.output.times = {scene.output.times.back()};
-  scene.checks.clear();
-  scene.reference = {};
+std::string why_it_does_not_finish(Case spec, int threads) {
+  spec.output.files.clear();
+  spec.output.images.clear();
+  spec.output.times = {spec.output.times.back()};
+  spec.checks.clear();
+  spec.reference = {};
   try {
-    Simulation(scene, threads).run();
+    Simulation(spec, threads).run();
   } catch (const Error& error) {
     return error.what();
   }
@@ -253,7 +253,7 @@ std::string why_it_does_not_finish(Case scene, int threads) {
 
 }  // namespace
 
-Experiment study_steps(const Case& scene, int threads, double seconds) {
+Experiment study_steps(const Case& spec, int threads, double seconds) {
   Experiment experiment{.name = "steps",
                         .title = "Step and integrator",
                         .question = "How long may steps be?",
@@ -266,45 +266,45 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
   const base::Stopwatch watch;
   // Only positions are studied. Effects that do not move particles are left out, but the steps that they forbid stay
   // forbidden.
-  Case moving = scene;
-  const bool each_other = particles_interact(scene.effects);
-  const int dimension = scene.domain.dimension;
+  Case moving = spec;
+  const bool each_other = particles_interact(spec.effects);
+  const int dimension = spec.domain.dimension;
   bool tried = false;  // weights that go from particle to particle may ask for shorter steps later on
-  for (const auto& [effect, written] : effects_of(scene.effects)) {
+  for (const auto& [effect, written] : effects_of(spec.effects)) {
     const bool moves = effect->traits.particles_interact || effect->spreading;
     if (each_other && moves) continue;
     moving.effects.remove(written.name);
     tried = tried || effect->traits.moves_weight.of(written, dimension);
   }
-  const Scene parts = make_scene(moving, threads);
-  const double time = scene.output.times.back();
-  const Particles all = seed_scene(parts, threads);
+  const Scene scene = make_scene(moving, threads);
+  const double time = spec.output.times.back();
+  const Particles all = seed_scene(scene, threads);
   if (time <= 0) {
     experiment.conclusion = "There are no steps before the last output.";
     return experiment;
   }
   // The steps that `run` accepts, by the run's own rules for the whole case.
-  const Scene whole = make_scene(scene, threads);
-  const Case asked = with_steps(scene, time::tableaux().front(), scene.time.end, 0);
+  const Scene whole = make_scene(spec, threads);
+  const Case asked = with_steps(spec, time::tableaux().front(), spec.time.end, 0);
   Carrier rules(asked, whole, threads);
   try {
     Particles seen = all;
     rules.begin(seen);
   } catch (const InputError&) {  // of this step alone
   }
-  const Paths paths = each_other ? paths_of_each_other(moving, parts, all, threads, 0.4 * seconds)
-                                 : paths_in_the_flow(moving, parts, all, threads);
+  const Paths paths = each_other ? paths_of_each_other(moving, scene, all, threads, 0.4 * seconds)
+                                 : paths_in_the_flow(moving, scene, all, threads);
   if (each_other) experiment.seconds_are = "of transport and of what moves particles, for all of them";
   std::map<std::string, double> orders;
   double each_rate = 0;  // seconds of one evaluation for all particles
   bool left_out = false;
   for (const time::Tableau& tableau : time::tableaux()) {
     const bool adaptive = time::is_adaptive(tableau);
-    if (adaptive && !accuracy::why_not_read(with_steps(scene, tableau, 0, 1e-4)).empty()) continue;
+    if (adaptive && !accuracy::why_not_read(with_steps(spec, tableau, 0, 1e-4)).empty()) continue;
     for (int k = 0; k < 12; ++k) {
       const double step = adaptive ? 0 : base::rounded_down(time / (8 << k), 4), tolerance = std::pow(10, -2 - k);
       if (adaptive && (tolerance < 1e-13 || (each_other && tolerance < 1e-5))) break;  // sums are right to 1e-6
-      const double longest = std::min(step, scene.time.end);
+      const double longest = std::min(step, spec.time.end);
       if (!adaptive && rules.longest_step(tableau, longest) < longest * (1 - 1e-9)) continue;  // would be refused
       const double steps = adaptive ? 20 : time / step;
       if (watch.seconds() + 2 * steps * tableau.stages * each_rate > seconds) {
@@ -317,7 +317,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
           .values = {tableau.name, adaptive ? fmt::format("tolerance {:.0e}", tolerance) : fmt::format("{:g}", step)}};
       try {
         Particles moved = paths.start;
-        Carrier carrier(varied, parts, threads);
+        Carrier carrier(varied, scene, threads);
         if (each_other) carrier.begin(moved);
         StageTimes ignored;
         const base::Stopwatch work;
@@ -341,7 +341,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
         sample.confirmed = times.count() < 2 || times.repeatable();
         sample.particles = all.size();
         sample.error =
-            std::max({largest_distance(moved, paths.exact) / parts.core_radius, each_other ? paths.known : 0.0, 1e-16});
+            std::max({largest_distance(moved, paths.exact) / scene.core_radius, each_other ? paths.known : 0.0, 1e-16});
       } catch (const Error& error) {
         sample.failure = error.what();
       }
@@ -371,15 +371,15 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
   while ((enough = cheapest_below(experiment, 1e-3))) {
     const bool adaptive = time::is_adaptive(time::find_tableau(enough->values[0]));
     const Case recommended =
-        with_steps(scene, time::find_tableau(enough->values[0]),
-                   adaptive ? scene.time.step : *base::read_number<double>(enough->values[1]),
-                   adaptive ? *base::read_number<double>(enough->values[1].substr(10)) : scene.time.tolerance);
+        with_steps(spec, time::find_tableau(enough->values[0]),
+                   adaptive ? spec.time.step : *base::read_number<double>(enough->values[1]),
+                   adaptive ? *base::read_number<double>(enough->values[1].substr(10)) : spec.time.tolerance);
     std::string reason = accuracy::why_refused(recommended, threads);
     if (reason.empty() && tried) reason = why_it_does_not_finish(recommended, threads);
     if (reason.empty()) break;
     enough->failure = reason;
   }
-  finish(experiment, scene);
+  finish(experiment, spec);
   if (enough)
     experiment.conclusion = fmt::format(
         "{} is the cheapest that carries every particle to within a thousandth of its blob: {} steps, {:.2g} s.",
@@ -389,7 +389,7 @@ Experiment study_steps(const Case& scene, int threads, double seconds) {
   return experiment;
 }
 
-Experiment study_lattice(const Case& scene, const StudyOptions& options, double seconds) {
+Experiment study_lattice(const Case& spec, const StudyOptions& options, double seconds) {
   Experiment experiment{.name = "lattice",
                         .title = "Lattice, overlap and cutoff",
                         .question = "Finer, wider, or of higher order?",
@@ -400,14 +400,14 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
                         .conclusion = {},
                         .notes = {}};
   const base::Stopwatch watch;
-  const double c = scene.particles.overlap;
+  const double c = spec.particles.overlap;
   double dearest = 0;
   std::size_t left_out = 0;
   std::vector<std::string> possible;  // cutoffs that the case may have
   for (const NamedCutoff& named : cutoffs()) {
     if (!named.parameters.empty()) continue;
     const std::string cutoff(named.name);
-    Case varied = scene;
+    Case varied = spec;
     varied.particles.cutoff = cutoff;
     varied.particles.cutoff_arguments.clear();
     if (const std::string reason = accuracy::why_not_read(varied); reason.empty())
@@ -419,11 +419,11 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   for (const double factor : {0.25, 0.35, 0.5, 0.7, 1.0})
     for (const double overlap : {c, 1.5 * c}) {
       for (const std::string& cutoff : possible) {
-        Case varied = scene;
+        Case varied = spec;
         varied.particles.cutoff = cutoff;
         varied.particles.cutoff_arguments.clear();
         varied.particles.overlap = *base::read_number<double>(fmt::format("{:g}", overlap));  // as it is told
-        varied.particles.per_axis = std::max(8, static_cast<int>(std::lround(factor * scene.particles.per_axis)));
+        varied.particles.per_axis = std::max(8, static_cast<int>(std::lround(factor * spec.particles.per_axis)));
         if (watch.seconds() + 3 * dearest > seconds) {
           ++left_out;
           continue;
@@ -438,15 +438,15 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   std::stable_sort(experiment.samples.begin(), experiment.samples.end(), [](const Sample& a, const Sample& b) {
     return a.values[0] != b.values[0] ? a.values[0] < b.values[0] : std::stod(a.values[1]) < std::stod(b.values[1]);
   });
-  finish(experiment, scene);
+  finish(experiment, spec);
   if (left_out > 0)
     experiment.notes.push_back(fmt::format("{} combinations were left out to stay within --seconds", left_out));
   const Sample *best = nullptr, *now = nullptr;
   for (const Sample& sample : experiment.samples) {
     if (!sample.failure.empty()) continue;
     if (!best || sample.error < best->error) best = &sample;
-    if (sample.values[0] == scene.particles.cutoff && sample.values[1] == fmt::format("{:g}", c) &&
-        sample.values[2] == std::to_string(scene.particles.per_axis))
+    if (sample.values[0] == spec.particles.cutoff && sample.values[1] == fmt::format("{:g}", c) &&
+        sample.values[2] == std::to_string(spec.particles.per_axis))
       now = &sample;
   }
   if (best) {
@@ -465,7 +465,7 @@ Experiment study_lattice(const Case& scene, const StudyOptions& options, double 
   return experiment;
 }
 
-Experiment study_whole(const Case& scene, const StudyOptions& options, double seconds) {
+Experiment study_whole(const Case& spec, const StudyOptions& options, double seconds) {
   Experiment experiment{
       .name = "whole",
       .title = "Whole runs, settings chosen for a target",
@@ -477,10 +477,10 @@ Experiment study_whole(const Case& scene, const StudyOptions& options, double se
       .conclusion = {},
       .notes = {}};
   const base::Stopwatch watch;
-  Sample as_it_is = measure_run(scene, options);
+  Sample as_it_is = measure_run(spec, options);
   as_it_is.values = {"as it is"};
   experiment.samples.push_back(as_it_is);
-  if (const std::string reason = accuracy::budget_not_covered(scene); !reason.empty()) {
+  if (const std::string reason = accuracy::budget_not_covered(spec); !reason.empty()) {
     experiment.notes.push_back("no settings are chosen: " + reason);
   } else {
     for (const double target : {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5}) {
@@ -490,8 +490,8 @@ Experiment study_whole(const Case& scene, const StudyOptions& options, double se
         break;
       }
       try {
-        const accuracy::AccuracyChoice choice = accuracy::choose_for_accuracy(scene, target, options.threads);
-        sample = measure_run(choice.scene, options);
+        const accuracy::AccuracyChoice choice = accuracy::choose_for_accuracy(spec, target, options.threads);
+        sample = measure_run(choice.spec, options);
         sample.values = {fmt::format("{:g}", target)};
         experiment.notes.push_back(fmt::format("{:g}: {}", target, to_text(choice).substr(7)));
         experiment.notes.back().pop_back();
@@ -502,7 +502,7 @@ Experiment study_whole(const Case& scene, const StudyOptions& options, double se
       if (!sample.failure.empty()) break;
     }
   }
-  finish(experiment, scene);
+  finish(experiment, spec);
   const Sample *first = nullptr, *last = nullptr;
   for (const Sample& sample : experiment.samples)
     if (sample.failure.empty() && &sample != &experiment.samples.front()) {

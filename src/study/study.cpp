@@ -97,9 +97,9 @@ Variation parse_variation(const std::string& text) {
   return variation;
 }
 
-Sample measure_run(const Case& scene, const StudyOptions& options) {
+Sample measure_run(const Case& spec, const StudyOptions& options) {
   Sample sample;
-  Case bare = scene;
+  Case bare = spec;
   bare.output.files.clear();
   bare.output.images.clear();
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
@@ -144,14 +144,14 @@ Sample measure_run(const Case& scene, const StudyOptions& options) {
   return sample;
 }
 
-std::optional<double> expected_order(const std::string& key, const Case& scene) {
-  if (key == "time.step") return time::find_tableau(scene.time.method).time_order;
-  if (key == "particles.overlap") return find_cutoff(scene.particles.cutoff).order;
-  if (key == "particles.per_axis") return find_cutoff(scene.particles.cutoff).order;
+std::optional<double> expected_order(const std::string& key, const Case& spec) {
+  if (key == "time.step") return time::find_tableau(spec.time.method).time_order;
+  if (key == "particles.overlap") return find_cutoff(spec.particles.cutoff).order;
+  if (key == "particles.per_axis") return find_cutoff(spec.particles.cutoff).order;
   return std::nullopt;
 }
 
-void finish(Experiment& experiment, const Case& scene) {
+void finish(Experiment& experiment, const Case& spec) {
   auto& samples = experiment.samples;
   if (const auto doubtful =
           std::count_if(samples.begin(), samples.end(), [](const Sample& each) { return !each.confirmed; }))
@@ -167,7 +167,7 @@ void finish(Experiment& experiment, const Case& scene) {
           (other.seconds < sample.seconds || other.error < sample.error))
         sample.on_front = false;
   }
-  if (experiment.keys.empty() || !expected_order(experiment.keys.back(), scene)) return;
+  if (experiment.keys.empty() || !expected_order(experiment.keys.back(), spec)) return;
   const std::size_t last = experiment.keys.size() - 1;
   const bool finer_if_larger = experiment.keys.back() == "particles.per_axis";
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -183,8 +183,8 @@ void finish(Experiment& experiment, const Case& scene) {
 
 Study run_study(const StudyOptions& options) {
   const base::Stopwatch watch;
-  const Case scene = read_case(options.file, options.overrides, options.threads).spec;
-  Study study{scene.name, scene.title, {}, base::resolve_threads(options.threads), 0};
+  const Case spec = input::read_case(options.file, options.overrides, options.threads).scene;
+  Study study{spec.name, spec.title, {}, base::resolve_threads(options.threads), 0};
   if (options.vary.empty()) {
     const auto tell = [&](const std::string& what) {
       if (options.progress) options.progress(what);
@@ -193,16 +193,16 @@ Study run_study(const StudyOptions& options) {
       study.experiments.push_back(std::move(experiment));
       if (options.table_grew) options.table_grew(study.experiments.back());
     };
-    refuse_what_does_not_fit(scene, options.threads);
+    accuracy::refuse_what_does_not_fit(spec, options.threads);
     tell("the Gauss transform");
-    add(study_transform(scene, options.threads, 0.1 * options.seconds));
+    add(study_transform(spec, options.threads, 0.1 * options.seconds));
     tell("steps");
-    add(study_steps(scene, options.threads, 0.15 * options.seconds));
-    if (scene.reference.kind != ReferenceSpec::Kind::none) {
+    add(study_steps(spec, options.threads, 0.15 * options.seconds));
+    if (spec.reference.kind != ReferenceSpec::Kind::none) {
       tell("lattice and cutoff");
-      add(study_lattice(scene, options, 0.4 * options.seconds));
+      add(study_lattice(spec, options, 0.4 * options.seconds));
       tell("whole runs");
-      add(study_whole(scene, options, 0.35 * options.seconds));
+      add(study_whole(spec, options, 0.35 * options.seconds));
     } else {
       study.experiments.back().notes.push_back(std::string("lattices and whole runs are not studied: ") +
                                                no_exact_density);
@@ -212,7 +212,7 @@ Study run_study(const StudyOptions& options) {
   }
 
   Experiment experiment{.name = "study",
-                        .title = scene.title.empty() ? scene.name : scene.title,
+                        .title = spec.title.empty() ? spec.name : spec.title,
                         .question = "What does accuracy cost here?",
                         .keys = {},
                         .error_is = "Linf at the last output",
@@ -234,7 +234,7 @@ Study run_study(const StudyOptions& options) {
     if (combinations > most_combinations)
       throw CommandLineError(fmt::format("the study has more than {} combinations; vary less", most_combinations));
   }
-  if (scene.reference.kind == ReferenceSpec::Kind::none) throw InputError(std::string("study: ") + no_exact_density);
+  if (spec.reference.kind == ReferenceSpec::Kind::none) throw InputError(std::string("study: ") + no_exact_density);
   std::optional<Case> varied;  // the last one that could be read
   std::vector<std::string> orders;
   for (std::size_t i = 0; i < combinations; ++i) {

@@ -74,11 +74,11 @@ struct Study {
 Study run_study(const StudyOptions& options);
 
 /// Marks the front and fills in observed orders along the last key, where it is a number that errors are powers of.
-void finish(Experiment& experiment, const Case& scene);
+void finish(Experiment& experiment, const Case& spec);
 
 /// The expected order along a key: the power of a length or a step with which the error falls. For particles.overlap
 /// and 1/particles.per_axis it is that of the cutoff, for time.step that of the method; nothing for others.
-std::optional<double> expected_order(const std::string& key, const Case& scene);
+std::optional<double> expected_order(const std::string& key, const Case& spec);
 
 std::string to_text(const Study& study);
 std::string to_csv(const Experiment& experiment);
@@ -91,12 +91,12 @@ std::string to_markdown(const Study& study);
 void draw_charts(const Study& study, const std::filesystem::path& folder);
 
 // The standard studies, in src/study/standard_studies.cpp.
-Experiment study_transform(const Case& scene, int threads, double seconds);
-Experiment study_steps(const Case& scene, int threads, double seconds);
-Experiment study_lattice(const Case& scene, const StudyOptions& options, double seconds);
-Experiment study_whole(const Case& scene, const StudyOptions& options, double seconds);
+Experiment study_transform(const Case& spec, int threads, double seconds);
+Experiment study_steps(const Case& spec, int threads, double seconds);
+Experiment study_lattice(const Case& spec, const StudyOptions& options, double seconds);
+Experiment study_whole(const Case& spec, const StudyOptions& options, double seconds);
 
 /// Runs the case without files and pictures: error at the last output, the fastest of its times.
-Sample measure_run(const Case& scene, const StudyOptions& options);
+Sample measure_run(const Case& spec, const StudyOptions& options);
 
 }  // namespace gaussdrift::study

@@ -23,19 +23,19 @@ Case built_in(const std::string& name, const std::vector<std::string>& overrides
   return gaussdrift::read_case(std::string(SOURCE_DIR) + "/cases/" + name + ".toml", overrides).spec;
 }
 
-Budget predicted(const Case& scene) { return predict_budget(scene, make_scene(scene), Effort::whatever, 0); }
+Budget predicted(const Case& spec) { return predict_budget(spec, make_scene(spec), Effort::whatever, 0); }
 
 struct Ran {
   Budget budget;
   double linf = 0;
 };
 
-Ran measured(const Case& scene, Effort effort = Effort::whatever, int threads = 0) {
+Ran measured(const Case& spec, Effort effort = Effort::whatever, int threads = 0) {
   LastFrame::Kept last;
-  Simulation simulation(scene, threads);
-  simulation.observe(std::make_unique<LastFrame>(last, scene.output.times.back()));
+  Simulation simulation(spec, threads);
+  simulation.observe(std::make_unique<LastFrame>(last, spec.output.times.back()));
   const RunSummary summary = simulation.run();
-  return {measure_budget(scene, make_scene(scene), last, effort, threads), summary.frames.back().second.error->linf};
+  return {measure_budget(spec, make_scene(spec), last, effort, threads), summary.frames.back().second.error->linf};
 }
 
 TEST(Budget, OfTheRotatingConeIsWhatIsKnownOfIt) {
@@ -56,12 +56,12 @@ TEST(Budget, OfTheRotatingConeIsWhatIsKnownOfIt) {
 }
 
 TEST(Budget, OfLongStepsIsTheLagOfRungeKutta) {
-  const Case scene =
+  const Case spec =
       built_in("rotating_cone", {"time.step=pi/15", "output.times=[\"2*pi\"]", "particles.per_axis=150"});
   const double theta = pi / 15, lag = 2 * pi * std::pow(theta, 4) / 120;
   // The density changes by its slope along the circle times 0.5 lag; the largest slope of the cone is 2.1/R.
   const double largest = 2.11 / 0.25 * 0.5 * lag;
-  for (const double found : {predicted(scene).time_stepping, measured(scene).budget.time_stepping}) {
+  for (const double found : {predicted(spec).time_stepping, measured(spec).budget.time_stepping}) {
     EXPECT_LT(found, largest);
     EXPECT_GT(found, 0.2 * largest);  // probes are where errors are large, not where slopes are
   }
@@ -69,11 +69,11 @@ TEST(Budget, OfLongStepsIsTheLagOfRungeKutta) {
 
 TEST(Budget, OfSparseParticlesIsTheRippleOfTheirSum) {
   // c = 0.75 and a density that is nearly constant where it is largest: 2 exp(-pi^2 c^2) an axis.
-  const Case scene = built_in("rotating_cone", {"density.shape=gaussian", "density.radius=0.5", "density.center=[0, 0]",
+  const Case spec = built_in("rotating_cone", {"density.shape=gaussian", "density.radius=0.5", "density.center=[0, 0]",
                                                 "domain.min=[-2, -2]", "domain.max=[2, 2]", "particles.per_axis=161",
                                                 "particles.overlap=0.75", "output.times=[0, \"pi\"]"});
   const double ripple = 2 * 2 * std::exp(-pi * pi * 0.75 * 0.75);
-  for (const Budget& budget : {predicted(scene), measured(scene).budget}) {
+  for (const Budget& budget : {predicted(spec), measured(spec).budget}) {
     EXPECT_EQ(budget.dominates, "quadrature");
     EXPECT_GT(budget.quadrature, 0.5 * ripple);  // the grid meets the crests only nearly
     EXPECT_LT(budget.quadrature, 1.1 * ripple);
@@ -92,9 +92,9 @@ TEST(Budget, IsPredictedWithinAFactorOfThreeForSmoothCases) {
                            {"taylor_green", {"particles.per_axis=100", "evaluate.per_axis=61", "output.times=[4]"}},
                            {"doswell", {"particles.per_axis=100", "evaluate.per_axis=61"}},
                            {"abc", {"particles.per_axis=40", "evaluate.per_axis=21"}}}) {
-    const Case scene = built_in(smooth.name, smooth.overrides);
-    const Budget before = predicted(scene);
-    const Ran after = measured(scene);
+    const Case spec = built_in(smooth.name, smooth.overrides);
+    const Budget before = predicted(spec);
+    const Ran after = measured(spec);
     ASSERT_TRUE(before.known()) << smooth.name << ": " << before.not_covered;
     ASSERT_TRUE(after.budget.known()) << smooth.name << ": " << after.budget.not_covered;
     EXPECT_LT(before.total, 3 * after.linf) << smooth.name;
@@ -111,9 +111,9 @@ TEST(Budget, IsPredictedWithinAFactorOfThreeForSmoothCases) {
 }
 
 TEST(Budget, IsTheSameForAnyThreads) {
-  const Case scene = built_in("decay", {"particles.per_axis=100", "evaluate.per_axis=61"});
-  const Budget one = measured(scene, Effort::share_of_run, 1).budget,
-               two = measured(scene, Effort::share_of_run, 2).budget;
+  const Case spec = built_in("decay", {"particles.per_axis=100", "evaluate.per_axis=61"});
+  const Budget one = measured(spec, Effort::share_of_run, 1).budget,
+               two = measured(spec, Effort::share_of_run, 2).budget;
   EXPECT_EQ(one.smoothing, two.smoothing);
   EXPECT_EQ(one.quadrature, two.quadrature);
   EXPECT_EQ(one.time_stepping, two.time_stepping);
@@ -122,9 +122,9 @@ TEST(Budget, IsTheSameForAnyThreads) {
 
 // Paths through kinks are not followed exactly, but by the run's own method with half the step.
 TEST(Budget, IsToldWhereARateJumps) {
-  const Case scene = built_in("stiff_reaction", {"evaluate.per_axis=61"});
-  const Budget before = predicted(scene);
-  const Ran after = measured(scene, Effort::share_of_run);
+  const Case spec = built_in("stiff_reaction", {"evaluate.per_axis=61"});
+  const Budget before = predicted(spec);
+  const Ran after = measured(spec, Effort::share_of_run);
   ASSERT_TRUE(before.known()) << before.not_covered;
   ASSERT_TRUE(after.budget.known()) << after.budget.not_covered;
   EXPECT_EQ(before.dominates, "smoothing");
@@ -136,10 +136,10 @@ TEST(Budget, IsToldWhereARateJumps) {
 // What is compared follows from counted work, so from the case alone.
 TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
   const auto compared = [](const std::string& name, const std::vector<std::string>& overrides) {
-    const Case scene = built_in(name, overrides);
-    const Scene parts = make_scene(scene);
-    return static_cast<double>(plan_comparison(scene, parts, seed_scene(parts, 0).size(), 0).points) /
-           static_cast<double>(parts.evaluation.size());
+    const Case spec = built_in(name, overrides);
+    const Scene scene = make_scene(spec);
+    return static_cast<double>(plan_comparison(spec, scene, seed_scene(scene, 0).size(), 0).points) /
+           static_cast<double>(scene.evaluation.size());
   };
   EXPECT_EQ(compared("rotating_cone", {}), 1);
   EXPECT_EQ(compared("zalesak", {}), 1);
@@ -151,85 +151,84 @@ TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
 // What measuring takes is counted, so it can be bounded without a clock: paths that flee from the domain, a jump on
 // which paths stick, a wind with a kink at every cell, a rate that no step likes.
 TEST(PointsCompared, TakeNoMoreWorkThanIsAllowed) {
-  const auto scene_of = [](const std::string& velocity, const std::string& more = "") {
-    return gaussdrift::parse_case(
-               "gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
-                   "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
-                   "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
-                   "[evaluate]\nper_axis = 64\n" +
-                   more,
-               "stiff.toml")
-        .spec;
+  const auto spec_of = [](const std::string& velocity, const std::string& more = "") {
+    return input::parse_case("gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
+                                 "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
+                                 "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
+                                 "[evaluate]\nper_axis = 64\n" +
+                                 more,
+                             "stiff.toml")
+        .scene;
   };
   const double few = 2.5e6;  // a tenth of a second
   for (const char* velocity :
        {"u = [\"-1000*(x-0.5)\", \"0\"]", "u = [\"-30000*(x-0.5)\", \"0\"]", "u = [\"x<0.62 ? 1 : 0\", \"0\"]",
         "u = [\"x<0.5 ? -1 : 1\", \"0\"]", "u = [\"abs(sin(300*x))\", \"abs(sin(300*y))\"]",
         "u = [\"sin(1e5*x)\", \"cos(1e5*y)\"]"}) {
-    const Case scene = scene_of(velocity);
-    const Scene parts = make_scene(scene);
-    const std::size_t particles = seed_scene(parts, 0).size();
-    const double allowed = std::max(few, 0.15 * work_of(scene, parts, particles).total());
-    const Comparison plan = plan_comparison(scene, parts, particles, 0);
+    const Case spec = spec_of(velocity);
+    const Scene scene = make_scene(spec);
+    const std::size_t particles = seed_scene(scene, 0).size();
+    const double allowed = std::max(few, 0.15 * work_of(spec, scene, particles).total());
+    const Comparison plan = plan_comparison(spec, scene, particles, 0);
     EXPECT_EQ(plan.points == 0, !plan.left_out.empty()) << velocity;
     if (plan.points == 0) continue;
     EXPECT_GE(plan.points, 16u) << velocity;
     // And it does not take more when it is done.
     std::vector<double> rho;
     double rates = 0;
-    const auto reference = make_reference(scene, parts, 0, plan.following);
+    const auto reference = make_reference(spec, scene, 0, plan.following);
     const GridSample sample =
-        sample_of_grid(parts.evaluation, std::vector<double>(parts.evaluation.size(), 1.0), plan.points);
-    for (const double t : scene.output.times)
-      rates += static_cast<double>(plan.points >= parts.evaluation.size()
+        sample_of_grid(scene.evaluation, std::vector<double>(scene.evaluation.size(), 1.0), plan.points);
+    for (const double t : spec.output.times)
+      rates += static_cast<double>(plan.points >= scene.evaluation.size()
                                        ? reference->evaluate(t, rho).rates
                                        : reference->evaluate_at(t, sample.points, rho).rates);
     // The points beside the largest value, and blocks of 256 that take the steps of their worst.
-    EXPECT_LT(rates * work_of_exact_rate(parts), 2 * allowed) << velocity << " " << plan.points;
+    EXPECT_LT(rates * work_of_exact_rate(scene), 2 * allowed) << velocity << " " << plan.points;
   }
 }
 
 TEST(PointsCompared, AreFollowedByHalfStepsThroughManyKinks) {
   const Case wind = built_in("gridded_wind", {"particles.per_axis=60", "output.images=[]"});
-  Case scene = wind;
-  scene.reference = {};
-  scene.reference.kind = ReferenceSpec::Kind::characteristics;
-  scene.checks.clear();
-  const Scene parts = make_scene(scene);
-  const Comparison plan = plan_comparison(scene, parts, seed_scene(parts, 0).size(), 0);
+  Case spec = wind;
+  spec.reference = {};
+  spec.reference.kind = ReferenceSpec::Kind::characteristics;
+  spec.checks.clear();
+  const Scene scene = make_scene(spec);
+  const Comparison plan = plan_comparison(spec, scene, seed_scene(scene, 0).size(), 0);
   EXPECT_GE(plan.points, 64u);
   EXPECT_TRUE(plan.following.by_half_steps);
   EXPECT_NE(plan.word.find("half as long"), std::string::npos);
   // What is found so is what the formula of this case says, to the interpolation of its wind.
   std::vector<std::size_t> points;
-  for (std::size_t i = 0; i < 40; ++i) points.push_back((2 * i + 1) * parts.evaluation.size() / 80);
+  for (std::size_t i = 0; i < 40; ++i) points.push_back((2 * i + 1) * scene.evaluation.size() / 80);
   std::vector<double> by_steps, exact;
-  make_reference(scene, parts, 0, plan.following)->evaluate_at(scene.output.times.back(), points, by_steps);
-  make_reference(wind, parts, 0)->evaluate_at(scene.output.times.back(), points, exact);
+  make_reference(spec, scene, 0, plan.following)->evaluate_at(spec.output.times.back(), points, by_steps);
+  make_reference(wind, scene, 0)->evaluate_at(spec.output.times.back(), points, exact);
   double largest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) largest = std::max(largest, std::abs(by_steps[i] - exact[i]));
   EXPECT_LT(largest, 1e-2);  // 1e-4 in a place of the wind times slopes of 20 at the edge of the spiral
   // Asked for, it is measured.
-  scene.reference.points = 20;
-  EXPECT_EQ(plan_comparison(scene, parts, 100, 0).points, 20u);
-  EXPECT_FALSE(plan_comparison(scene, parts, 100, 0).following.by_half_steps);
+  spec.reference.points = 20;
+  EXPECT_EQ(plan_comparison(spec, scene, 100, 0).points, 20u);
+  EXPECT_FALSE(plan_comparison(spec, scene, 100, 0).following.by_half_steps);
 }
 
 TEST(PointsCompared, AreMeasuredWhereACheckAsksForThem) {
-  Case scene = built_in("rotating_cone", {"particles.per_axis=41"});
-  scene.velocity = {ExpressionVelocity{{"sin(1e6*x*y)", "cos(1e6*x*y)"}}};  // no path that could be followed
-  const Scene parts = make_scene(scene);
-  const auto plan = [&] { return plan_comparison(scene, parts, seed_scene(parts, 0).size(), 0); };
-  scene.output.images.clear();
-  scene.checks.clear();
+  Case spec = built_in("rotating_cone", {"particles.per_axis=41"});
+  spec.velocity = {ExpressionVelocity{{"sin(1e6*x*y)", "cos(1e6*x*y)"}}};  // no path that could be followed
+  const Scene scene = make_scene(spec);
+  const auto plan = [&] { return plan_comparison(spec, scene, seed_scene(scene, 0).size(), 0); };
+  spec.output.images.clear();
+  spec.checks.clear();
   EXPECT_EQ(plan().points, 0u);
   EXPECT_NE(plan().left_out.find("reference.points = 64"), std::string::npos);
-  scene.checks.push_back({.what = CheckSpec::Quantity::mass, .max = 2});
+  spec.checks.push_back({.what = CheckSpec::Quantity::mass, .max = 2});
   EXPECT_EQ(plan().points, 0u);
-  scene.checks.push_back({.what = CheckSpec::Quantity::l1, .max = 2});
+  spec.checks.push_back({.what = CheckSpec::Quantity::l1, .max = 2});
   EXPECT_EQ(plan().points, 64u);
-  scene.checks.clear();
-  scene.accuracy.target = 0.1;
+  spec.checks.clear();
+  spec.accuracy.target = 0.1;
   EXPECT_EQ(plan().points, 64u);
 }
 
@@ -247,10 +246,10 @@ TEST(Budget, BoundsWhatTheThresholdLeavesOut) {
                     {"density.shape=gaussian", "density.radius=0.1", "particles.per_axis=101", "time.step=0.05",
                      "evaluate.per_axis=61", "evaluate.tolerance=1e-12", "output.times=[\"pi\"]", threshold});
   };
-  const auto density = [](const Case& scene) {
+  const auto density = [](const Case& spec) {
     LastFrame::Kept last;
-    Simulation simulation(scene);
-    simulation.observe(std::make_unique<LastFrame>(last, scene.output.times.back()));
+    Simulation simulation(spec);
+    simulation.observe(std::make_unique<LastFrame>(last, spec.output.times.back()));
     simulation.run();
     return last.density.rho;
   };
@@ -271,11 +270,11 @@ TEST(Budget, BoundsWhatTheThresholdLeavesOut) {
 }
 
 TEST(Budget, NamesTheThresholdWhereItDominates) {
-  const Case scene =
+  const Case spec =
       built_in("rotating_cone",
                {"density.shape=gaussian", "density.radius=0.2", "particles.per_axis=151", "particles.cutoff=gauss8",
                 "evaluate.per_axis=61", "time.step=0.05", "output.times=[\"pi\"]", "particles.threshold=1e-2"});
-  const Budget budget = predicted(scene);
+  const Budget budget = predicted(spec);
   EXPECT_EQ(budget.dominates, "particles left out");
   EXPECT_NE(std::find(budget.advice.begin(), budget.advice.end(), "particles.threshold = 0 leaves nothing out"),
             budget.advice.end());
@@ -294,9 +293,9 @@ TEST(Budget, KnowsNothingOutsideTheDomain) {
   };
   const Case root = edge("[velocity]\nfield = \"rotation\"\nrate = 0.1", "sqrt(x)*exp(-8*((x-0.3)^2+y^2))");
   const Case inflow = edge("[velocity]\nu = [\"0.1*sqrt(x)*(2-x)\", \"0\"]", "exp(-4*((x-1)^2+y^2))+0.1");
-  for (const Case& scene : {root, inflow}) {
-    const Ran ran = measured(scene);
-    for (const Budget& budget : {predicted(scene), ran.budget}) {
+  for (const Case& spec : {root, inflow}) {
+    const Ran ran = measured(spec);
+    for (const Budget& budget : {predicted(spec), ran.budget}) {
       ASSERT_TRUE(budget.known()) << budget.not_covered;
       // The causes together explain the whole: what was not finite used to be left out of their maximum.
       EXPECT_GE(budget.smoothing + budget.quadrature + budget.time_stepping + budget.transform, 0.5 * budget.total);
@@ -306,24 +305,24 @@ TEST(Budget, KnowsNothingOutsideTheDomain) {
 }
 
 TEST(Budget, WhatCannotBeComputedIsNotCoveredAndDoesNotEndTheRun) {
-  Case scene = built_in("rotating_cone", {"particles.per_axis=60", "evaluate.per_axis=41", "output.times=[0.5]"});
+  Case spec = built_in("rotating_cone", {"particles.per_axis=60", "evaluate.per_axis=41", "output.times=[0.5]"});
   LastFrame::Kept last;
-  Simulation simulation(scene, 0);
+  Simulation simulation(spec, 0);
   simulation.observe(std::make_unique<LastFrame>(last, 0.5));
   simulation.run();
-  Scene torn = make_scene(scene);
+  Scene torn = make_scene(spec);
   torn.velocity = std::make_unique<ExpressionField>(std::vector<std::string>{"sqrt(-1-x^2)", "0"},
                                                     std::vector<std::pair<std::string, double>>{});
-  EXPECT_FALSE(measure_budget(scene, torn, last, Effort::whatever, 0).known());
+  EXPECT_FALSE(measure_budget(spec, torn, last, Effort::whatever, 0).known());
 }
 
 TEST(Accuracy, IsMetAndNotMuchMore) {
   for (const auto& [name, target] :
        {std::pair{"rotating_cone", 1e-2}, {"rotating_cone", 1e-4}, {"decay", 1e-3}, {"divergent_flow", 1e-3}}) {
-    const Case scene = built_in(name, {"evaluate.per_axis=101"});
-    const AccuracyChoice choice = choose_for_accuracy(scene, target, 0);
+    const Case spec = built_in(name, {"evaluate.per_axis=101"});
+    const AccuracyChoice choice = choose_for_accuracy(spec, target, 0);
     EXPECT_LE(choice.predicted.total, target) << name;
-    const double achieved = Simulation(choice.scene).run().frames.back().second.error->linf;
+    const double achieved = Simulation(choice.spec).run().frames.back().second.error->linf;
     EXPECT_LE(achieved, target) << name << " " << to_text(choice);
     EXPECT_GE(achieved, target / 20) << name << " " << to_text(choice);
   }

@@ -55,11 +55,11 @@ class CompareWithExact : public Observer {
 };
 
 std::vector<Errors> errors_of(const std::string& name, const std::vector<std::string>& overrides) {
-  const Case scene = gaussdrift::read_case(cases_folder + name + ".toml", overrides).spec;
-  const Scene parts = make_scene(scene);
+  const Case spec = input::read_case(cases_folder + name + ".toml", overrides).scene;
+  const Scene scene = make_scene(spec);
   std::vector<Errors> errors;
-  Simulation simulation(scene);
-  simulation.observe(std::make_unique<CompareWithExact>(parts, errors));
+  Simulation simulation(spec);
+  simulation.observe(std::make_unique<CompareWithExact>(scene, errors));
   simulation.run();
   return errors;
 }
@@ -121,8 +121,8 @@ const std::vector<Reduced> reduced_cases = {
 };
 
 std::vector<FrameNumbers> run_reduced(const Reduced& reduced) {
-  const Case scene = gaussdrift::read_case(cases_folder + reduced.name + ".toml", reduced.overrides).spec;
-  Simulation simulation(scene);
+  const Case spec = input::read_case(cases_folder + reduced.name + ".toml", reduced.overrides).scene;
+  Simulation simulation(spec);
   std::vector<FrameNumbers> numbers;
   for (const auto& [time, frame] : simulation.run().frames) numbers.push_back(frame);
   return numbers;
@@ -171,14 +171,14 @@ TEST(Cases, StayNearTheirExactDensityAndKeepTheirMass) {
 TEST(Cases, ThatTurnBackAreCheckedWhereTheyTurn) {
   int found = 0;
   for (const std::string& name : all_cases()) {
-    const Case scene = gaussdrift::read_case(cases_folder + name + ".toml", {}).spec;
-    for (const VelocitySpec& part : scene.velocity) {
+    const Case spec = input::read_case(cases_folder + name + ".toml", {}).scene;
+    for (const VelocitySpec& part : spec.velocity) {
       const auto* named = std::get_if<NamedVelocity>(&part);
       if (!named || (named->field != "swirl" && named->field != "deformation")) continue;
       ++found;
-      const double turn = scene.time.end / 2;
-      EXPECT_NE(std::count(scene.output.times.begin(), scene.output.times.end(), turn), 0) << name;
-      EXPECT_TRUE(std::any_of(scene.checks.begin(), scene.checks.end(),
+      const double turn = spec.time.end / 2;
+      EXPECT_NE(std::count(spec.output.times.begin(), spec.output.times.end(), turn), 0) << name;
+      EXPECT_TRUE(std::any_of(spec.checks.begin(), spec.checks.end(),
                               [&](const CheckSpec& check) {
                                 return check.what != CheckSpec::Quantity::mass && (!check.at || *check.at == turn);
                               }))
@@ -189,16 +189,15 @@ TEST(Cases, ThatTurnBackAreCheckedWhereTheyTurn) {
 }
 
 TEST(Decay, IsExactWhateverTheStep) {
-  const Case scene =
-      gaussdrift::read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).spec;
-  const auto frames = Simulation(scene).run().frames;
+  const Case spec = input::read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).scene;
+  const auto frames = Simulation(spec).run().frames;
   for (const auto& [time, frame] : frames)
     EXPECT_NEAR(frame.mass / frames.front().second.mass, std::exp(-0.3 * time), 2.3e-15);  // rounding of the exponent
 }
 
 TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
-  const Case scene = gaussdrift::read_case(cases_folder + "stiff_reaction.toml", {"particles.per_axis=200"}).spec;
-  Simulation simulation(scene);
+  const Case spec = input::read_case(cases_folder + "stiff_reaction.toml", {"particles.per_axis=200"}).scene;
+  Simulation simulation(spec);
   const RunSummary summary = simulation.run();
   const Particles& particles = simulation.particles();
   for (std::size_t j = 0; j < particles.size(); ++j) {
@@ -215,12 +214,12 @@ TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
 TEST(SwirlRemesh, KeepsTheFilamentWhole) {
   // The exact density is at most 1; without remeshing rows of spots stand out of the filament.
   const auto height = [](bool remesh) {
-    Case scene = gaussdrift::read_case(cases_folder + "swirl_remesh.toml",
-                                       {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
-                     .spec;
-    scene.reference = {}, scene.checks.clear();
-    if (!remesh) scene.effects.remove("remesh");
-    return Simulation(scene).run().frames.back().second.maximum;
+    Case spec = input::read_case(cases_folder + "swirl_remesh.toml",
+                                  {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
+                     .scene;
+    spec.reference = {}, spec.checks.clear();
+    if (!remesh) spec.effects.remove("remesh");
+    return Simulation(spec).run().frames.back().second.maximum;
   };
   EXPECT_LE(height(true), 1.0);
   EXPECT_GE(height(false), 1.3);  // measured 1.45
@@ -230,7 +229,7 @@ TEST(ScatteredSamples, AreAsGoodAsTheFormulaTheyAreTakenFrom) {
   const std::vector<std::string> size{"particles.per_axis=200", "evaluate.per_axis=61", "output.times=[\"2*pi\"]"};
   Case fitted = gaussdrift::read_case(cases_folder + "scattered_samples.toml", size).spec, exact = fitted;
   exact.velocity = {ExpressionVelocity{{"-y*exp(-x^2 - y^2)", "x*exp(-x^2 - y^2)"}}};
-  const auto error = [](const Case& scene) { return Simulation(scene).run().frames.back().second.error->l1; };
+  const auto error = [](const Case& spec) { return Simulation(spec).run().frames.back().second.error->l1; };
   EXPECT_NEAR(error(fitted), error(exact), 8e-4 * error(exact));
 }
 
@@ -243,11 +242,11 @@ TEST(RotatingCone, ApproachesTheExactConeAtEveryOutput) {
 }
 
 TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
-  const Case scene =
-      gaussdrift::read_case(cases_folder + "rotating_cone.toml",
-                            {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"})
-          .spec;
-  Simulation simulation(scene);
+  const Case spec =
+      input::read_case(cases_folder + "rotating_cone.toml",
+                       {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"})
+          .scene;
+  Simulation simulation(spec);
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.particles, 4384u);  // two of 4386 lattice points have 3e-18 of the largest weight
   const reproduce::PublishedTable heights("schroeder-table-5.1");

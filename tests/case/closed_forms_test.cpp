@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-Case scene_of(const std::string& text) { return gaussdrift::parse_case(text, "scene.toml").spec; }
+Case spec_of(const std::string& text) { return input::parse_case(text, "scene.toml").scene; }
 
 const std::string rest =
     "[evaluate]\nper_axis = 5\n[output]\ntimes = [\"T\"]\nvtk = []\nimages = []\nreport = \"none\"\n[reference]\nkind "
@@ -21,8 +21,8 @@ const std::string rest =
 
 /// Largest distance of the particles at the end from where the closed form has them.
 template <class Flow>
-double largest_error(const Case& scene, const Flow& flow) {
-  Simulation simulation(scene);
+double largest_error(const Case& spec, const Flow& flow) {
+  Simulation simulation(spec);
   simulation.prepare();
   const Particles start = simulation.particles();
   simulation.run();
@@ -50,16 +50,16 @@ TEST(FabbroniEddies, AreFollowedToTwelveDigits) {
   // rk4 with steps of 0.01: 216 steps, each 0.01^5/120 of 0.03; published tests of others allow 1e-5.
   constexpr double bound = 5.5e-13;
   EXPECT_LT(
-      largest_error(scene_of(eddy("u0*cos(t)", "-u0*sin(t)")),
+      largest_error(spec_of(eddy("u0*cos(t)", "-u0*sin(t)")),
                     [&](double x, double y) { return std::pair(x + u0 * std::sin(T), y - u0 * (1 - std::cos(T))); }),
       bound);
-  EXPECT_LT(largest_error(scene_of(eddy("ug + (u0 - ug)*cos(t)", "-(u0 - ug)*sin(t)")),
+  EXPECT_LT(largest_error(spec_of(eddy("ug + (u0 - ug)*cos(t)", "-(u0 - ug)*sin(t)")),
                           [&](double x, double y) {
                             return std::pair(x + ug * T + (u0 - ug) * std::sin(T), y - (u0 - ug) * (1 - std::cos(T)));
                           }),
             bound);
   // Decaying: int e^{-g s} cos s ds = (g + e^{-gT}(sin T - g cos T)) / (1 + g^2), and likewise for sin.
-  EXPECT_LT(largest_error(scene_of(eddy("ug*exp(-gg*t) + (u0 - ug)*exp(-g*t)*cos(t)", "-(u0 - ug)*exp(-g*t)*sin(t)")),
+  EXPECT_LT(largest_error(spec_of(eddy("ug*exp(-gg*t) + (u0 - ug)*exp(-g*t)*cos(t)", "-(u0 - ug)*exp(-g*t)*sin(t)")),
                           [&](double x, double y) {
                             const double e = std::exp(-g * T), c = std::cos(T), s = std::sin(T);
                             return std::pair(
@@ -73,13 +73,13 @@ TEST(ViscousTaylorGreenCells, AreTheSamePathsAtAnotherPace) {
   // With u = (sin x cos y, -cos x sin y) e^{-2 nu t} a path is that of the steady cells at s = (1 - e^{-2 nu t}) / (2
   // nu).
   const auto particles_of = [](const std::string& factor, double end) {
-    const Case scene = scene_of("gaussdrift = 1\n[params]\nT = " + std::to_string(end) +
+    const Case spec = spec_of("gaussdrift = 1\n[params]\nT = " + std::to_string(end) +
                                 "\n[domain]\nmin = [0, 0]\nmax = [3, 3]\n[velocity]\nu = [\"sin(x)*cos(y)*" + factor +
                                 "\", \"-cos(x)*sin(y)*" + factor +
                                 "\"]\n[density]\nshape = \"disk\"\ncenter = [1, 1.2]\nradius = "
                                 "0.6\n[particles]\nper_axis = 31\n[time]\nend = \"T\"\nstep = 0.005\n" +
                                 rest);
-    Simulation simulation(scene);
+    Simulation simulation(spec);
     simulation.run();
     return simulation.particles();
   };
@@ -93,7 +93,7 @@ TEST(ViscousTaylorGreenCells, AreTheSamePathsAtAnotherPace) {
 TEST(Puff, DriftsSpreadsAndDecaysAsItsFormulaSays) {
   // rho = R^2/w exp(-|x - U t|^2/w - k t), w = R^2 + 4 D t: core spreading is exact in a uniform flow, and the decay
   // is.
-  const Case scene = scene_of(
+  const Case spec = spec_of(
       "gaussdrift = 1\n[params]\nD = 0.004\nk = 0.7\n[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[velocity]\nfield = "
       "\"translation\"\nvelocity = [0.3, "
       "-0.2]\n[density]\nshape = \"gaussian\"\ncenter = [-0.2, 0.1]\nradius = 0.15\n[particles]\nper_axis = "
@@ -103,7 +103,7 @@ TEST(Puff, DriftsSpreadsAndDecaysAsItsFormulaSays) {
       "report = \"none\"\n[effects.diffusion]\nD = \"D\"\n[effects.reaction]\nrate = \"k\"\n[reference]\nkind = "
       "\"exact\"\nrho = "
       "\"0.0225/(0.0225 + 4*D*t)*exp(-((x + 0.2 - 0.3*t)^2 + (y - 0.1 + 0.2*t)^2)/(0.0225 + 4*D*t) - k*t)\"\n");
-  Simulation simulation(scene);
+  Simulation simulation(spec);
   const RunSummary summary = simulation.run();
   for (const auto& [time, numbers] : summary.frames) {
     EXPECT_LT(numbers.error->linf, 1.6e-6) << time;  // gauss8 with eps/R = 1/6: (eps/R)^8
@@ -113,13 +113,13 @@ TEST(Puff, DriftsSpreadsAndDecaysAsItsFormulaSays) {
 
 TEST(MolenkampCrowley, ComesBackAfterATurn) {
   // Their Gaussian 0.01^{4 r^2} about (-1/2, 0), one turn with u = 2 pi (-y, x).
-  const Case scene = scene_of(
+  const Case spec = spec_of(
       "gaussdrift = 1\n[domain]\nmin = [-1.5, -1.5]\nmax = [1.5, 1.5]\n[velocity]\nu = [\"-2*pi*y\", "
       "\"2*pi*x\"]\n[density]\nexpression = "
       "\"0.01^(4*((x + 0.5)^2 + y^2))\"\n[particles]\nper_axis = 201\ncutoff = \"gauss6\"\n[time]\nend = 1\nstep = "
       "0.005\n[evaluate]\nper_axis = "
       "61\n[output]\ntimes = [0, 1]\nvtk = []\nimages = []\nreport = \"none\"\n");
-  Simulation simulation(scene);
+  Simulation simulation(spec);
   const auto frames = simulation.run().frames;
   EXPECT_NEAR(frames.back().second.error->linf, frames.front().second.error->linf,
               8e-9);                                  // 2 pi theta^4/120, theta = 2 pi/200

@@ -30,7 +30,7 @@ std::vector<std::string> settings_in(const std::string& text) {
 struct Reduced {
   std::string file;
   std::vector<std::string> overrides;
-  Case scene(const std::vector<std::string>& more = {}) const {
+  Case spec(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> all = overrides;
     all.insert(all.end(), more.begin(), more.end());
     return gaussdrift::read_case(file, all).spec;
@@ -38,7 +38,7 @@ struct Reduced {
   /// Why the case with these settings does not begin; empty: it does.
   std::string refusal(const std::vector<std::string>& settings) const {
     try {
-      Simulation(scene(settings)).prepare();
+      Simulation(spec(settings)).prepare();
     } catch (const Error& error) {
       return error.what();
     }
@@ -65,26 +65,26 @@ class Gallery : public testing::TestWithParam<std::string> {};
 
 TEST_P(Gallery, RunsWithWhatIsRecommended) {
   const Reduced small = reduced(GetParam());
-  const Case scene = small.scene();
-  const Scene parts = make_scene(scene);
-  const double work = work_of(scene, parts, seed_scene(parts, 0).size()).total();
+  const Case spec = small.spec();
+  const Scene scene = make_scene(spec);
+  const double work = work_of(spec, scene, seed_scene(scene, 0).size()).total();
   constexpr double long_run = 4e6;  // a tenth of a second
   // The hints of check, and those of a run.
   if (work < long_run) {
-    const accuracy::Budget predicted = accuracy::predict_budget(scene, parts, accuracy::Effort::whatever, 0);
+    const accuracy::Budget predicted = accuracy::predict_budget(spec, scene, accuracy::Effort::whatever, 0);
     for (const std::string& advice : predicted.advice) expect_to_run(small, advice);
     if (predicted.known()) {
       accuracy::LastFrame::Kept last;
-      Simulation simulation(scene);
-      simulation.observe(std::make_unique<accuracy::LastFrame>(last, scene.output.times.back()));
+      Simulation simulation(spec);
+      simulation.observe(std::make_unique<accuracy::LastFrame>(last, spec.output.times.back()));
       simulation.run();
       for (const std::string& advice :
-           accuracy::measure_budget(scene, parts, last, accuracy::Effort::share_of_run, 0).advice)
+           accuracy::measure_budget(spec, scene, last, accuracy::Effort::share_of_run, 0).advice)
         expect_to_run(small, advice);
     }
   }
   // The studies that recommend something.
-  const Experiment steps = study_steps(scene, 0, 0.2);
+  const Experiment steps = study_steps(spec, 0, 0.2);
   if (steps.conclusion.find("No method") != 0) expect_to_run(small, steps.conclusion);
   for (std::size_t i = 0; i < steps.samples.size(); ++i) {
     const Sample& sample = steps.samples[i];  // the first of a method has its longest step
@@ -94,9 +94,9 @@ TEST_P(Gallery, RunsWithWhatIsRecommended) {
     EXPECT_EQ(small.refusal({"time.method=\"" + sample.values[0] + '"', "time.step=" + sample.values[1]}), "")
         << sample.values[0] << " " << sample.values[1] << ": a row of the table of steps";
   }
-  if (scene.reference.kind == ReferenceSpec::Kind::none || work > long_run) return;
+  if (spec.reference.kind == ReferenceSpec::Kind::none || work > long_run) return;
   const StudyOptions options{.file = small.file, .overrides = {}, .vary = {}, .repeats = 0};
-  const Experiment lattice = study_lattice(scene, options, 0.1);
+  const Experiment lattice = study_lattice(spec, options, 0.1);
   if (lattice.conclusion.empty()) return;
   const std::size_t second = lattice.conclusion.find(';');
   expect_to_run(small, lattice.conclusion.substr(0, second));
@@ -106,7 +106,7 @@ TEST_P(Gallery, RunsWithWhatIsRecommended) {
 TEST(Accuracy, ChoosesWhatRuns) {
   for (const char* name : {"decay", "divergent_flow"}) {
     const Reduced small = reduced(name);
-    expect_to_run(small, to_text(accuracy::choose_for_accuracy(small.scene(), 0.3, 0)));
+    expect_to_run(small, to_text(accuracy::choose_for_accuracy(small.spec(), 0.3, 0)));
   }
 }
 
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Recommendations, Gallery, testing::ValuesIn(gallery()),
 // and refused), charges, an exchange between particles.
 TEST(StepStudy, KnowsTheRulesOfTheEffects) {
   const Reduced kirchhoff = reduced("kirchhoff"), diffusion = reduced("shear_diffusion");
-  const Experiment steps = study_steps(kirchhoff.scene(), 0, 2);
+  const Experiment steps = study_steps(kirchhoff.spec(), 0, 2);
   ASSERT_FALSE(steps.samples.empty());
   EXPECT_NE(kirchhoff.refusal({"time.method=euler", "time.step=0.44"}), "");
   bool rk4 = false;
@@ -139,28 +139,28 @@ TEST(StepStudy, KnowsTheRulesOfTheEffects) {
   Reduced exchange = diffusion;
   exchange.overrides.insert(exchange.overrides.end(), {"effects.diffusion.method=\"particle-exchange\"",
                                                        "effects.diffusion.D=0.05", "time.step=0.01"});
-  const Experiment shorter = study_steps(exchange.scene(), 0, 1);
+  const Experiment shorter = study_steps(exchange.spec(), 0, 1);
   ASSERT_FALSE(shorter.samples.empty());
   for (const Sample& sample : shorter.samples) EXPECT_NE(sample.values[0], "dopri5") << "does not go with it";
   expect_to_run(exchange, shorter.conclusion);
 }
 
 TEST(WouldRun, SaysWhatRunSays) {
-  Case scene = reduced("kirchhoff").scene();
-  EXPECT_EQ(accuracy::why_refused(scene, 0), "");
-  scene.time.step = 0.44;
-  EXPECT_NE(accuracy::why_refused(scene, 0).find("[effects.vortex]"), std::string::npos)
-      << accuracy::why_refused(scene, 0);
-  scene = reduced("kirchhoff").scene();
-  scene.particles.cutoff = "gauss4";
-  EXPECT_NE(accuracy::why_refused(scene, 0).find("needs particles.cutoff = \"gauss2\""), std::string::npos)
-      << accuracy::why_refused(scene, 0);
-  scene = reduced("scattered_samples").scene();  // data are not read again: not even there
-  std::get<GaussianVelocitySpec>(scene.velocity[0]).file = "/nowhere/samples.csv";
-  EXPECT_EQ(accuracy::why_refused(scene, 0), "");
-  scene.evaluate.tolerance = 2;
-  EXPECT_NE(accuracy::why_refused(scene, 0).find("evaluate.tolerance must be"), std::string::npos)
-      << accuracy::why_refused(scene, 0);
+  Case spec = reduced("kirchhoff").spec();
+  EXPECT_EQ(accuracy::why_refused(spec, 0), "");
+  spec.time.step = 0.44;
+  EXPECT_NE(accuracy::why_refused(spec, 0).find("[effects.vortex]"), std::string::npos)
+      << accuracy::why_refused(spec, 0);
+  spec = reduced("kirchhoff").spec();
+  spec.particles.cutoff = "gauss4";
+  EXPECT_NE(accuracy::why_refused(spec, 0).find("needs particles.cutoff = \"gauss2\""), std::string::npos)
+      << accuracy::why_refused(spec, 0);
+  spec = reduced("scattered_samples").spec();  // data are not read again: not even there
+  std::get<GaussianVelocitySpec>(spec.velocity[0]).file = "/nowhere/samples.csv";
+  EXPECT_EQ(accuracy::why_refused(spec, 0), "");
+  spec.evaluate.tolerance = 2;
+  EXPECT_NE(accuracy::why_refused(spec, 0).find("evaluate.tolerance must be"), std::string::npos)
+      << accuracy::why_refused(spec, 0);
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ TEST(Variation, IsSplitAtCommasOutsideOfListsAndQuotes) {
 }
 
 TEST(Experiment, KnowsItsFrontAndItsOrders) {
-  Case scene;
-  scene.time.method = "rk4";
+  Case spec;
+  spec.time.method = "rk4";
   Experiment experiment;
   experiment.keys = {"time.step"};
   for (const auto& [step, error, seconds] :
@@ -38,7 +38,7 @@ TEST(Experiment, KnowsItsFrontAndItsOrders) {
     sample.seconds = seconds;
     experiment.samples.push_back(sample);
   }
-  finish(experiment, scene);
+  finish(experiment, spec);
   EXPECT_NEAR(experiment.samples[1].order, 4, 1e-14);
   EXPECT_NEAR(experiment.samples[2].order, 4, 1e-14);
   EXPECT_TRUE(experiment.samples[2].on_front);
@@ -159,8 +159,8 @@ kind = "none"
 }
 
 TEST(StandardStudies, SeeTheOrdersOfTheMethods) {
-  const Case scene = gaussdrift::read_case(cases + "rotating_cone.toml", {"particles.per_axis=60"}).spec;
-  const Experiment steps = study_steps(scene, 0, 5);
+  const Case spec = input::read_case(cases + "rotating_cone.toml", {"particles.per_axis=60"}).scene;
+  const Experiment steps = study_steps(spec, 0, 5);
   for (const std::string wanted : {"euler: observed order 1.0", "heun: observed order 2.0", "rk4: observed order 4.0"})
     EXPECT_TRUE(std::any_of(steps.notes.begin(), steps.notes.end(), [&](const std::string& note) {
       return note.find(wanted) == 0;
