@@ -59,8 +59,7 @@ enum class Causes { lattice, all };
 
 /// Before the run. Paths are followed at 1e-8, exact densities are taken at some thousand grid points. Steps are tried
 /// with a sample of the particles, or with longer steps whose error is scaled back by the method's order.
-Budget predict_budget(const Case& spec, const Scene& scene, Effort effort, int threads,
-                      Causes causes = Causes::all);
+Budget predict_budget(const Case& spec, const Scene& scene, Effort effort, int threads, Causes causes = Causes::all);
 
 /// The same for at most what is left of the allowance, else Budget::too_dear.
 Budget predict_budget(const Case& spec, const Scene& scene, Allowance& allowance, int threads,
@@ -87,8 +86,7 @@ class LastFrame : public Observer {
 };
 
 /// After the run, at the points with the largest errors; how many follows from what the run cost.
-Budget measure_budget(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort,
-                      int threads);
+Budget measure_budget(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads);
 
 /// A line a cause, the dominating one marked, and the advice.
 std::string to_text(const Budget& budget);

@@ -62,8 +62,8 @@ std::optional<Settings> try_lattice(Case spec, int per_axis, double overlap, Sea
   spec.particles.per_axis = per_axis;
   spec.particles.overlap = overlap;
   if (search.doing)
-    search.doing(fmt::format("trying cutoff = \"{}\", overlap = {:g}, per_axis = {}", spec.particles.cutoff, overlap,
-                             per_axis));
+    search.doing(
+        fmt::format("trying cutoff = \"{}\", overlap = {:g}, per_axis = {}", spec.particles.cutoff, overlap, per_axis));
   const Scene scene = make_scene(spec, search.threads);
   Allowance one{std::min(search.allowance.left(), search.allowance.work / 6)};
   const Budget budget = predict_budget(spec, scene, one, search.threads, Causes::lattice);

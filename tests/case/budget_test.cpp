@@ -56,8 +56,7 @@ TEST(Budget, OfTheRotatingConeIsWhatIsKnownOfIt) {
 }
 
 TEST(Budget, OfLongStepsIsTheLagOfRungeKutta) {
-  const Case spec =
-      built_in("rotating_cone", {"time.step=pi/15", "output.times=[\"2*pi\"]", "particles.per_axis=150"});
+  const Case spec = built_in("rotating_cone", {"time.step=pi/15", "output.times=[\"2*pi\"]", "particles.per_axis=150"});
   const double theta = pi / 15, lag = 2 * pi * std::pow(theta, 4) / 120;
   // The density changes by its slope along the circle times 0.5 lag; the largest slope of the cone is 2.1/R.
   const double largest = 2.11 / 0.25 * 0.5 * lag;
@@ -70,8 +69,8 @@ TEST(Budget, OfLongStepsIsTheLagOfRungeKutta) {
 TEST(Budget, OfSparseParticlesIsTheRippleOfTheirSum) {
   // c = 0.75 and a density that is nearly constant where it is largest: 2 exp(-pi^2 c^2) an axis.
   const Case spec = built_in("rotating_cone", {"density.shape=gaussian", "density.radius=0.5", "density.center=[0, 0]",
-                                                "domain.min=[-2, -2]", "domain.max=[2, 2]", "particles.per_axis=161",
-                                                "particles.overlap=0.75", "output.times=[0, \"pi\"]"});
+                                               "domain.min=[-2, -2]", "domain.max=[2, 2]", "particles.per_axis=161",
+                                               "particles.overlap=0.75", "output.times=[0, \"pi\"]"});
   const double ripple = 2 * 2 * std::exp(-pi * pi * 0.75 * 0.75);
   for (const Budget& budget : {predicted(spec), measured(spec).budget}) {
     EXPECT_EQ(budget.dominates, "quadrature");
@@ -270,10 +269,9 @@ TEST(Budget, BoundsWhatTheThresholdLeavesOut) {
 }
 
 TEST(Budget, NamesTheThresholdWhereItDominates) {
-  const Case spec =
-      built_in("rotating_cone",
-               {"density.shape=gaussian", "density.radius=0.2", "particles.per_axis=151", "particles.cutoff=gauss8",
-                "evaluate.per_axis=61", "time.step=0.05", "output.times=[\"pi\"]", "particles.threshold=1e-2"});
+  const Case spec = built_in("rotating_cone", {"density.shape=gaussian", "density.radius=0.2", "particles.per_axis=151",
+                                               "particles.cutoff=gauss8", "evaluate.per_axis=61", "time.step=0.05",
+                                               "output.times=[\"pi\"]", "particles.threshold=1e-2"});
   const Budget budget = predicted(spec);
   EXPECT_EQ(budget.dominates, "particles left out");
   EXPECT_NE(std::find(budget.advice.begin(), budget.advice.end(), "particles.threshold = 0 leaves nothing out"),

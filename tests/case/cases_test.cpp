@@ -215,8 +215,8 @@ TEST(SwirlRemesh, KeepsTheFilamentWhole) {
   // The exact density is at most 1; without remeshing rows of spots stand out of the filament.
   const auto height = [](bool remesh) {
     Case spec = input::read_case(cases_folder + "swirl_remesh.toml",
-                                  {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
-                     .scene;
+                                 {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
+                    .scene;
     spec.reference = {}, spec.checks.clear();
     if (!remesh) spec.effects.remove("remesh");
     return Simulation(spec).run().frames.back().second.maximum;

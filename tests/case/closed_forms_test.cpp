@@ -74,11 +74,11 @@ TEST(ViscousTaylorGreenCells, AreTheSamePathsAtAnotherPace) {
   // nu).
   const auto particles_of = [](const std::string& factor, double end) {
     const Case spec = spec_of("gaussdrift = 1\n[params]\nT = " + std::to_string(end) +
-                                "\n[domain]\nmin = [0, 0]\nmax = [3, 3]\n[velocity]\nu = [\"sin(x)*cos(y)*" + factor +
-                                "\", \"-cos(x)*sin(y)*" + factor +
-                                "\"]\n[density]\nshape = \"disk\"\ncenter = [1, 1.2]\nradius = "
-                                "0.6\n[particles]\nper_axis = 31\n[time]\nend = \"T\"\nstep = 0.005\n" +
-                                rest);
+                              "\n[domain]\nmin = [0, 0]\nmax = [3, 3]\n[velocity]\nu = [\"sin(x)*cos(y)*" + factor +
+                              "\", \"-cos(x)*sin(y)*" + factor +
+                              "\"]\n[density]\nshape = \"disk\"\ncenter = [1, 1.2]\nradius = "
+                              "0.6\n[particles]\nper_axis = 31\n[time]\nend = \"T\"\nstep = 0.005\n" +
+                              rest);
     Simulation simulation(spec);
     simulation.run();
     return simulation.particles();

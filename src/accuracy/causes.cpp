@@ -1,0 +1,59 @@
+#include "accuracy/causes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/longest_side.hpp"
+#include "sim/outside.hpp"
+
+namespace gaussdrift::accuracy {
+
+namespace {
+
+constexpr double few = 2.5e6;  // work of a tenth of a second
+
+double sum_of_weights(const Particles& particles) {
+  double sum = 0;
+  for (const double alpha : particles.alpha) sum += std::abs(alpha);
+  return sum;
+}
+
+}  // namespace
+
+void find_dominating(Budget& budget) {
+  budget.dominates = std::max_element(causes.begin(), causes.end(), [&](const Cause& a, const Cause& b) {
+                       return budget.*a.error < budget.*b.error;
+                     })->name;
+}
+
+std::string nothing_to_explain(const Particles& last, double outside, double time) {
+  const double weight = sum_of_weights(last);
+  if (weight > 0 && !is_all(outside)) return "";
+  return fmt::format("at t = {:.4g} {}", time, why_nothing_is_left(outside, weight));
+}
+
+double bound_of_left_out(const Scene& scene, const SeedReport& report, const Particles& start, const Particles& carried,
+                         double norm) {
+  if (report.left_out == 0) return 0;
+  double growth = 1;
+  for (std::size_t j = 0; scene.decay_rate && j < carried.size(); ++j)
+    if (start.alpha[j] != 0) growth = std::max(growth, std::abs(carried.alpha[j] / start.alpha[j]));
+  return growth * density_left_out(scene, report) / norm;
+}
+
+double extent(const Case& spec) { return longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max); }
+
+double work_allowed(const Case& spec, const Scene& scene, std::size_t particles, double share) {
+  return std::max(few, share * work_of(spec, scene, particles).total());
+}
+
+Budget checked(Budget budget) {
+  for (const double error : {budget.time_stepping, budget.smoothing, budget.quadrature, budget.total})
+    if (budget.known() && !std::isfinite(error))
+      budget.not_covered = "density or velocity are not finite somewhere between the lattice points";
+  return budget;
+}
+
+}  // namespace gaussdrift::accuracy

@@ -1,0 +1,88 @@
+#include "accuracy/other_lattices.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy/probes.hpp"
+#include "particle/subset.hpp"
+
+namespace gaussdrift::accuracy {
+
+namespace {
+
+/// The cells of the lattice that have one of these particles at a corner. Cell i of an axis is left of lattice point i;
+/// there is one more than points.
+std::vector<std::size_t> cells_around(const Particles& start, const Lattice& lattice) {
+  std::vector<std::size_t> cells;
+  for (const auto id : start.id)
+    for (int corner = 0; corner < (1 << start.dimension); ++corner) {
+      std::size_t rest = static_cast<std::size_t>(id), cell = 0, stride = 1;
+      bool inside = true;
+      for (int k = 0; k < start.dimension; ++k) {
+        const std::size_t i = rest % lattice.points[k] + static_cast<std::size_t>(corner >> k & 1);
+        inside = inside && 0 < i && i < lattice.points[k];
+        cell += stride * i;
+        rest /= lattice.points[k];
+        stride *= lattice.points[k] + 1;
+      }
+      if (inside) cells.push_back(cell);
+    }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+/// Gives all particles the weights of the initial density, each in a cell of the lattice.
+void weigh(Particles& particles, const Scene& scene) {
+  particles.alpha.assign(particles.position[0].size(), 0.0);
+  scene.density->add(particles.view(), particles.alpha.data());
+  const double cell = std::pow(scene.seeding.spacing, particles.dimension);
+  for (double& alpha : particles.alpha) alpha *= cell;
+}
+
+}  // namespace
+
+Particles at_start(const Particles& particles, const std::vector<std::size_t>& chosen, const Scene& scene) {
+  Particles start;
+  start.dimension = particles.dimension;
+  for (const std::size_t j : chosen) {
+    const Vector x = grid_point(scene.seeding, static_cast<std::size_t>(particles.id[j]));
+    for (int k = 0; k < start.dimension; ++k) start.position[k].push_back(x[k]);
+    start.id.push_back(particles.id[j]);
+  }
+  weigh(start, scene);
+  return start;
+}
+
+Particles between(const Particles& start, const Scene& scene) {
+  const Lattice& lattice = scene.seeding;
+  Particles moved;
+  moved.dimension = start.dimension;
+  for (std::size_t cell : cells_around(start, lattice)) {
+    for (int k = 0; k < start.dimension; ++k) {
+      moved.position[k].push_back(lattice.coordinate(k, cell % (lattice.points[k] + 1)) - lattice.spacing / 2);
+      cell /= lattice.points[k] + 1;
+    }
+    moved.id.push_back(0);
+  }
+  weigh(moved, scene);
+  return moved;
+}
+
+Particles thinned(const Particles& particles, const Lattice& lattice, std::size_t stride) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    auto rest = static_cast<std::size_t>(particles.id[j]);
+    bool kept = true;
+    for (int k = 0; k < particles.dimension; ++k) {
+      kept = kept && rest % lattice.points[k] % stride == 0;
+      rest /= lattice.points[k];
+    }
+    if (kept) chosen.push_back(j);
+  }
+  Particles thin = subset(particles, chosen);
+  for (double& alpha : thin.alpha) alpha *= std::pow(static_cast<double>(stride), particles.dimension);
+  return thin;
+}
+
+}  // namespace gaussdrift::accuracy
