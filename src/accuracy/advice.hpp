@@ -7,7 +7,7 @@
 
 #include "accuracy/budget.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 

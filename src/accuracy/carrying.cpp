@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "accuracy/other_lattices.hpp"
+#include "sim/carrier.hpp"
+#include "sim/landings.hpp"
 #include "sim/stepper.hpp"
+#include "sim/work.hpp"
 #include "time/schedule.hpp"
 
 namespace gaussdrift::accuracy {
@@ -17,13 +20,13 @@ void carry_by_steps(const Case& spec, const Scene& scene, Particles& particles, 
   if (time::is_adaptive(time::find_tableau(longer.time.method))) longer.time.tolerance *= std::pow(factor, 5);
   Carrier carrier(longer, scene, threads);
   carrier.begin(particles);
-  base::StageTimes ignored;
+  StageTimes ignored;
   double now = 0;
   std::size_t steps = 0;
   const double last = spec.output.times.back();
   for (const double to : landings(spec)) {
     if (to > last) break;
-    steps += carrier.carry(particles, now, to, steps, ignored, [](double, std::size_t) {});
+    steps += carrier.carry(particles, now, to, steps, ignored);
     now = to;
   }
 }

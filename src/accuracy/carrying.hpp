@@ -3,7 +3,7 @@
 
 #include "gaussdrift/case.hpp"
 #include "reference/exact_paths.hpp"
-#include "sim/simulation.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 

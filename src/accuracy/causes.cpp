@@ -7,6 +7,7 @@
 
 #include "base/longest_side.hpp"
 #include "sim/outside.hpp"
+#include "sim/work.hpp"
 
 namespace gaussdrift::accuracy {
 

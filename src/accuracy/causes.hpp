@@ -6,9 +6,9 @@
 #include <string>
 
 #include "accuracy/budget.hpp"
-#include "base/error.hpp"
 #include "gaussdrift/case.hpp"
-#include "sim/simulation.hpp"
+#include "gaussdrift/error.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 

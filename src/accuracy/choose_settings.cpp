@@ -6,7 +6,7 @@ namespace gaussdrift {
 
 Case choose_settings(const Case& spec, int threads) {
   if (!spec.accuracy.target) return spec;
-  return accuracy::choose_for_accuracy(spec, *spec.accuracy.target, threads).scene;
+  return accuracy::choose_for_accuracy(spec, *spec.accuracy.target, threads).spec;
 }
 
 }  // namespace gaussdrift

@@ -6,7 +6,8 @@
 
 #include "gaussdrift/case.hpp"
 #include "reference/reference.hpp"
-#include "sim/simulation.hpp"
+#include "sim/comparison.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 

@@ -11,9 +11,11 @@
 #include "accuracy/other_lattices.hpp"
 #include "accuracy/probes.hpp"
 #include "reference/sample.hpp"
+#include "sim/landings.hpp"
 #include "sim/outside.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/transform.hpp"
+#include "sim/work.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::accuracy {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "base/lattice.hpp"
+#include "gaussdrift/lattice.hpp"
+#include "gaussdrift/particles.hpp"
 #include "particle/cutoff.hpp"
-#include "particle/particles.hpp"
 
 namespace gaussdrift::accuracy {
 

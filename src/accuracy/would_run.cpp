@@ -32,7 +32,7 @@ std::string first_line(const std::string& text) {
 
 std::string why_not_read(const Case& spec) {
   try {
-    input::parse_case(input::resolved_toml(without_data(spec)), "run.toml");
+    parse_case(case_text(without_data(spec)), "run.toml");
   } catch (const Error& error) {
     return first_line(error.what());
   }

@@ -183,7 +183,7 @@ void finish(Experiment& experiment, const Case& spec) {
 
 Study run_study(const StudyOptions& options) {
   const base::Stopwatch watch;
-  const Case spec = input::read_case(options.file, options.overrides, options.threads).scene;
+  const Case spec = read_case(options.file, options.overrides, options.threads).spec;
   Study study{spec.name, spec.title, {}, base::resolve_threads(options.threads), 0};
   if (options.vary.empty()) {
     const auto tell = [&](const std::string& what) {
@@ -193,7 +193,7 @@ Study run_study(const StudyOptions& options) {
       study.experiments.push_back(std::move(experiment));
       if (options.table_grew) options.table_grew(study.experiments.back());
     };
-    accuracy::refuse_what_does_not_fit(spec, options.threads);
+    refuse_what_does_not_fit(spec, options.threads);
     tell("the Gauss transform");
     add(study_transform(spec, options.threads, 0.1 * options.seconds));
     tell("steps");

@@ -151,13 +151,13 @@ TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
 // which paths stick, a wind with a kink at every cell, a rate that no step likes.
 TEST(PointsCompared, TakeNoMoreWorkThanIsAllowed) {
   const auto spec_of = [](const std::string& velocity, const std::string& more = "") {
-    return input::parse_case("gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
-                                 "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
-                                 "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
-                                 "[evaluate]\nper_axis = 64\n" +
-                                 more,
-                             "stiff.toml")
-        .scene;
+    return parse_case("gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
+                          "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
+                          "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
+                          "[evaluate]\nper_axis = 64\n" +
+                          more,
+                      "stiff.toml")
+        .spec;
   };
   const double few = 2.5e6;  // a tenth of a second
   for (const char* velocity :

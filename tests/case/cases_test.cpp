@@ -55,7 +55,7 @@ class CompareWithExact : public Observer {
 };
 
 std::vector<Errors> errors_of(const std::string& name, const std::vector<std::string>& overrides) {
-  const Case spec = input::read_case(cases_folder + name + ".toml", overrides).scene;
+  const Case spec = read_case(cases_folder + name + ".toml", overrides).spec;
   const Scene scene = make_scene(spec);
   std::vector<Errors> errors;
   Simulation simulation(spec);
@@ -121,7 +121,7 @@ const std::vector<Reduced> reduced_cases = {
 };
 
 std::vector<FrameNumbers> run_reduced(const Reduced& reduced) {
-  const Case spec = input::read_case(cases_folder + reduced.name + ".toml", reduced.overrides).scene;
+  const Case spec = read_case(cases_folder + reduced.name + ".toml", reduced.overrides).spec;
   Simulation simulation(spec);
   std::vector<FrameNumbers> numbers;
   for (const auto& [time, frame] : simulation.run().frames) numbers.push_back(frame);
@@ -171,7 +171,7 @@ TEST(Cases, StayNearTheirExactDensityAndKeepTheirMass) {
 TEST(Cases, ThatTurnBackAreCheckedWhereTheyTurn) {
   int found = 0;
   for (const std::string& name : all_cases()) {
-    const Case spec = input::read_case(cases_folder + name + ".toml", {}).scene;
+    const Case spec = read_case(cases_folder + name + ".toml", {}).spec;
     for (const VelocitySpec& part : spec.velocity) {
       const auto* named = std::get_if<NamedVelocity>(&part);
       if (!named || (named->field != "swirl" && named->field != "deformation")) continue;
@@ -189,14 +189,14 @@ TEST(Cases, ThatTurnBackAreCheckedWhereTheyTurn) {
 }
 
 TEST(Decay, IsExactWhateverTheStep) {
-  const Case spec = input::read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).scene;
+  const Case spec = read_case(cases_folder + "decay.toml", {"particles.per_axis=100", "time.step=0.5"}).spec;
   const auto frames = Simulation(spec).run().frames;
   for (const auto& [time, frame] : frames)
     EXPECT_NEAR(frame.mass / frames.front().second.mass, std::exp(-0.3 * time), 2.3e-15);  // rounding of the exponent
 }
 
 TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
-  const Case spec = input::read_case(cases_folder + "stiff_reaction.toml", {"particles.per_axis=200"}).scene;
+  const Case spec = read_case(cases_folder + "stiff_reaction.toml", {"particles.per_axis=200"}).spec;
   Simulation simulation(spec);
   const RunSummary summary = simulation.run();
   const Particles& particles = simulation.particles();
@@ -214,9 +214,9 @@ TEST(StiffReaction, LeavesNothingInTheGrooveAndNothingNegative) {
 TEST(SwirlRemesh, KeepsTheFilamentWhole) {
   // The exact density is at most 1; without remeshing rows of spots stand out of the filament.
   const auto height = [](bool remesh) {
-    Case spec = input::read_case(cases_folder + "swirl_remesh.toml",
-                                 {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
-                    .scene;
+    Case spec = read_case(cases_folder + "swirl_remesh.toml",
+                          {"particles.per_axis=151", "time.step=0.1", "output.times=[\"T/2\"]"})
+                    .spec;
     spec.reference = {}, spec.checks.clear();
     if (!remesh) spec.effects.remove("remesh");
     return Simulation(spec).run().frames.back().second.maximum;
@@ -242,10 +242,9 @@ TEST(RotatingCone, ApproachesTheExactConeAtEveryOutput) {
 }
 
 TEST(RotatingCone, HasTheHeightOfItsStartAfterATurn) {
-  const Case spec =
-      input::read_case(cases_folder + "rotating_cone.toml",
-                       {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"})
-          .scene;
+  const Case spec = read_case(cases_folder + "rotating_cone.toml",
+                              {"evaluate.tolerance=1e-11", "evaluate.per_axis=700", "output.times=[0, \"2*pi\"]"})
+                        .spec;
   Simulation simulation(spec);
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.particles, 4384u);  // two of 4386 lattice points have 3e-18 of the largest weight

@@ -13,7 +13,7 @@ namespace {
 
 using std::numbers::pi;
 
-Case spec_of(const std::string& text) { return input::parse_case(text, "scene.toml").scene; }
+Case spec_of(const std::string& text) { return parse_case(text, "scene.toml").spec; }
 
 const std::string rest =
     "[evaluate]\nper_axis = 5\n[output]\ntimes = [\"T\"]\nvtk = []\nimages = []\nreport = \"none\"\n[reference]\nkind "

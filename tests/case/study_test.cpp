@@ -159,7 +159,7 @@ kind = "none"
 }
 
 TEST(StandardStudies, SeeTheOrdersOfTheMethods) {
-  const Case spec = input::read_case(cases + "rotating_cone.toml", {"particles.per_axis=60"}).scene;
+  const Case spec = read_case(cases + "rotating_cone.toml", {"particles.per_axis=60"}).spec;
   const Experiment steps = study_steps(spec, 0, 5);
   for (const std::string wanted : {"euler: observed order 1.0", "heun: observed order 2.0", "rk4: observed order 4.0"})
     EXPECT_TRUE(std::any_of(steps.notes.begin(), steps.notes.end(), [&](const std::string& note) {
