@@ -12,7 +12,7 @@ Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow,
   Effects made;
   for (const auto& [effect, values] : effects_of(spec.effects)) {
     const auto fields = std::find_if(scene.effect_fields.begin(), scene.effect_fields.end(),
-                                     [&name = spec.name](const EffectFields& one) { return one.effect == name; });
+                                     [&name = values.name](const EffectFields& one) { return one.effect == name; });
     const bool any = fields != scene.effect_fields.end();
     made.push_back(effect->make(values, {.spec = spec,
                                          .velocity = *scene.velocity,
