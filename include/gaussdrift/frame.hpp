@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gaussdrift/density_grid.hpp"
@@ -55,6 +56,11 @@ class Observer {
   virtual std::string name() const = 0;
   /// Called once for each output time, in their order, on the thread of run().
   virtual void frame(const Frame& frame) = 0;
+  /// Bytes that restore() needs, beside what is known of the outputs.
+  virtual std::string state() const { return {}; }
+  /// The run goes on after these outputs of an earlier process: files that hold all of them are made again. `state` is
+  /// what state() said then.
+  virtual void restore(const std::vector<std::pair<double, FrameNumbers>>& /*frames*/, const std::string& /*state*/) {}
   /// Called once after the last frame; not if the run ends before.
   virtual void finish() {}
 };

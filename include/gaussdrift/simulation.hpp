@@ -44,6 +44,18 @@ class Simulation {
   /// complete or an error ended it.
   RunSummary run();
 
+  /// All that a run needs to go on, beside the particles: how far it is, and what effects and observers have gathered.
+  /// Bytes for restore(). Wherever a progress function is called, and between calls of run(), the particles and these
+  /// bytes belong together.
+  std::string state() const;
+
+  /// Goes on where another run of this case was, with the same bits: its particles() and its state(). To be called
+  /// instead of prepare(), after the observers are added; these make again what they have written (Observer::restore).
+  /// Later outputs and time.end may differ from those of that run, and so may the number of threads. Throws what
+  /// prepare() throws, and InputError if the particles or the bytes are not those of this case, or if time.end lies
+  /// before them.
+  void restore(Particles particles, const std::string& state);
+
   /// As they are now, without copies; empty before prepare(). Weights and widths are those of the last output.
   const Particles& particles() const;
 

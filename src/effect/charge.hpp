@@ -40,6 +40,11 @@ class Charge : public Effect, private Drift {
   void begin(Particles& particles, double time) override;
   const Drift* drift() const override { return this; }
   Numbers numbers() const override;
+  /// Charges of their own follow from the particles at the start.
+  void pass_state(base::StateBytes& bytes, const Particles& /*particles*/) override {
+    bytes(total_, largest_rate_);
+    pairs_.pass_state(bytes);
+  }
 
  private:
   void add(double t, const Particles& particles, const PointsView& x, const VectorsView& u) const override;

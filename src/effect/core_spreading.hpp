@@ -26,6 +26,7 @@ class CoreSpreading : public Effect {
   /// Tells a strain that stretches fluid by more than a tenth over the run.
   std::string warning() const override;
   Numbers numbers() const override;
+  void pass_state(base::StateBytes& bytes, const Particles& /*particles*/) override { bytes(since_); }
 
  private:
   double coefficient_, end_, distance_;

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/state_bytes.hpp"
 #include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
 #include "gaussdrift/case.hpp"
@@ -64,6 +65,10 @@ class Effect {
   virtual bool rearrange(Particles& /*particles*/, double /*time*/) { return false; }
 
   virtual void land(Particles& /*particles*/, double /*time*/) {}
+
+  /// What it has gathered since begin() beside what the particles hold: writes it, or takes it up in a run that goes on
+  /// with these particles. begin() has been called before.
+  virtual void pass_state(base::StateBytes& /*bytes*/, const Particles& /*particles*/) {}
 
   /// What it did, for summary.json: name and number.
   virtual Numbers numbers() const { return {}; }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/state_bytes.hpp"
 #include "farfield/farfield.hpp"
 #include "gaussdrift/points.hpp"
 
@@ -23,6 +24,9 @@ class PairVelocity {
 
   /// Measured: what a plan and its evaluation hold a particle.
   static double bytes_of_particle(int dimension) { return dimension == 3 ? 300 : 200; }
+
+  /// See Effect::pass_state().
+  void pass_state(base::StateBytes& bytes) { bytes(evaluations_); }
 
   std::size_t evaluations() const { return evaluations_; }
   const farfield::Choice& last_choice() const { return choice_; }

@@ -65,11 +65,22 @@ std::string ParticleExchange::describe() const {
   return fmt::format("diffusion D Laplacian rho, D = {:g}, by particle exchange", options_.coefficient);
 }
 
-void ParticleExchange::begin(Particles& particles, double /*time*/) {
-  particles.volume.assign(particles.size(), nodes_.cell());
+void ParticleExchange::find_nodes(const Particles& particles) {
   at_.clear();
   at_.reserve(particles.size());
   for (std::size_t j = 0; j < particles.size(); ++j) at_.emplace(particles.id[j], j);
+}
+
+void ParticleExchange::pass_state(base::StateBytes& bytes, const Particles& particles) {
+  bytes(surrounded_, started_, most_, stable_step_);
+  if (!bytes.reading()) return;
+  if (surrounded_.size() != particles.size()) throw std::out_of_range("a halo belongs to other particles");
+  find_nodes(particles);
+}
+
+void ParticleExchange::begin(Particles& particles, double /*time*/) {
+  particles.volume.assign(particles.size(), nodes_.cell());
+  find_nodes(particles);
   surrounded_.assign(particles.size(), 0);
   if (started_ == 0) started_ = particles.size();
   grow_halo(particles);

@@ -44,11 +44,13 @@ class ParticleExchange : public Effect, private PathIntegral {
   bool acts_between_steps() const override { return true; }
   void exchange(Particles& particles, double time, double length) override;
   Numbers numbers() const override;
+  void pass_state(base::StateBytes& bytes, const Particles& particles) override;
 
  private:
   void add_rate(double t, const PointsView& x, double* rate) const override { velocity_.add_divergence(t, x, rate); }
   std::string quantity() const override { return "the divergence of the velocity"; }
 
+  void find_nodes(const Particles& particles);
   void grow_halo(Particles& particles);
   [[noreturn]] void refuse_so_many() const;
   template <int d>

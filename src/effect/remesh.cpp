@@ -224,6 +224,11 @@ void Remesh::remesh(Particles& particles) {
   most_dropped_ = std::max(most_dropped_, dropped / total);
 }
 
+void Remesh::pass_state(base::StateBytes& bytes, const Particles& /*particles*/) {
+  bytes(steps_, remeshings_, most_negative_, most_dropped_);
+  if (bytes.reading()) known_ = 0;  // neighbours follow from the particles
+}
+
 Numbers Remesh::numbers() const {
   return {{"remeshings", static_cast<double>(remeshings_)},
           {"negative_weight", most_negative_},

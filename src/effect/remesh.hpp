@@ -33,6 +33,7 @@ class Remesh : public Effect {
   bool acts_between_steps() const override { return true; }
   bool rearrange(Particles& particles, double time) override;
   Numbers numbers() const override;
+  void pass_state(base::StateBytes& bytes, const Particles& particles) override;
 
   /// Puts the weights on the lattice now. What blobs have spread (Particles::spread) goes into the weights, and they
   /// start again with the widths of the case; a piecewise kernel leaves a small spread with the blobs. Throws

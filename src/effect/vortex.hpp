@@ -30,6 +30,10 @@ class Vortex : public Effect, private Drift {
   void begin(Particles& particles, double time) override;
   const Drift* drift() const override { return this; }
   Numbers numbers() const override;
+  void pass_state(base::StateBytes& bytes, const Particles& /*particles*/) override {
+    bytes(largest_vorticity_);
+    pairs_.pass_state(bytes);
+  }
 
  private:
   void add(double t, const Particles& particles, const PointsView& x, const VectorsView& u) const override;

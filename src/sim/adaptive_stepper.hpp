@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/state_bytes.hpp"
 #include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
 #include "field/velocity/velocity.hpp"
@@ -37,6 +38,9 @@ class AdaptiveStepper {
   /// One step from `time` towards `end`; returns the time reached, exactly `end` if it is reached. Throws
   /// NumericalError naming step, time, particle and place where no step is short enough.
   double advance(Particles& particles, double time, double end, std::size_t steps_before);
+
+  /// The step that it would try next, and what it has counted: writes them, or goes on from them.
+  void pass_state(base::StateBytes& bytes) { bytes(proposal_, rejected_); }
 
   std::size_t rejected() const { return rejected_; }
   /// Seconds that the drifts have taken.

@@ -201,6 +201,15 @@ void Carrier::advance(Particles& particles, const time::Interval& interval, std:
   }
 }
 
+void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles) {
+  std::uint64_t effects = effects_.size();
+  bytes(effects);
+  if (effects != effects_.size()) throw std::out_of_range("there are other effects");
+  bytes(taken_);
+  if (adaptive_) adaptive_->pass_state(bytes);
+  for (const auto& effect : effects_) effect->pass_state(bytes, particles);
+}
+
 void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                          std::size_t steps_before, StageTimes& stages) const {
   const base::Stopwatch watch;

@@ -55,8 +55,15 @@ class Carrier {
   void advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                std::size_t steps_before, StageTimes& stages);
 
+  /// What effects and steps have gathered beside what the particles hold: writes it, or takes it up for these particles.
+  /// Throws std::out_of_range if the bytes are not those of this case.
+  void pass_state(base::StateBytes& bytes, const Particles& particles);
+
   /// True if steps are chosen by their error (time.tolerance) instead of by time.step.
   bool is_adaptive() const { return adaptive_.has_value(); }
+
+  /// True if an effect has to see the particles between any two steps.
+  bool acts_between_steps() const { return between_steps_; }
 
   /// True if an effect may put other particles in place of those that were seeded.
   bool replaces_particles() const;

@@ -1,5 +1,7 @@
 #include "gaussdrift/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +12,7 @@
 
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
+#include "base/state_bytes.hpp"
 #include "base/stopwatch.hpp"
 #include "effect/catalogue.hpp"
 #include "gaussdrift/error.hpp"
@@ -104,6 +107,8 @@ class Simulation::Parts {
         landings_(landings(case_)) {}
 
   void prepare();
+  void restore(Particles particles, const std::string& bytes);
+  std::string state();
   RunSummary run();
   const Particles& particles() const { return particles_; }
 
@@ -112,6 +117,9 @@ class Simulation::Parts {
 
  private:
   void begin();
+  void pass_state(base::StateBytes& bytes);
+  void plan_landings();
+  std::size_t steps_to_end() const;
   std::vector<double> velocity_at_particles(double time) const;
   void check_density_seconds() const;
   bool carry();
@@ -127,7 +135,7 @@ class Simulation::Parts {
   int threads_;
   Scene scene_;
   Carrier carrier_;
-  const std::vector<double> landings_;
+  std::vector<double> landings_;
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
   SeedReport seeding_;
@@ -187,10 +195,7 @@ bool Simulation::Parts::carry() {
                     seconds_before_ + watch_.seconds(), stepping});
     return wanted;
   });
-  if (!arrived) return false;
-  steps_before_ += leg_.steps;
-  leg_.steps = 0;
-  return wanted;
+  return arrived && wanted;
 }
 
 // The density at the start stands for all: a run that has begun is not stopped.
@@ -291,6 +296,112 @@ void Simulation::Parts::begin() {
   stage_ = Stage::under_way;
 }
 
+// Numbers of an output, one by one: a new one must not be forgotten here.
+void pass(base::StateBytes& bytes, FrameNumbers& n) {
+  static_assert(sizeof(FrameNumbers) == 144 + sizeof(std::string), "a number is not passed yet");
+  bytes(n.mass, n.minimum, n.maximum, n.centroid, n.transform_error, n.transform_tolerance, n.evaluate_seconds,
+        n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
+}
+
+// What the run has come to, beside the particles.
+void Simulation::Parts::pass_state(base::StateBytes& bytes) {
+  bytes(leg_, steps_before_, index_);
+  carrier_.pass_state(bytes, particles_);
+  bytes(summary_.transform_choice, summary_.transform_achievable);
+  std::uint64_t frames = summary_.frames.size();
+  bytes(frames);
+  if (bytes.reading()) summary_.frames.clear();
+  for (std::uint64_t i = 0; i < frames; ++i) {
+    if (bytes.reading()) summary_.frames.emplace_back();
+    bytes(summary_.frames[i].first);
+    pass(bytes, summary_.frames[i].second);
+  }
+  ReferenceReport& traced = summary_.reference;
+  bytes(traced.untraced, traced.first_untraced, traced.trouble, traced.rates, traced.exhausted);
+  auto stages = summary_.stages.stages();
+  double seconds = seconds_before_ + watch_.seconds();
+  std::vector<std::pair<std::string, std::string>> seen;
+  for (const auto& observer : observers) seen.emplace_back(observer->name(), observer->state());
+  bytes(stages, seconds, seen);
+  bytes.end();
+  if (!bytes.reading()) return;
+  summary_.stages = {};
+  for (const auto& [stage, spent] : stages) summary_.stages.add(stage, spent);
+  seconds_before_ = seconds;
+  for (const auto& observer : observers) {
+    const auto same =
+        std::find_if(seen.begin(), seen.end(), [&](const auto& other) { return other.first == observer->name(); });
+    observer->restore(summary_.frames, same == seen.end() ? std::string() : same->second);
+  }
+}
+
+std::string Simulation::Parts::state() {
+  base::StateBytes bytes;
+  pass_state(bytes);
+  return bytes.written();
+}
+
+// From where the particles are. The end of the leg under way is kept, because its steps lead there; only an earlier
+// output may shorten it.
+void Simulation::Parts::plan_landings() {
+  std::vector<double> later;
+  for (const double landing : landings(case_))
+    if (landing > leg_.now) later.push_back(landing);
+  const bool arrived = leg_.now >= leg_.to;
+  if (!arrived && later.empty())
+    throw InputError(fmt::format("time.end = {:g} lies before t = {:g}, where the run is", case_.time.end, leg_.now));
+  if (!arrived && later.front() < leg_.to) {
+    if (carrier_.acts_between_steps())
+      throw InputError(
+          fmt::format("the effects of this case need the next output at t = {:g}, as before, because steps lead there. "
+                      "Later outputs "
+                      "may be others.",
+                      leg_.to));
+    leg_.to = later.front();
+  }
+  // An output at the end of the leg is shown by run(), perhaps again.
+  while (arrived && !summary_.frames.empty() && summary_.frames.back().first >= leg_.to) {
+    summary_.frames.pop_back();
+    --index_;
+  }
+  landings_.assign(1, leg_.to);
+  for (const double landing : later)
+    if (landing > leg_.to) landings_.push_back(landing);
+  // Without a new end the run would go on to the old one.
+  while (landings_.size() > 1 && landings_.back() > case_.time.end) landings_.pop_back();
+  landed_ = 0;
+}
+
+std::size_t Simulation::Parts::steps_to_end() const {
+  if (carrier_.is_adaptive()) return 0;
+  std::size_t steps = steps_before_;
+  double from = leg_.from;
+  for (std::size_t i = landed_; i < landings_.size(); ++i) {
+    steps += time::Interval(from, landings_[i], case_.time.step).steps();
+    from = landings_[i];
+  }
+  return steps;
+}
+
+void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
+  if (stage_ != Stage::made && stage_ != Stage::prepared)
+    throw std::logic_error("Simulation::restore(): this run has begun");
+  prepare();
+  begin();
+  const auto misfit = [](const std::string& what) { return InputError("the state is not one of this case: " + what); };
+  if (particles.dimension != particles_.dimension || particles.path.size() != particles_.path.size())
+    throw misfit("it has other particles");
+  particles_ = std::move(particles);
+  try {
+    base::StateBytes state(bytes);
+    pass_state(state);
+  } catch (const std::out_of_range& error) {
+    throw misfit(error.what());
+  }
+  plan_landings();
+  steps_total_ = steps_to_end();
+}
+
 RunSummary Simulation::Parts::run() {
   if (stage_ == Stage::ended) throw std::logic_error("Simulation::run(): this run has ended");
   prepare();
@@ -303,7 +414,9 @@ RunSummary Simulation::Parts::run() {
     wanted = carry();
     if (leg_.now < leg_.to) break;
     if (is_output(leg_.to)) show_frame(leg_.to);
-    if (++landed_ < landings_.size()) leg_ = {leg_.to, landings_[landed_], 0, leg_.to};
+    if (++landed_ == landings_.size()) break;
+    steps_before_ += leg_.steps;
+    leg_ = {leg_.to, landings_[landed_], 0, leg_.to};
   }
   end();
   return summary_;
@@ -340,6 +453,10 @@ void Simulation::observe(const std::string& name, std::function<void(const Frame
 }
 void Simulation::on_progress(std::function<bool(const Progress&)> go_on) { parts_->go_on = std::move(go_on); }
 void Simulation::prepare() { parts_->prepare(); }
+std::string Simulation::state() const { return parts_->state(); }
+void Simulation::restore(Particles particles, const std::string& state) {
+  parts_->restore(std::move(particles), state);
+}
 RunSummary Simulation::run() { return parts_->run(); }
 const Particles& Simulation::particles() const { return parts_->particles(); }
 

@@ -8,6 +8,7 @@ namespace gaussdrift::time {
 /// The steps from one landing time to the next.
 class Interval {
  public:
+  Interval() = default;  // no step
   /// begin <= end, step > 0. A remainder below 1e-9 steps is rounding and joins the step before.
   Interval(double begin, double end, double step);
 
@@ -17,8 +18,8 @@ class Interval {
   double length(std::size_t i) const { return i + 1 < steps_ ? step_ : end_ - start(i); }
 
  private:
-  double begin_, end_, step_;
-  std::size_t steps_;
+  double begin_ = 0, end_ = 0, step_ = 1;
+  std::size_t steps_ = 0;
 };
 
 }  // namespace gaussdrift::time

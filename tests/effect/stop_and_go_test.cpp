@@ -2,6 +2,7 @@
 // themselves.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,22 @@ struct Kind {
   std::string name;
   std::vector<std::string> overrides;
 };
+
+Case spec_of(const Kind& kind, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides = {"particles.per_axis=21", "velocity.u=[\"-y+0.1*x\", \"x\"]",
+                                        "output.times=[0, 0.3, 0.5]", "evaluate.per_axis=9"};
+  overrides.insert(overrides.end(), kind.overrides.begin(), kind.overrides.end());
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return scene_of(overrides);
+}
+
+void expect_same(const Particles& a, const Particles& b) {
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.alpha, b.alpha);
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.spread, b.spread);
+}
 
 class StopAndGo : public testing::TestWithParam<Kind> {};
 
@@ -29,10 +46,7 @@ RunSummary run_with_stops(Simulation& simulation, int& stops) {
 }
 
 TEST_P(StopAndGo, HasTheBitsOfARunThatNeverStopped) {
-  std::vector<std::string> overrides = {"particles.per_axis=21", "velocity.u=[\"-y+0.1*x\", \"x\"]",
-                                        "output.times=[0, 0.3, 0.5]", "evaluate.per_axis=9"};
-  overrides.insert(overrides.end(), GetParam().overrides.begin(), GetParam().overrides.end());
-  const Case spec = scene_of(overrides);
+  const Case spec = spec_of(GetParam());
   Simulation whole(spec, 1), parts(spec, 1);
   const RunSummary once = whole.run();
   int stops = 0;
@@ -42,10 +56,54 @@ TEST_P(StopAndGo, HasTheBitsOfARunThatNeverStopped) {
   ASSERT_EQ(once.frames.size(), often.frames.size());
   for (std::size_t i = 0; i < once.frames.size(); ++i)
     EXPECT_EQ(once.frames[i].second.maximum, often.frames[i].second.maximum);
-  EXPECT_EQ(whole.particles().position, parts.particles().position);
-  EXPECT_EQ(whole.particles().alpha, parts.particles().alpha);
-  EXPECT_EQ(whole.particles().id, parts.particles().id);
-  EXPECT_EQ(whole.particles().spread, parts.particles().spread);
+  expect_same(whole.particles(), parts.particles());
+}
+
+TEST_P(StopAndGo, GoesOnInAnotherSimulation) {
+  const Case spec = spec_of(GetParam());
+  Simulation whole(spec, 1);
+  const RunSummary once = whole.run();
+  // A new one at every stop, each from what the one before has left.
+  auto part = std::make_unique<Simulation>(spec, 1);
+  part->on_progress([](const Progress&) { return false; });
+  RunSummary summary = part->run();
+  while (!summary.complete) {
+    auto next = std::make_unique<Simulation>(spec, 2);
+    next->restore(part->particles(), part->state());
+    next->on_progress([](const Progress&) { return false; });
+    summary = next->run();
+    part = std::move(next);
+  }
+  EXPECT_EQ(once.steps, summary.steps);
+  EXPECT_EQ(once.steps_rejected, summary.steps_rejected);
+  ASSERT_EQ(once.frames.size(), summary.frames.size());
+  for (std::size_t i = 0; i < once.frames.size(); ++i) {
+    EXPECT_EQ(once.frames[i].first, summary.frames[i].first);
+    EXPECT_EQ(once.frames[i].second.maximum, summary.frames[i].second.maximum);
+    EXPECT_EQ(once.frames[i].second.stretch, summary.frames[i].second.stretch);
+  }
+  ASSERT_EQ(once.effects.size(), summary.effects.size());
+  for (std::size_t i = 0; i < once.effects.size(); ++i) EXPECT_EQ(once.effects[i].numbers, summary.effects[i].numbers);
+  expect_same(whole.particles(), part->particles());
+}
+
+// A state in the middle of a leg, where path integrals and halves of exchanges are under way.
+TEST_P(StopAndGo, GoesOnFromTheMiddleOfALeg) {
+  const Case spec = spec_of(GetParam());
+  Simulation whole(spec, 1), saving(spec, 1), resumed(spec, 1);
+  whole.run();
+  Particles particles;
+  std::string state;
+  int calls = 0;
+  saving.on_progress([&](const Progress& progress) {
+    if (progress.time > 0.1 && ++calls == 2) particles = saving.particles(), state = saving.state();
+    return true;
+  });
+  saving.run();
+  ASSERT_FALSE(state.empty());
+  resumed.restore(particles, state);
+  resumed.run();
+  expect_same(whole.particles(), resumed.particles());
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -60,6 +118,31 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"charge", {"time.step=0.05", "effects.charge.mobility=0.3"}},
                     Kind{"vortex", {"time.step=0.05", "effects.vortex.tolerance=1e-6"}}),
     [](const auto& kind) { return kind.param.name; });
+
+TEST(StopAndGo, ALongerRunGoesOnFromTheEndOfAShorterOne) {
+  const Kind kind{"remesh", {"time.step=0.01", "effects.remesh.every=3"}};
+  const Case longer = spec_of(kind, {"time.end=1", "output.times=[0, 0.3, 0.5, 1]"});
+  Simulation whole(longer, 1), first(spec_of(kind), 1), second(longer, 1);
+  const RunSummary once = whole.run();
+  first.run();
+  second.restore(first.particles(), first.state());
+  const RunSummary rest = second.run();
+  expect_same(whole.particles(), second.particles());
+  ASSERT_EQ(rest.frames.size(), 4u);
+  EXPECT_EQ(rest.frames[3].second.maximum, once.frames[3].second.maximum);
+  EXPECT_EQ(rest.steps, once.steps);
+}
+
+TEST(StopAndGo, AForeignStateIsRefused) {
+  const Kind plain{"transport", {}}, remesh{"remesh", {"effects.remesh.every=3"}};
+  Simulation a(spec_of(plain), 1), b(spec_of(remesh), 1), c(spec_of(plain), 1),
+      d(spec_of(plain, {"time.end=0.2", "output.times=[0]"}), 1);
+  a.on_progress([](const Progress&) { return false; });
+  a.run();
+  EXPECT_THROW(b.restore(a.particles(), a.state()), InputError) << "other effects";
+  EXPECT_THROW(c.restore(a.particles(), a.state().substr(0, 40)), InputError) << "cut";
+  EXPECT_THROW(d.restore(a.particles(), a.state()), InputError) << "time.end before the state";
+}
 
 TEST(StopAndGo, ARunThatHasEndedIsNotRunAgain) {
   Simulation simulation(scene_of({"particles.per_axis=11"}));
