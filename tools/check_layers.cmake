@@ -49,7 +49,7 @@ set(may_gaussdrift base particle case reference sim input accuracy)
 # Headers of src/ that other modules may include, by their names in the module's folder. All others are the module's own. Those of
 # base are for everybody. One that no other module includes any more must go from its list.
 set(public_expression expression foreign_names)
-set(public_core arguments buffer dispatch simd/functions simd/product_block simd/vector)
+set(public_core arguments buffer dispatch simd/functions simd/product_block simd/pack)
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/shapes gaussians/divergence_free gaussians/gaussian_velocity gridded/grid_data gridded/gridded
   named/named_fields scalar velocity/differences velocity/value_seconds

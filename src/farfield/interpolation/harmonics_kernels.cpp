@@ -1,25 +1,25 @@
-// Harmonic polynomials of harmonics.hpp at many points; see core/simd/vector.hpp for what may stand here.
+// Harmonic polynomials of harmonics.hpp at many points; see core/simd/pack.hpp for what may stand here.
 #include "core/simd/functions.hpp"
 #include "farfield/kernels/set.hpp"
 
 namespace farfield::detail::CORE_ISA {
 namespace {
 
-constexpr std::size_t vectors = 2;  // of points at a time
-constexpr std::size_t group = vectors * lanes;
+constexpr std::size_t packs = 2;  // of points at a time
+constexpr std::size_t group = packs * lanes;
 
-/// Calls use(k, values) for every function k, values being those at `vectors` vectors of points.
+/// Calls use(k, values) for every function k, values being those at `packs` packs of points.
 template <class Use>
-CORE_INLINE void for_each_function(int degree, const Vector (*t)[3], const Use& use) {
-  Vector re[vectors], im[vectors];
-  for (std::size_t v = 0; v < vectors; ++v) {
+CORE_INLINE void for_each_function(int degree, const Pack (*t)[3], const Use& use) {
+  Pack re[packs], im[packs];
+  for (std::size_t v = 0; v < packs; ++v) {
     re[v] = broadcast(1);
-    im[v] = Vector{};
+    im[v] = Pack{};
   }
   use(0, re);
   for (int k = 1; k <= degree; ++k) {
-    for (std::size_t v = 0; v < vectors; ++v) {
-      const Vector next = re[v] * t[v][0] - im[v] * t[v][1];
+    for (std::size_t v = 0; v < packs; ++v) {
+      const Pack next = re[v] * t[v][0] - im[v] * t[v][1];
       im[v] = re[v] * t[v][1] + im[v] * t[v][0];
       re[v] = next;
     }
@@ -29,17 +29,17 @@ CORE_INLINE void for_each_function(int degree, const Vector (*t)[3], const Use& 
 }
 
 template <class Use>
-CORE_INLINE void for_each_function(int degree, const Vector (*t)[3], const double* up, const double* back,
+CORE_INLINE void for_each_function(int degree, const Pack (*t)[3], const double* up, const double* back,
                                    const Use& use) {
-  Vector squared[vectors], re[vectors], im[vectors];
-  for (std::size_t v = 0; v < vectors; ++v) {
+  Pack squared[packs], re[packs], im[packs];
+  for (std::size_t v = 0; v < packs; ++v) {
     squared[v] = t[v][0] * t[v][0] + t[v][1] * t[v][1] + t[v][2] * t[v][2];
     re[v] = broadcast(1);
-    im[v] = Vector{};
+    im[v] = Pack{};
   }
   for (int m = 0; m <= degree; ++m) {
-    Vector cosine[vectors], sine[vectors], last_cosine[vectors] = {}, last_sine[vectors] = {};
-    for (std::size_t v = 0; v < vectors; ++v) {
+    Pack cosine[packs], sine[packs], last_cosine[packs] = {}, last_sine[packs] = {};
+    for (std::size_t v = 0; v < packs; ++v) {
       cosine[v] = re[v];
       sine[v] = im[v];
     }
@@ -47,20 +47,20 @@ CORE_INLINE void for_each_function(int degree, const Vector (*t)[3], const doubl
     if (m > 0) use(static_cast<std::size_t>(m * m), sine);
     for (int l = m + 1; l <= degree; ++l) {
       const double a = up[l * (degree + 1) + m], b = back[l * (degree + 1) + m];
-      for (std::size_t v = 0; v < vectors; ++v) {
-        const Vector forward = t[v][2] * a, backward = squared[v] * b;
-        const Vector c = forward * cosine[v] - backward * last_cosine[v];
+      for (std::size_t v = 0; v < packs; ++v) {
+        const Pack forward = t[v][2] * a, backward = squared[v] * b;
+        const Pack c = forward * cosine[v] - backward * last_cosine[v];
         last_cosine[v] = cosine[v];
         cosine[v] = c;
-        const Vector s = forward * sine[v] - backward * last_sine[v];
+        const Pack s = forward * sine[v] - backward * last_sine[v];
         last_sine[v] = sine[v];
         sine[v] = s;
       }
       use(static_cast<std::size_t>(l * l + l + m), cosine);
       if (m > 0) use(static_cast<std::size_t>(l * l + l - m), sine);
     }
-    for (std::size_t v = 0; v < vectors; ++v) {
-      const Vector next = (re[v] * t[v][0] - im[v] * t[v][1]) * 0.5;
+    for (std::size_t v = 0; v < packs; ++v) {
+      const Pack next = (re[v] * t[v][0] - im[v] * t[v][1]) * 0.5;
       im[v] = (re[v] * t[v][1] + im[v] * t[v][0]) * 0.5;
       re[v] = next;
     }
@@ -68,22 +68,22 @@ CORE_INLINE void for_each_function(int degree, const Vector (*t)[3], const doubl
 }
 
 template <class Job>
-CORE_INLINE void local_coordinates(const Job& job, std::size_t first, Vector (*t)[3]) {
-  for (std::size_t v = 0; v < vectors; ++v)
+CORE_INLINE void local_coordinates(const Job& job, std::size_t first, Pack (*t)[3]) {
+  for (std::size_t v = 0; v < packs; ++v)
     for (int l = 0; l < job.dimension; ++l)
       t[v][l] = (load(job.point[l] + first + v * lanes) - job.centre[l]) * job.scale;
 }
 
 template <int outputs, int d>
 CORE_INLINE void expand(const ExpansionJob& job, std::size_t first) {
-  Vector t[vectors][3];
+  Pack t[packs][3];
   local_coordinates(job, first, t);
-  Vector sum[4][vectors] = {};
+  Pack sum[4][packs] = {};
   constexpr int begin = outputs == d ? 1 : 0;  // without the potential
-  const auto use = [&](std::size_t k, const Vector* value) {
+  const auto use = [&](std::size_t k, const Pack* value) {
     for (int o = begin; o < 1 + d; ++o) {
       const double c = job.coefficient[o][k];
-      for (std::size_t v = 0; v < vectors; ++v) sum[o][v] += value[v] * c;
+      for (std::size_t v = 0; v < packs; ++v) sum[o][v] += value[v] * c;
     }
   };
   if constexpr (d == 2) {
@@ -91,7 +91,7 @@ CORE_INLINE void expand(const ExpansionJob& job, std::size_t first) {
   } else {
     for_each_function(job.degree, t, job.up, job.back, use);
   }
-  for (std::size_t v = 0; v < vectors; ++v)
+  for (std::size_t v = 0; v < packs; ++v)
     for (std::size_t i = 0; i < lanes; ++i) {
       const std::size_t at = first + v * lanes + i;
       if (at >= job.range.end) return;
@@ -107,9 +107,9 @@ void moments(const MomentsJob& job) {
   const std::size_t count = job.dimension == 2 ? 2 * n + 1 : (n + 1) * (n + 1);
   for (std::size_t i = 0; i < count * lanes; ++i) job.scratch[i] = 0;
   for (std::size_t first = job.range.begin; first < job.range.end; first += group) {
-    Vector t[vectors][3], charge[vectors] = {};
+    Pack t[packs][3], charge[packs] = {};
     local_coordinates(job, first, t);
-    for (std::size_t v = 0; v < vectors; ++v)
+    for (std::size_t v = 0; v < packs; ++v)
       for (std::size_t i = 0; i < lanes; ++i) {
         const std::size_t at = first + v * lanes + i;
         if (at < job.range.end) {
@@ -118,10 +118,10 @@ void moments(const MomentsJob& job) {
           for (int l = 0; l < job.dimension; ++l) t[v][l][i] = 0;
         }
       }
-    const auto use = [&](std::size_t k, const Vector* value) {
+    const auto use = [&](std::size_t k, const Pack* value) {
       double* const to = job.scratch + k * lanes;
-      Vector sum = load(to);
-      for (std::size_t v = 0; v < vectors; ++v) sum += value[v] * charge[v];
+      Pack sum = load(to);
+      for (std::size_t v = 0; v < packs; ++v) sum += value[v] * charge[v];
       store(to, sum);
     };
     if (job.dimension == 2) {

@@ -1,4 +1,4 @@
-// Products of small matrices; see core/simd/vector.hpp for what may stand here.
+// Products of small matrices; see core/simd/pack.hpp for what may stand here.
 #include "core/simd/product_block.hpp"
 #include "farfield/kernels/set.hpp"
 
@@ -6,10 +6,10 @@ namespace farfield::detail::CORE_ISA {
 namespace {
 
 constexpr int rows_together = lanes == 8 ? 8 : 4;  // as many sums as there are registers for
-constexpr int widest = 3;                          // vectors
+constexpr int widest = 3;                          // packs
 constexpr std::size_t deepest = 128;               // rows of B that stay in the first cache
 
-/// `rows` rows of C, `columns` vectors wide.
+/// `rows` rows of C, `columns` packs wide.
 template <int rows, int columns>
 CORE_INLINE void block(const ProductJob& job, const double* a, const double* b, double* c, std::size_t valid) {
   product_block<rows, columns>(job.depth, a, job.a_stride, b, job.b_stride, c, job.c_stride, valid);

@@ -2,7 +2,7 @@
 // them.
 #pragma once
 
-#include "core/simd/vector.hpp"
+#include "core/simd/pack.hpp"
 #include "farfield/kernels/kernels.hpp"
 
 namespace farfield::detail::CORE_ISA {

@@ -1,4 +1,4 @@
-// All pairs of a range of targets and some ranges of sources; see core/simd/vector.hpp for what may stand here.
+// All pairs of a range of targets and some ranges of sources; see core/simd/pack.hpp for what may stand here.
 #include "core/simd/functions.hpp"
 #include "farfield/kernels/set.hpp"
 
@@ -6,10 +6,10 @@ namespace farfield::detail::CORE_ISA {
 namespace {
 
 constexpr std::size_t source_chunk = 256;  // partial sums of so many terms, then added: rounding grows with N/256 + 256
-constexpr std::size_t vectors = 2;         // of targets in registers
-constexpr std::size_t tile = vectors * lanes;
+constexpr std::size_t packs = 2;           // of targets in registers
+constexpr std::size_t tile = packs * lanes;
 
-/// Pairs with r^2 <= tiny are not seen by the vectors, being at distance 0 or beyond the range of the estimate of 1/r.
+/// Pairs with r^2 <= tiny are not seen by the packs, being at distance 0 or beyond the range of the estimate of 1/r.
 template <Interaction interaction>
 constexpr double tiny = interaction == Interaction::inverse ? 1e-36 : 1e-290;
 
@@ -17,8 +17,8 @@ template <Interaction interaction>
 constexpr int dimension_of = interaction == Interaction::inverse ? 3 : 2;
 
 /// (1 - exp(-s)) / s = sum_n (-s)^n / (n+1)! for 0 <= s <= 1/2; s^13/14! < 2e-15
-CORE_INLINE Vector blob_series(Vector s) {
-  Vector sum = broadcast(1.0 / 6227020800.0);
+CORE_INLINE Pack blob_series(Pack s) {
+  Pack sum = broadcast(1.0 / 6227020800.0);
   constexpr double factorials[] = {479001600., 39916800., 3628800., 362880., 40320., 5040.,
                                    720.,       120.,      24.,      6.,      2.,     1.};
   for (const double factorial : factorials) sum = 1 / factorial - sum * s;
@@ -26,29 +26,29 @@ CORE_INLINE Vector blob_series(Vector s) {
 }
 
 template <class Work>
-CORE_INLINE void for_each_vector(const Work& work) {
-  static_assert(vectors == 2);
+CORE_INLINE void for_each_pack(const Work& work) {
+  static_assert(packs == 2);
   work.template operator()<0>();
   work.template operator()<1>();
 }
 
 struct Sums {
-  Vector potential, field[3];
+  Pack potential, field[3];
 };
 
-/// One source at one vector of targets. `divide` is set for every second vector: square roots with divisions keep other
+/// One source at one pack of targets. `divide` is set for every second pack: square roots with divisions keep other
 /// parts of the processor busy than estimates with series.
 template <Interaction interaction, bool full, bool potential, bool field, bool divide>
-CORE_INLINE void add_pair(const PairsJob& job, const Vector* distance, double charge, Bits& seen, Sums& sums) {
+CORE_INLINE void add_pair(const PairsJob& job, const Pack* distance, double charge, Bits& seen, Sums& sums) {
   constexpr int d = dimension_of<interaction>;
-  Vector squared = distance[0] * distance[0];
+  Pack squared = distance[0] * distance[0];
   for (int l = 1; l < d; ++l) squared += distance[l] * distance[l];
-  Vector factor;
+  Pack factor;
   if constexpr (interaction == Interaction::inverse) {
     const Bits valid = reinterpret_cast<Bits>(squared > tiny<interaction>);
     seen &= valid;
-    const Vector inverse = select(valid, divide ? divided_rsqrt(squared) : rsqrt<full>(squared)),
-                 scaled = inverse * charge;
+    const Pack inverse = select(valid, divide ? divided_rsqrt(squared) : rsqrt<full>(squared)),
+               scaled = inverse * charge;
     if constexpr (potential) sums.potential += scaled;
     factor = scaled * (inverse * inverse);
   } else if constexpr (interaction == Interaction::logarithm) {
@@ -57,7 +57,7 @@ CORE_INLINE void add_pair(const PairsJob& job, const Vector* distance, double ch
     if constexpr (potential) sums.potential += select(valid, log_positive(squared) * 0.5 + job.log_shift) * charge;
     factor = select(valid, charge / squared);
   } else {
-    const Vector s = squared * job.inverse_squared_core;
+    const Pack s = squared * job.inverse_squared_core;
     if (!any_true(s < job.point_beyond)) {
       factor = charge / squared;
     } else {
@@ -71,7 +71,7 @@ CORE_INLINE void add_pair(const PairsJob& job, const Vector* distance, double ch
 }
 
 /// Adds the first `valid` lanes.
-CORE_INLINE void add_to(double* out, Vector value, std::size_t valid) {
+CORE_INLINE void add_to(double* out, Pack value, std::size_t valid) {
   if (valid >= lanes) {
     store(out, load(out) + value);
   } else {
@@ -79,7 +79,7 @@ CORE_INLINE void add_to(double* out, Vector value, std::size_t valid) {
   }
 }
 
-/// Sums one by one, without squares of distances, the pairs that the vectors have left out and that are not at distance
+/// Sums one by one, without squares of distances, the pairs that the packs have left out and that are not at distance
 /// 0.
 template <Interaction interaction>
 void add_unseen(const PairsJob& job, std::size_t first, std::size_t last, Range sources) {
@@ -109,17 +109,17 @@ void add_unseen(const PairsJob& job, std::size_t first, std::size_t last, Range 
     }
 }
 
-/// Is there a pair that the vectors have left out and that is not at distance 0?
+/// Is there a pair that the packs have left out and that is not at distance 0?
 template <Interaction interaction>
 bool some_unseen(const PairsJob& job, std::size_t first, Range sources) {
   constexpr int d = dimension_of<interaction>;
   Bits unseen{};
-  for (std::size_t v = 0; v < vectors; ++v)
+  for (std::size_t v = 0; v < packs; ++v)
     for (std::size_t j = sources.begin; j < sources.end; ++j) {
-      Vector squared{};
+      Pack squared{};
       Bits apart{};
       for (int l = 0; l < d; ++l) {
-        const Vector distance = load(job.target[l] + first + v * lanes) - job.source[l][j];
+        const Pack distance = load(job.target[l] + first + v * lanes) - job.source[l][j];
         squared += distance * distance;
         apart |= reinterpret_cast<Bits>(distance != 0.0);
       }
@@ -132,20 +132,20 @@ bool some_unseen(const PairsJob& job, std::size_t first, Range sources) {
 template <Interaction interaction, bool full, bool potential, bool field>
 CORE_INLINE void pairs_of_tile(const PairsJob& job, std::size_t first, std::size_t valid, Range sources) {
   constexpr int d = dimension_of<interaction>;
-  Vector x[vectors][d];
-  for (std::size_t v = 0; v < vectors; ++v)
+  Pack x[packs][d];
+  for (std::size_t v = 0; v < packs; ++v)
     for (int l = 0; l < d; ++l) x[v][l] = load(job.target[l] + first + v * lanes);
-  Sums sums[vectors] = {};
-  Bits seen[vectors];
-  for (std::size_t v = 0; v < vectors; ++v) seen[v] = ~Bits{};
+  Sums sums[packs] = {};
+  Bits seen[packs];
+  for (std::size_t v = 0; v < packs; ++v) seen[v] = ~Bits{};
   for (std::size_t j = sources.begin; j < sources.end; ++j)
-    for_each_vector([&]<std::size_t v>() {
-      Vector distance[d];
+    for_each_pack([&]<std::size_t v>() {
+      Pack distance[d];
       for (int l = 0; l < d; ++l) distance[l] = x[v][l] - job.source[l][j];
       add_pair<interaction, full, potential, field, v % 2 == 1>(job, distance, job.charge[j], seen[v], sums[v]);
     });
   Bits all = seen[0];
-  for (std::size_t v = 0; v < vectors; ++v) {
+  for (std::size_t v = 0; v < packs; ++v) {
     all &= seen[v];
     const std::size_t from = v * lanes, rest = valid > from ? valid - from : 0;
     if constexpr (potential) add_to(job.potential + first + from, sums[v].potential, rest);
@@ -181,11 +181,11 @@ void pairs_by_output(const PairsJob& job) {
 }
 
 // ---------------------------------------------------------------------------------------------------------------
-// Six digits: twice as many floats in a vector. Coordinates are whole multiples of a quantum, so that differences are
+// Six digits: twice as many floats in a pack. Coordinates are whole multiples of a quantum, so that differences are
 // exact and a distance has the relative accuracy of float however small it is beside the coordinates.
 
 constexpr std::size_t wide_lanes = 2 * lanes;
-constexpr std::size_t wide_tile = vectors * wide_lanes;
+constexpr std::size_t wide_tile = packs * wide_lanes;
 constexpr std::size_t wide_chunk = 64;     // float sums of so many terms, then added in double
 constexpr std::size_t target_block = 256;  // targets whose coordinates are turned into integers at a time
 
@@ -194,7 +194,7 @@ using Integers = int __attribute__((vector_size(8 * CORE_LANES)));
 using HalfFloats = float __attribute__((vector_size(4 * CORE_LANES)));
 typedef float HalfUnaligned __attribute__((vector_size(4 * CORE_LANES), aligned(4), may_alias));
 typedef int UnalignedIntegers __attribute__((vector_size(8 * CORE_LANES), aligned(4), may_alias));
-static_assert(alignof(HalfUnaligned) == 4 && alignof(UnalignedIntegers) == 4);  // as in core/simd/vector.hpp
+static_assert(alignof(HalfUnaligned) == 4 && alignof(UnalignedIntegers) == 4);  // as in core/simd/pack.hpp
 
 /// 1/sqrt(x) to 3e-7: an estimate and one step of Newton's method.
 CORE_INLINE Floats wide_rsqrt(Floats x) {
@@ -219,7 +219,7 @@ CORE_INLINE void add_wide(double* out, Floats value, double scale, std::size_t v
     for (std::size_t part = 0; part < 2; ++part) {
       const HalfFloats half = *reinterpret_cast<const HalfUnaligned*>(numbers + part * lanes);
       double* const at = out + part * lanes;
-      store(at, load(at) + __builtin_convertvector(half, Vector) * scale);
+      store(at, load(at) + __builtin_convertvector(half, Pack) * scale);
     }
   } else {
     for (std::size_t i = 0; i < valid; ++i) out[i] += numbers[i] * scale;
@@ -271,14 +271,14 @@ void pairs_in_float(const PairsJob& job) {
           charge[j] = static_cast<float>(job.charge[begin + j] * charge_scale);
         }
         for (std::size_t i = 0; i < count; i += wide_tile) {
-          Integers x[vectors][3];
-          for (std::size_t v = 0; v < vectors; ++v)
+          Integers x[packs][3];
+          for (std::size_t v = 0; v < packs; ++v)
             for (int l = 0; l < 3; ++l)
               x[v][l] = *reinterpret_cast<const UnalignedIntegers*>(target[l] + i + v * wide_lanes);
-          Floats phi[vectors] = {}, field[vectors][3] = {};
+          Floats phi[packs] = {}, field[packs][3] = {};
           Integers close{}, equal{};
           for (std::size_t j = 0; j < size; ++j)
-            for (std::size_t v = 0; v < vectors; ++v) {
+            for (std::size_t v = 0; v < packs; ++v) {
               Floats distance[3];
               for (int l = 0; l < 3; ++l) distance[l] = __builtin_convertvector(x[v][l] - source[l][j], Floats);
               const Floats squared = distance[0] * distance[0] + distance[1] * distance[1] + distance[2] * distance[2];
@@ -297,7 +297,7 @@ void pairs_in_float(const PairsJob& job) {
                   job, first + k, valid - k < tile ? valid - k : tile, {begin, begin + size});
             continue;
           }
-          for (std::size_t v = 0; v < vectors; ++v) {
+          for (std::size_t v = 0; v < packs; ++v) {
             const std::size_t from = v * wide_lanes, some = valid > from ? valid - from : 0;
             if constexpr (potential) add_wide(job.potential + first + from, phi[v], potential_scale, some);
             for (int l = 0; l < 3; ++l) add_wide(job.field[l] + first + from, field[v][l], field_scale, some);

@@ -1,7 +1,8 @@
-// The kernel of `cells`: sums over runs of sources; see core/simd/vector.hpp for what may stand here. Vectors run over
+// The kernel of `cells`: sums over runs of sources; see core/simd/pack.hpp for what may stand here. Packs run over
 // the targets of a group.
-#include "core/simd/vector.hpp"
+#include "core/simd/pack.hpp"
 #include "fgtd/cells/job.hpp"
+#include "fgtd/kernels/dimensions.hpp"
 #include "fgtd/kernels/power.hpp"
 #include "fgtd/kernels/set.hpp"
 
@@ -21,33 +22,33 @@ CORE_INLINE void for_each_chunk(const CellsJob& job, const CellsGroup& group, co
   }
 }
 
-/// The plain Gaussian at `vectors` vectors of targets from `first` on, `columns` columns of weights from k on. |y - x|
+/// The plain Gaussian at `packs` packs of targets from `first` on, `columns` columns of weights from k on. |y - x|
 /// is scaled by sqrt(sigma log2 e), so that the exponential is 2^-squared.
-template <int d, int degree, int columns, int vectors>
+template <int d, int degree, int columns, int packs>
 CORE_INLINE void cells_values(const CellsJob& job, const CellsGroup& group, std::size_t first, std::size_t k) {
   const double scale = job.sigma * log2_e, limit = job.squared_reach / job.sigma;
-  Vector y[d][vectors];
+  Pack y[d][packs];
   for (std::size_t l = 0; l < d; ++l)
-    for (std::size_t v = 0; v < vectors; ++v) y[l][v] = load(job.target + l * job.target_stride + first + v * lanes);
+    for (std::size_t v = 0; v < packs; ++v) y[l][v] = load(job.target + l * job.target_stride + first + v * lanes);
   const double* weights = job.weights + k * job.stride;
-  Vector total[columns][vectors] = {};
+  Pack total[columns][packs] = {};
   for_each_chunk(job, group, [&](std::size_t begin, std::size_t end) {
-    Vector partial[columns][vectors] = {};
+    Pack partial[columns][packs] = {};
     for (std::size_t j = begin; j < end; ++j)
-      for (int v = 0; v < vectors; ++v) {
-        Vector squared{};
+      for (int v = 0; v < packs; ++v) {
+        Pack squared{};
         for (std::size_t l = 0; l < d; ++l) {
-          const Vector apart = y[l][v] - job.position[l * job.stride + j];
+          const Pack apart = y[l][v] - job.position[l * job.stride + j];
           squared += apart * apart;
         }
-        const Vector gaussian = power_of_half<degree>(squared, scale, limit);
+        const Pack gaussian = power_of_half<degree>(squared, scale, limit);
         for (std::size_t c = 0; c < columns; ++c) partial[c][v] += gaussian * weights[c * job.stride + j];
       }
     for (int c = 0; c < columns; ++c)
-      for (int v = 0; v < vectors; ++v) total[c][v] += partial[c][v];
+      for (int v = 0; v < packs; ++v) total[c][v] += partial[c][v];
   });
   for (std::size_t c = 0; c < columns; ++c)
-    for (std::size_t v = 0; v < vectors; ++v)
+    for (std::size_t v = 0; v < packs; ++v)
       store(job.out + (k + c) * job.target_stride + first + v * lanes, total[c][v] * job.coefficient[0]);
 }
 
@@ -73,33 +74,33 @@ void cells_all_values(const CellsJob& job) {
   if (k < job.columns) cells_columns<d, degree, 1>(job, k);
 }
 
-/// Combinations [q0, q1) for columns [k0, k1) at `vectors` vectors of targets.
-template <int d, int vectors>
+/// Combinations [q0, q1) for columns [k0, k1) at `packs` packs of targets.
+template <int d, int packs>
 void cells_terms(const CellsJob& job, const CellsGroup& group, std::size_t first, std::size_t q0, std::size_t q1,
                  std::size_t k0, std::size_t k1) {
-  Vector y[d][vectors];
+  Pack y[d][packs];
   for (std::size_t l = 0; l < d; ++l)
-    for (std::size_t v = 0; v < vectors; ++v) y[l][v] = load(job.target + l * job.target_stride + first + v * lanes);
+    for (std::size_t v = 0; v < packs; ++v) y[l][v] = load(job.target + l * job.target_stride + first + v * lanes);
   const std::size_t outputs = (q1 - q0) * (k1 - k0);
-  Vector total[max_outputs][vectors];
+  Pack total[max_outputs][packs];
   for (std::size_t output = 0; output < outputs; ++output)
-    for (int v = 0; v < vectors; ++v) total[output][v] = Vector{};
+    for (int v = 0; v < packs; ++v) total[output][v] = Pack{};
   for_each_chunk(job, group, [&](std::size_t begin, std::size_t end) {
-    Vector partial[max_outputs][vectors];
+    Pack partial[max_outputs][packs];
     for (std::size_t output = 0; output < outputs; ++output)
-      for (int v = 0; v < vectors; ++v) partial[output][v] = Vector{};
+      for (int v = 0; v < packs; ++v) partial[output][v] = Pack{};
     for (std::size_t j = begin; j < end; ++j) {
-      Vector polynomial[d][max_derivative_order + 1][vectors];  // H_n(t_l) / sqrt(2^n n!)
-      Vector gaussian[vectors];
-      Bits within[vectors];  // beyond the reach the polynomials may overflow
-      for (int v = 0; v < vectors; ++v) {
-        Vector squared{};
+      Pack polynomial[d][max_derivative_order + 1][packs];  // H_n(t_l) / sqrt(2^n n!)
+      Pack gaussian[packs];
+      Bits within[packs];  // beyond the reach the polynomials may overflow
+      for (int v = 0; v < packs; ++v) {
+        Pack squared{};
         for (std::size_t l = 0; l < d; ++l) {
-          const Vector t = (y[l][v] - job.position[l * job.stride + j]) * job.root_sigma;
+          const Pack t = (y[l][v] - job.position[l * job.stride + j]) * job.root_sigma;
           squared += t * t;
-          Vector previous{}, current = broadcast(1.0);
+          Pack previous{}, current = broadcast(1.0);
           for (int n = 0; n < job.highest[l]; ++n) {
-            const Vector next = t * current * job.recurrence.up[n] - previous * job.recurrence.back[n];
+            const Pack next = t * current * job.recurrence.up[n] - previous * job.recurrence.back[n];
             previous = current;
             current = next;
             polynomial[l][n + 1][v] = next;
@@ -110,29 +111,29 @@ void cells_terms(const CellsJob& job, const CellsGroup& group, std::size_t first
       }
       std::size_t output = 0;
       for (std::size_t q = q0; q < q1; ++q) {
-        Vector sum[vectors] = {};
+        Pack sum[packs] = {};
         for (std::size_t term = job.first_term[q]; term < job.first_term[q + 1]; ++term) {
-          Vector value[vectors];
-          for (int v = 0; v < vectors; ++v) value[v] = gaussian[v] * job.coefficient[term];
+          Pack value[packs];
+          for (int v = 0; v < packs; ++v) value[v] = gaussian[v] * job.coefficient[term];
           for (int l = 0; l < d; ++l) {
             const int order = job.order[term * max_dimension + static_cast<std::size_t>(l)];
             if (order == 0) continue;
-            for (int v = 0; v < vectors; ++v) value[v] *= polynomial[l][order][v];
+            for (int v = 0; v < packs; ++v) value[v] *= polynomial[l][order][v];
           }
-          for (int v = 0; v < vectors; ++v) sum[v] += value[v];
+          for (int v = 0; v < packs; ++v) sum[v] += value[v];
         }
-        for (int v = 0; v < vectors; ++v) sum[v] = select(within[v], sum[v]);
+        for (int v = 0; v < packs; ++v) sum[v] = select(within[v], sum[v]);
         for (std::size_t k = k0; k < k1; ++k, ++output)
-          for (int v = 0; v < vectors; ++v) partial[output][v] += sum[v] * job.weights[k * job.stride + j];
+          for (int v = 0; v < packs; ++v) partial[output][v] += sum[v] * job.weights[k * job.stride + j];
       }
     }
     for (std::size_t output = 0; output < outputs; ++output)
-      for (int v = 0; v < vectors; ++v) total[output][v] += partial[output][v];
+      for (int v = 0; v < packs; ++v) total[output][v] += partial[output][v];
   });
   std::size_t output = 0;
   for (std::size_t q = q0; q < q1; ++q)
     for (std::size_t k = k0; k < k1; ++k, ++output)
-      for (std::size_t v = 0; v < vectors; ++v)
+      for (std::size_t v = 0; v < packs; ++v)
         store(job.out + (q * job.columns + k) * job.target_stride + first + v * lanes, total[output][v]);
 }
 
@@ -174,16 +175,7 @@ void cells_in(const CellsJob& job) {
 }  // namespace
 
 void cells(const CellsJob& job) {
-  switch (job.dimension) {
-    case 1:
-      return cells_in<1>(job);
-    case 2:
-      return cells_in<2>(job);
-    case 3:
-      return cells_in<3>(job);
-    default:
-      return cells_in<4>(job);
-  }
+  in_dimension(job.dimension, [&](auto dimension) { cells_in<dimension.d>(job); });
 }
 
 }  // namespace fgtd::detail::CORE_ISA

@@ -1,7 +1,8 @@
 // The kernel of `outer_product`: rows of one-dimensional Hermite functions over the nodes of a window, multiplied as
-// matrices; see core/simd/vector.hpp for what may stand here.
-#include "core/simd/vector.hpp"
+// matrices; see core/simd/pack.hpp for what may stand here.
+#include "core/simd/pack.hpp"
 #include "fgtd/cells/job.hpp"
+#include "fgtd/kernels/dimensions.hpp"
 #include "fgtd/kernels/power.hpp"
 #include "fgtd/kernels/product.hpp"
 #include "fgtd/kernels/set.hpp"
@@ -10,8 +11,8 @@ namespace fgtd::detail::CORE_ISA {
 namespace {
 
 /// exp(-t^2) by a polynomial of one of the degrees of `exponentials`.
-CORE_INLINE Vector gaussian(Vector t, int degree) {
-  const Vector squared = t * t;
+CORE_INLINE Pack gaussian(Pack t, int degree) {
+  const Pack squared = t * t;
   constexpr double limit = 690;  // 2^-1000
   switch (degree) {
     case 4:
@@ -26,13 +27,13 @@ CORE_INLINE Vector gaussian(Vector t, int degree) {
 }
 
 /// rows[n stride] = h~_n(t), n = 0 .. highest.
-CORE_INLINE void hermite_rows(Vector t, int degree, int highest, const Recurrence& recurrence, double* rows,
+CORE_INLINE void hermite_rows(Pack t, int degree, int highest, const Recurrence& recurrence, double* rows,
                               std::size_t stride) {
   t = clamp(t, 27.0);
-  Vector previous{}, current = gaussian(t, degree);
+  Pack previous{}, current = gaussian(t, degree);
   store(rows, current);
   for (int n = 0; n < highest; ++n) {
-    const Vector next = t * recurrence.up[n] * current - previous * recurrence.back[n];
+    const Pack next = t * recurrence.up[n] * current - previous * recurrence.back[n];
     previous = current;
     current = next;
     rows += stride;
@@ -45,11 +46,11 @@ constexpr std::size_t up_to_lanes(std::size_t n) { return (n + lanes - 1) / lane
 /// Rows of one-dimensional Hermite functions of all axes, and room for the left factor of a product.
 template <int d>
 struct Rows {
-  std::size_t depth;       // sources, up to whole vectors
-  std::size_t width;       // nodes of the first axis, up to whole vectors
+  std::size_t depth;       // sources, up to whole packs
+  std::size_t width;       // nodes of the first axis, up to whole packs
   std::size_t plane;       // numbers of the first axis for one order
-  const double* first;     // [order][source][node]; vectors run over nodes
-  const double* upper[d];  // [order][node][source] of the other axes; vectors run over sources, the last one repeated
+  const double* first;     // [order][source][node]; packs run over nodes
+  const double* upper[d];  // [order][node][source] of the other axes; packs run over sources, the last one repeated
   double* weight;          // [depth]
   double* left;            // [nodes of the second axis][depth]
 };
@@ -140,7 +141,7 @@ CORE_INLINE void make_left(const OuterProductJob& job, const Rows<d>& rows, cons
     const bool fresh = part == job.first_part[bundle];
     for (std::size_t i = 0; i < slab.to[1] - slab.from[1]; ++i)
       for (std::size_t p = 0; p < depth; p += lanes) {
-        Vector value = load(weight + p);
+        Pack value = load(weight + p);
         if constexpr (d > 1)
           value *=
               load(rows.upper[1] + (static_cast<std::size_t>(order[1]) * job.nodes[1] + slab.from[1] + i) * depth + p);
@@ -177,16 +178,7 @@ void outer_product_in(const OuterProductJob& job) {
 }  // namespace
 
 void outer_product(const OuterProductJob& job) {
-  switch (job.dimension) {
-    case 1:
-      return outer_product_in<1>(job);
-    case 2:
-      return outer_product_in<2>(job);
-    case 3:
-      return outer_product_in<3>(job);
-    default:
-      return outer_product_in<4>(job);
-  }
+  in_dimension(job.dimension, [&](auto dimension) { outer_product_in<dimension.d>(job); });
 }
 
 }  // namespace fgtd::detail::CORE_ISA

@@ -1,9 +1,10 @@
-// The kernels of `chebyshev` on nodes of boxes (fgtd/chebyshev/jobs.hpp): chain, moments and interpolate; see core/simd/vector.hpp for what
+// The kernels of `chebyshev` on nodes of boxes (fgtd/chebyshev/jobs.hpp): chain, moments and interpolate; see core/simd/pack.hpp for what
 // may stand here.
-#include "core/simd/vector.hpp"
+#include "core/simd/pack.hpp"
 #include "fgtd/chebyshev/jobs.hpp"
 #include "fgtd/chebyshev/quad.hpp"
 #include "fgtd/kernels/contract.hpp"
+#include "fgtd/kernels/dimensions.hpp"
 #include "fgtd/kernels/set.hpp"
 
 namespace fgtd::detail::CORE_ISA {
@@ -13,25 +14,25 @@ namespace fgtd::detail::CORE_ISA {
 
 namespace {
 
-template <int rows, int vectors>
+template <int rows, int packs>
 CORE_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x, std::size_t valid) {
-  Vector sum[rows][vectors] = {};
+  Pack sum[rows][packs] = {};
   for (std::size_t link = 0; link < job.links; ++link) {
     const double* b = job.b[link] + row * job.b_stride;
     const double* d = job.d[link] + x;
     for (std::size_t k = 0; k < job.depth; ++k, d += job.d_stride) {
-      Vector right[vectors];
-      for (int v = 0; v < vectors; ++v) right[v] = load(d + static_cast<std::size_t>(v) * lanes);
+      Pack right[packs];
+      for (int v = 0; v < packs; ++v) right[v] = load(d + static_cast<std::size_t>(v) * lanes);
       for (int i = 0; i < rows; ++i) {
         const double left = b[static_cast<std::size_t>(i) * job.b_stride + k];
-        for (int v = 0; v < vectors; ++v) sum[i][v] += right[v] * left;
+        for (int v = 0; v < packs; ++v) sum[i][v] += right[v] * left;
       }
     }
   }
   for (int i = 0; i < rows; ++i) {
     double* to = job.c + (row + static_cast<std::size_t>(i)) * job.c_stride + x;
-    for (int v = 0; v < vectors; ++v, to += lanes) {
-      if (v + 1 < vectors || valid == lanes) {
+    for (int v = 0; v < packs; ++v, to += lanes) {
+      if (v + 1 < packs || valid == lanes) {
         store(to, job.add ? load(to) + sum[i][v] : sum[i][v]);
       } else {
         double last[lanes];
@@ -44,22 +45,22 @@ CORE_INLINE void chain_block(const ChainJob& job, std::size_t row, std::size_t x
 
 /// Cuts rows into blocks of nearly the same height. They are so tall that no addition waits for the one before, and
 /// small enough for the registers.
-template <int vectors>
+template <int packs>
 CORE_INLINE void chain_columns(const ChainJob& job, std::size_t x, std::size_t valid) {
-  constexpr std::size_t tall = vectors == 1 ? 8 : 4;
+  constexpr std::size_t tall = packs == 1 ? 8 : 4;
   std::size_t blocks = (job.rows + tall - 1) / tall;
   for (std::size_t row = 0; row < job.rows; --blocks) {
     const std::size_t height = (job.rows - row + blocks - 1) / blocks;
     if constexpr (tall == 8) {
-      if (height == 8) chain_block<8, vectors>(job, row, x, valid);
-      if (height == 7) chain_block<7, vectors>(job, row, x, valid);
-      if (height == 6) chain_block<6, vectors>(job, row, x, valid);
-      if (height == 5) chain_block<5, vectors>(job, row, x, valid);
+      if (height == 8) chain_block<8, packs>(job, row, x, valid);
+      if (height == 7) chain_block<7, packs>(job, row, x, valid);
+      if (height == 6) chain_block<6, packs>(job, row, x, valid);
+      if (height == 5) chain_block<5, packs>(job, row, x, valid);
     }
-    if (height == 4) chain_block<4, vectors>(job, row, x, valid);
-    if (height == 3) chain_block<3, vectors>(job, row, x, valid);
-    if (height == 2) chain_block<2, vectors>(job, row, x, valid);
-    if (height == 1) chain_block<1, vectors>(job, row, x, valid);
+    if (height == 4) chain_block<4, packs>(job, row, x, valid);
+    if (height == 3) chain_block<3, packs>(job, row, x, valid);
+    if (height == 2) chain_block<2, packs>(job, row, x, valid);
+    if (height == 1) chain_block<1, packs>(job, row, x, valid);
     row += height;
   }
 }
@@ -75,11 +76,11 @@ void chain(const ChainJob& job) {
   }
   const std::size_t rest = job.width - x;
   if (rest == 0) return;
-  const std::size_t vectors = (rest + lanes - 1) / lanes;
-  const std::size_t valid = rest - (vectors - 1) * lanes;
-  if (vectors == 1) chain_columns<1>(job, x, valid);
-  if (vectors == 2) chain_columns<2>(job, x, valid);
-  if (vectors == 3) chain_columns<3>(job, x, valid);
+  const std::size_t packs = (rest + lanes - 1) / lanes;
+  const std::size_t valid = rest - (packs - 1) * lanes;
+  if (packs == 1) chain_columns<1>(job, x, valid);
+  if (packs == 2) chain_columns<2>(job, x, valid);
+  if (packs == 3) chain_columns<3>(job, x, valid);
 }
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -88,30 +89,30 @@ void chain(const ChainJob& job) {
 namespace {
 
 /// to[i stride] = T_i(z).
-CORE_INLINE void polynomials(int count, Vector z, double* to, std::size_t stride) {
-  Vector before = broadcast(1.0), now = z;
-  const Vector twice = z + z;
+CORE_INLINE void polynomials(int count, Pack z, double* to, std::size_t stride) {
+  Pack before = broadcast(1.0), now = z;
+  const Pack twice = z + z;
   store(to, before);
   for (int i = 1; i < count; ++i) {
     store(to + static_cast<std::size_t>(i) * stride, now);
-    const Vector next = twice * now - before;
+    const Pack next = twice * now - before;
     before = now;
     now = next;
   }
 }
 
 /// to[i stride] = l_i(z): products of the factors before i and of those after it; or T_i(z).
-CORE_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, std::size_t stride) {
+CORE_INLINE void evaluate_basis(const AxisBasis& basis, Pack z, double* to, std::size_t stride) {
   if (basis.node == nullptr) {
     polynomials(basis.nodes, z, to, stride);
     return;
   }
-  Vector before = broadcast(1.0);
+  Pack before = broadcast(1.0);
   for (int i = 0; i < basis.nodes; ++i) {
     store(to + static_cast<std::size_t>(i) * stride, before * basis.scale[i]);
     before *= z - basis.node[i];
   }
-  Vector after = broadcast(1.0);
+  Pack after = broadcast(1.0);
   for (int i = basis.nodes - 1; i >= 0; --i) {
     double* at = to + static_cast<std::size_t>(i) * stride;
     store(at, load(at) * after);
@@ -120,7 +121,7 @@ CORE_INLINE void evaluate_basis(const AxisBasis& basis, Vector z, double* to, st
 }
 
 /// Coordinates of the points first .. first + count as rows to[l][j], l < d, and behind them the weight that records
-/// carry. The last point is repeated up to a whole vector of 8.
+/// carry. The last point is repeated up to a whole pack of 8.
 template <int d>
 CORE_INLINE void bring_apart(const double* local, std::size_t step, std::size_t count, double* to, std::size_t stride) {
   const std::size_t padded = (count + 7) / 8 * 8;
@@ -267,42 +268,33 @@ void moments_in(const MomentsJob& job) {
 }  // namespace
 
 void moments(const MomentsJob& job) {
-  switch (job.dimension) {
-    case 1:
-      return moments_in<1>(job);
-    case 2:
-      return moments_in<2>(job);
-    case 3:
-      return moments_in<3>(job);
-    default:
-      return moments_in<4>(job);
-  }
+  in_dimension(job.dimension, [&](auto dimension) { moments_in<dimension.d>(job); });
 }
 
 namespace {
 
-template <int d, int vectors>
+template <int d, int packs>
 CORE_INLINE void interpolate_at(const InterpolateJob& job, std::size_t first, std::size_t size) {
   const std::size_t p = static_cast<std::size_t>(job.basis.nodes);
   const double* g[d];
-  double* point = job.scratch + d * p * vectors * lanes;
+  double* point = job.scratch + d * p * packs * lanes;
   bring_apart<d>(job.local + first * job.local_stride, job.local_stride, size, point, 2 * 8);
   for (std::size_t l = 0; l < d; ++l) {
-    double* table = job.scratch + l * p * vectors * lanes;
+    double* table = job.scratch + l * p * packs * lanes;
     g[l] = table;
-    for (std::size_t v = 0; v < vectors; ++v)
-      evaluate_basis(job.basis, load(point + l * 2 * 8 + v * lanes), table + v * lanes, vectors * lanes);
+    for (std::size_t v = 0; v < packs; ++v)
+      evaluate_basis(job.basis, load(point + l * 2 * 8 + v * lanes), table + v * lanes, packs * lanes);
   }
   const double* coefficients = job.coefficients;
   for (std::size_t q = 0; q < job.outputs; ++q) {
-    Vector sum[vectors];
-    contract<d - 1, vectors>(p, coefficients, g, sum);
+    Pack sum[packs];
+    contract<d - 1, packs>(p, coefficients, g, sum);
     double* to = job.values + q * job.value_stride + first;
-    if (size == vectors * lanes) {
-      for (std::size_t v = 0; v < vectors; ++v) store(to + v * lanes, sum[v]);
+    if (size == packs * lanes) {
+      for (std::size_t v = 0; v < packs; ++v) store(to + v * lanes, sum[v]);
     } else {
-      double all[vectors * lanes];
-      for (std::size_t v = 0; v < vectors; ++v) store(all + v * lanes, sum[v]);
+      double all[packs * lanes];
+      for (std::size_t v = 0; v < packs; ++v) store(all + v * lanes, sum[v]);
       for (std::size_t j = 0; j < size; ++j) to[j] = all[j];
     }
   }
@@ -323,16 +315,7 @@ void interpolate_in(const InterpolateJob& job) {
 }  // namespace
 
 void interpolate(const InterpolateJob& job) {
-  switch (job.dimension) {
-    case 1:
-      return interpolate_in<1>(job);
-    case 2:
-      return interpolate_in<2>(job);
-    case 3:
-      return interpolate_in<3>(job);
-    default:
-      return interpolate_in<4>(job);
-  }
+  in_dimension(job.dimension, [&](auto dimension) { interpolate_in<dimension.d>(job); });
 }
 
 }  // namespace fgtd::detail::CORE_ISA

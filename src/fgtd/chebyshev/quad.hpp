@@ -1,8 +1,8 @@
 // Four points at a time, whatever the instruction set: numbers of one point side by side. For the sources that may include
-// core/simd/vector.hpp.
+// core/simd/pack.hpp.
 #pragma once
 
-#include "core/simd/vector.hpp"
+#include "core/simd/pack.hpp"
 
 namespace fgtd::detail::CORE_ISA {
 
@@ -15,7 +15,7 @@ using Quad = double __attribute__((vector_size(32)));
 using QuadIndex = long long __attribute__((vector_size(32)));
 using QuadKey = int __attribute__((vector_size(16)));
 typedef double UnalignedQuad __attribute__((vector_size(32), aligned(8), may_alias));
-static_assert(alignof(UnalignedQuad) == 8);  // as in core/simd/vector.hpp
+static_assert(alignof(UnalignedQuad) == 8);  // as in core/simd/pack.hpp
 
 CORE_INLINE Quad load_quad(const double* from) { return *reinterpret_cast<const UnalignedQuad*>(from); }
 CORE_INLINE void store_quad(double* to, Quad x) { *reinterpret_cast<UnalignedQuad*>(to) = x; }

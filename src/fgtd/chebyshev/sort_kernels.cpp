@@ -1,8 +1,9 @@
-// The kernels of `chebyshev` that bring points to boxes: locate and sort_block (fgtd/chebyshev/jobs.hpp); see core/simd/vector.hpp for
+// The kernels of `chebyshev` that bring points to boxes: locate and sort_block (fgtd/chebyshev/jobs.hpp); see core/simd/pack.hpp for
 // what may stand here.
-#include "core/simd/vector.hpp"
+#include "core/simd/pack.hpp"
 #include "fgtd/chebyshev/jobs.hpp"
 #include "fgtd/chebyshev/quad.hpp"
+#include "fgtd/kernels/dimensions.hpp"
 #include "fgtd/kernels/set.hpp"
 
 namespace fgtd::detail::CORE_ISA {
@@ -12,22 +13,21 @@ namespace {
 // locate
 
 /// The largest whole number <= x, for |x| < 2^50: adding `shift` rounds to a whole number.
-CORE_INLINE Vector floor_of(Vector x) {
+CORE_INLINE Pack floor_of(Pack x) {
   constexpr double shift = 0x1.8p52;
-  const Vector whole = (x + shift) - shift;
+  const Pack whole = (x + shift) - shift;
   return whole - select(reinterpret_cast<Bits>(whole > x), broadcast(1.0));
 }
 
-CORE_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, double* local) {
-  Vector i = clamp((x - job.origin) * job.inverse_side, 0x1p45);
+CORE_INLINE void locate_pack(const LocateJob& job, Pack x, double* index, double* local) {
+  Pack i = clamp((x - job.origin) * job.inverse_side, 0x1p45);
   i = floor_of(i);
   i = i < job.first ? broadcast(job.first) : i;
   i = i > job.last ? broadcast(job.last) : i;
   // The rounding of the quotient may miss the box by one; the remainder shows it.
-  Vector rest = x - (i * job.side + job.origin);
-  const Vector below =
-      select(reinterpret_cast<Bits>(rest < 0.0) & reinterpret_cast<Bits>(i > job.first), broadcast(1.0));
-  const Vector above =
+  Pack rest = x - (i * job.side + job.origin);
+  const Pack below = select(reinterpret_cast<Bits>(rest < 0.0) & reinterpret_cast<Bits>(i > job.first), broadcast(1.0));
+  const Pack above =
       select(reinterpret_cast<Bits>(rest >= job.side) & reinterpret_cast<Bits>(i < job.last), broadcast(1.0));
   i = i - below + above;
   store(index, i);
@@ -41,19 +41,19 @@ CORE_INLINE void locate_vector(const LocateJob& job, Vector x, double* index, do
 void locate(const LocateJob& job) {
   std::size_t j = 0;
   for (; j + lanes <= job.count; j += lanes) {
-    Vector x{};
+    Pack x{};
     if (job.stride == 1) {
       x = load(job.coordinate + j);
     } else {
       for (std::size_t v = 0; v < lanes; ++v) x[v] = job.coordinate[(j + v) * job.stride];
     }
-    locate_vector(job, x, job.index + j, job.local == nullptr ? nullptr : job.local + j);
+    locate_pack(job, x, job.index + j, job.local == nullptr ? nullptr : job.local + j);
   }
   if (j == job.count) return;
   double x[lanes] = {}, index[lanes], local[lanes];
   for (std::size_t v = 0; v < lanes; ++v)
     x[v] = job.coordinate[(j + v < job.count ? j + v : job.count - 1) * job.stride];
-  locate_vector(job, load(x), index, local);
+  locate_pack(job, load(x), index, local);
   for (std::size_t v = 0; j + v < job.count; ++v) {
     job.index[j + v] = index[v];
     if (job.local != nullptr) job.local[j + v] = local[v];
@@ -192,16 +192,7 @@ void sort_block_in(const SortBlockJob& job) {
 }  // namespace
 
 void sort_block(const SortBlockJob& job) {
-  switch (job.dimension) {
-    case 1:
-      return sort_block_in<1>(job);
-    case 2:
-      return sort_block_in<2>(job);
-    case 3:
-      return sort_block_in<3>(job);
-    default:
-      return sort_block_in<4>(job);
-  }
+  in_dimension(job.dimension, [&](auto dimension) { sort_block_in<dimension.d>(job); });
 }
 
 }  // namespace fgtd::detail::CORE_ISA

@@ -1,5 +1,6 @@
-// The kernel of `direct`; see core/simd/vector.hpp for what may stand here.
+// The kernel of `direct`; see core/simd/pack.hpp for what may stand here.
 #include "core/simd/functions.hpp"
+#include "fgtd/kernels/dimensions.hpp"
 #include "fgtd/kernels/set.hpp"
 
 namespace fgtd::detail::CORE_ISA {
@@ -8,37 +9,37 @@ namespace {
 constexpr std::size_t source_chunk = 256;  // partial sums of so many terms, then added: rounding grows with N/256 + 256
 constexpr std::size_t max_outputs = 16;    // sums kept at a time
 
-/// The plain Gaussian, `columns` columns of weights at a time and two vectors of targets:
+/// The plain Gaussian, `columns` columns of weights at a time and two packs of targets:
 ///   out[k][i] = sum_j weights[k][j] exp(-sigma |y_i - x_j|^2)
 template <int d, int columns>
 void direct_values(const DirectJob& job, const double* weights, double* out) {
-  constexpr std::size_t vectors = 2 * lanes <= group_size ? 2 : 1;
-  for (std::size_t first = 0; first < group_size; first += vectors * lanes) {
-    Vector y[d][vectors];
+  constexpr std::size_t packs = 2 * lanes <= group_size ? 2 : 1;
+  for (std::size_t first = 0; first < group_size; first += packs * lanes) {
+    Pack y[d][packs];
     for (int l = 0; l < d; ++l)
-      for (std::size_t v = 0; v < vectors; ++v)
+      for (std::size_t v = 0; v < packs; ++v)
         y[l][v] = load(job.target + static_cast<std::size_t>(l) * group_size + first + v * lanes);
-    Vector total[columns][vectors] = {};
+    Pack total[columns][packs] = {};
     for (std::size_t begin = 0; begin < job.sources; begin += source_chunk) {
       const std::size_t end = begin + source_chunk < job.sources ? begin + source_chunk : job.sources;
-      Vector partial[columns][vectors] = {};
+      Pack partial[columns][packs] = {};
       for (std::size_t j = begin; j < end; ++j) {
-        for (std::size_t v = 0; v < vectors; ++v) {
-          Vector squared{};
+        for (std::size_t v = 0; v < packs; ++v) {
+          Pack squared{};
           for (int l = 0; l < d; ++l) {
-            const Vector distance = y[l][v] - job.position[static_cast<std::size_t>(l) * job.sources + j];
+            const Pack distance = y[l][v] - job.position[static_cast<std::size_t>(l) * job.sources + j];
             squared += distance * distance;
           }
-          const Vector gaussian = exp_interpolated(squared * -job.sigma);
+          const Pack gaussian = exp_interpolated(squared * -job.sigma);
           for (int k = 0; k < columns; ++k)
             partial[k][v] += gaussian * weights[static_cast<std::size_t>(k) * job.sources + j];
         }
       }
       for (int k = 0; k < columns; ++k)
-        for (std::size_t v = 0; v < vectors; ++v) total[k][v] += partial[k][v];
+        for (std::size_t v = 0; v < packs; ++v) total[k][v] += partial[k][v];
     }
     for (int k = 0; k < columns; ++k)
-      for (std::size_t v = 0; v < vectors; ++v)
+      for (std::size_t v = 0; v < packs; ++v)
         store(out + static_cast<std::size_t>(k) * group_size + first + v * lanes, total[k][v]);
   }
 }
@@ -71,33 +72,33 @@ void direct_all_values(const DirectJob& job) {
 template <int d>
 void direct_terms(const DirectJob& job, std::size_t q0, std::size_t q1, std::size_t k0, std::size_t k1) {
   for (std::size_t first = 0; first < group_size; first += lanes) {
-    Vector total[max_outputs] = {};
+    Pack total[max_outputs] = {};
     for (std::size_t begin = 0; begin < job.sources; begin += source_chunk) {
       const std::size_t end = begin + source_chunk < job.sources ? begin + source_chunk : job.sources;
-      Vector partial[max_outputs] = {};
+      Pack partial[max_outputs] = {};
       for (std::size_t j = begin; j < end; ++j) {
-        Vector polynomial[d][max_derivative_order + 1];  // H_n(t_l) / sqrt(2^n n!)
-        Vector squared{};
+        Pack polynomial[d][max_derivative_order + 1];  // H_n(t_l) / sqrt(2^n n!)
+        Pack squared{};
         for (int l = 0; l < d; ++l) {
           const std::size_t axis = static_cast<std::size_t>(l);
-          const Vector t = clamp(
+          const Pack t = clamp(
               (load(job.target + axis * group_size + first) - job.position[axis * job.sources + j]) * job.root_sigma,
               27.0);
           squared += t * t;
-          Vector previous{}, current = broadcast(1.0);
+          Pack previous{}, current = broadcast(1.0);
           for (int n = 0; n < job.highest[l]; ++n) {
-            const Vector next = t * current * job.recurrence.up[n] - previous * job.recurrence.back[n];
+            const Pack next = t * current * job.recurrence.up[n] - previous * job.recurrence.back[n];
             previous = current;
             current = next;
             polynomial[l][n + 1] = next;
           }
         }
-        const Vector gaussian = exp_interpolated(-squared);
+        const Pack gaussian = exp_interpolated(-squared);
         std::size_t output = 0;
         for (std::size_t q = q0; q < q1; ++q) {
-          Vector sum{};
+          Pack sum{};
           for (std::size_t term = job.first_term[q]; term < job.first_term[q + 1]; ++term) {
-            Vector value = gaussian;
+            Pack value = gaussian;
             for (int l = 0; l < d; ++l) {
               const int order = job.order[term * max_dimension + static_cast<std::size_t>(l)];
               if (order > 0) value *= polynomial[l][order];
@@ -135,16 +136,7 @@ void direct_in(const DirectJob& job) {
 }  // namespace
 
 void direct(const DirectJob& job) {
-  switch (job.dimension) {
-    case 1:
-      return direct_in<1>(job);
-    case 2:
-      return direct_in<2>(job);
-    case 3:
-      return direct_in<3>(job);
-    default:
-      return direct_in<4>(job);
-  }
+  in_dimension(job.dimension, [&](auto dimension) { direct_in<dimension.d>(job); });
 }
 
 }  // namespace fgtd::detail::CORE_ISA

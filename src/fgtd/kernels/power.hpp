@@ -1,8 +1,8 @@
 // Powers of two by polynomials whose degree suits the tolerance: the exponentials of `cells` and `outer_product`. For the sources
-// that may include core/simd/vector.hpp.
+// that may include core/simd/pack.hpp.
 #pragma once
 
-#include "core/simd/vector.hpp"
+#include "core/simd/pack.hpp"
 
 namespace fgtd::detail::CORE_ISA {
 
@@ -58,15 +58,15 @@ struct PowerOfTwo<11> {
 
 /// 2^-s, s = scale squared, where squared >= 0, squared <= limit and s <= 1000; exactly 0 for larger squared and NaN.
 template <int degree>
-CORE_INLINE Vector power_of_half(Vector squared, double scale, double limit) {
+CORE_INLINE Pack power_of_half(Pack squared, double scale, double limit) {
   constexpr double shift = 0x1.8p52;  // adding it rounds to an integer that then stands in the low bits
-  Vector k = squared * scale + shift;
+  Pack k = squared * scale + shift;
   const Bits exponent = reinterpret_cast<Bits>(k) << 52;
   k -= shift;
-  const Vector r = k - squared * scale;
-  Vector power = broadcast(PowerOfTwo<degree>::c[degree]);
+  const Pack r = k - squared * scale;
+  Pack power = broadcast(PowerOfTwo<degree>::c[degree]);
   for (int i = degree - 1; i >= 0; --i) power = power * r + PowerOfTwo<degree>::c[i];
-  const Vector value = reinterpret_cast<Vector>(reinterpret_cast<Bits>(power) - exponent);
+  const Pack value = reinterpret_cast<Pack>(reinterpret_cast<Bits>(power) - exponent);
   return select(reinterpret_cast<Bits>(squared <= limit), value);
 }
 

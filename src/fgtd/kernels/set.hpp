@@ -1,7 +1,7 @@
 // The kernels of the instruction set CORE_ISA, each defined in the source of its method; table.cpp lists them.
 #pragma once
 
-#include "core/simd/vector.hpp"
+#include "core/simd/pack.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail::CORE_ISA {

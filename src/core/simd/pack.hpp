@@ -1,4 +1,4 @@
-// Vectors of CORE_LANES doubles, in namespace CORE_ISA. Only sources that are compiled once for every instruction set may
+// Packs of CORE_LANES doubles (SIMD vectors), in namespace CORE_ISA. Only sources that are compiled once for every instruction set may
 // include this (cmake/InstructionSets.cmake). An inline function that other sources include too would exist in several
 // versions, and the linker might keep one with instructions that the processor lacks. So those sources use nothing of
 // the standard library, and their helpers have internal linkage.
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t lanes = CORE_LANES;
 
-using Vector = double __attribute__((vector_size(8 * CORE_LANES)));
+using Pack = double __attribute__((vector_size(8 * CORE_LANES)));
 using Bits = unsigned long long __attribute__((vector_size(8 * CORE_LANES)));
 using Signed = long long __attribute__((vector_size(8 * CORE_LANES)));  // of a comparison
 typedef double Unaligned __attribute__((vector_size(8 * CORE_LANES), aligned(8), may_alias));
@@ -19,10 +19,10 @@ static_assert(alignof(Unaligned) == 8);  // clang ignores `aligned` where the na
 
 #define CORE_INLINE inline __attribute__((always_inline))
 
-CORE_INLINE Vector load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
-CORE_INLINE void store(double* to, Vector x) { *reinterpret_cast<Unaligned*>(to) = x; }
-CORE_INLINE Vector broadcast(double x) { return Vector{} + x; }
-CORE_INLINE Vector select(Bits mask, Vector x) { return reinterpret_cast<Vector>(mask & reinterpret_cast<Bits>(x)); }
+CORE_INLINE Pack load(const double* from) { return *reinterpret_cast<const Unaligned*>(from); }
+CORE_INLINE void store(double* to, Pack x) { *reinterpret_cast<Unaligned*>(to) = x; }
+CORE_INLINE Pack broadcast(double x) { return Pack{} + x; }
+CORE_INLINE Pack select(Bits mask, Pack x) { return reinterpret_cast<Pack>(mask & reinterpret_cast<Bits>(x)); }
 template <class Mask>
 CORE_INLINE bool any(Mask mask) {
   unsigned long long words[sizeof(Mask) / 8], all = 0;
@@ -30,7 +30,7 @@ CORE_INLINE bool any(Mask mask) {
   for (const unsigned long long word : words) all |= word;
   return all != 0;
 }
-CORE_INLINE Vector clamp(Vector x, double bound) {
+CORE_INLINE Pack clamp(Pack x, double bound) {
   x = x > bound ? broadcast(bound) : x;
   return x < -bound ? broadcast(-bound) : x;
 }
