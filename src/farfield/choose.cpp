@@ -38,6 +38,49 @@ double clusters_bytes(const Problem& problem, std::size_t leaf_size) {
   return points * (2 * (8.0 * d + 4) + 1) + 2 * points / static_cast<double>(leaf_size) * 1.2 * sizeof(Cluster);
 }
 
+/// The method asked for, or the faster of both, with its best leaf size and seconds.
+template <int d>
+Prediction choose_method(const Tree<d>& tree, std::size_t fine_leaf_size, const Costs<d>& costs, Method asked,
+                         Method& chosen) {
+  std::optional<Prediction> prediction;
+  for (const Method method : {Method::symmetric, Method::tree}) {
+    if (asked != Method::automatic && asked != method) continue;
+    const Prediction found = predict<d>(tree, fine_leaf_size, costs, method == Method::symmetric);
+    if (prediction && prediction->seconds <= found.seconds) continue;
+    prediction = found;
+    chosen = method;
+  }
+  return *prediction;
+}
+
+/// Prepares the sum over the clusters of `tree`, of leaves of choice.leaf_size; `bytes` are those of tree and points.
+template <int d>
+std::unique_ptr<Summation> make_clustered(const Problem& problem, const Options& options, Tree<d> tree,
+                                          const Degrees<d>& degrees, const Costs<d>& costs, Precisions precisions,
+                                          double bytes, Choice& choice) {
+  const bool couple = choice.method == Method::symmetric;
+  choice.degree = degrees.highest;
+  choice.clusters = tree.clusters().size();
+  choice.levels = static_cast<int>(tree.levels());
+  // A cluster has at most as many couplings as its place in the parent allows offsets.
+  const double clusters = static_cast<double>(choice.clusters), offsets = d == 3 ? 189 : 27;
+  check_memory("the block partition and the coefficients",
+               bytes + clusters * (couple ? offsets * sizeof(CouplingChunk::Pair) : 64) +
+                   clusters * 8.0 * static_cast<double>(functions<d>(degrees.highest)) * (couple ? 2 : 1),
+               options.memory_limit);
+  std::shared_ptr<const Operators<d>> operators;  // a single cluster needs none
+  if (choice.clusters > 1) operators = Operators<d>::get(degrees, couple, options.threads);
+  Partition partition = make_partition<d>(tree, {.enough = costs.nodes(),
+                                                 .couple = couple,
+                                                 .steepest_fit = steepest_fit(options.tolerance, degrees.one_sided),
+                                                 .threads = options.threads});
+  choice.work = work_of<d>(partition, tree, costs.nodes());
+  typename Clustered<d>::Parts parts{std::move(tree), std::move(partition), std::move(operators), precisions,
+                                     options.threads};
+  if (couple) return std::make_unique<SymmetricMethod<d>>(problem, std::move(parts));
+  return std::make_unique<TreeMethod<d>>(problem, std::move(parts));
+}
+
 }  // namespace
 
 template <int d>
@@ -76,54 +119,21 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   const std::size_t fine_leaf_size =
       options.leaf_size > 0 ? options.leaf_size : static_cast<std::size_t>(std::clamp(good / 6, 8.0, 1024.0));
   const double points_bytes = 8.0 * d * static_cast<double>(problem.sources + problem.targets);
-  check_memory("the tree", points_bytes + clusters_bytes<d>(problem, fine_leaf_size), options.memory_limit);
+  const double tree_bytes = points_bytes + clusters_bytes<d>(problem, fine_leaf_size);
+  check_memory("the tree", tree_bytes, options.memory_limit);
   Tree<d> tree(problem, fine_leaf_size, smallest_side(problem, options.tolerance), options.threads);
 
-  std::optional<Prediction> prediction;
-  for (const Method method : {Method::symmetric, Method::tree}) {
-    if (!any && options.method != method) continue;
-    const bool couple = method == Method::symmetric;
-    const Prediction found = predict<d>(tree, fine_leaf_size, costs, couple);
-    if (prediction && prediction->seconds <= found.seconds) continue;
-    prediction = found;
-    choice.method = method;
-  }
-  if (any && direct_seconds < prediction->seconds) return direct();
+  const Prediction prediction = choose_method<d>(tree, fine_leaf_size, costs, options.method, choice.method);
+  if (any && direct_seconds < prediction.seconds) return direct();
 
-  if (options.leaf_size == 0) tree.prune(prediction->leaf_size);
-  const bool couple = choice.method == Method::symmetric;
-  choice.seconds = prediction->seconds;
+  if (options.leaf_size == 0) tree.prune(prediction.leaf_size);
+  choice.seconds = prediction.seconds;
   check_seconds(choice.method, choice.seconds, options.most_seconds);
-  choice.degree = degrees.highest;
   choice.bound =
       std::max(std::max(degrees.error, degrees.one_sided_error + rounded) + core_share(problem) * options.tolerance,
                error_of(precisions.points));
-  choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction->leaf_size;
-  choice.clusters = tree.clusters().size();
-  choice.levels = static_cast<int>(tree.levels());
-  // A cluster has at most as many couplings as its place in the parent allows offsets.
-  const double clusters = static_cast<double>(choice.clusters), offsets = d == 3 ? 189 : 27;
-  check_memory("the block partition and the coefficients",
-               points_bytes + clusters_bytes<d>(problem, fine_leaf_size) +
-                   clusters * (couple ? offsets * sizeof(CouplingChunk::Pair) : 64) +
-                   clusters * 8.0 * static_cast<double>(functions<d>(degrees.highest)) * (couple ? 2 : 1),
-               options.memory_limit);
-  std::shared_ptr<const Operators<d>> operators;  // a single cluster needs none
-  if (choice.clusters > 1) operators = Operators<d>::get(degrees, couple, options.threads);
-  Partition partition = make_partition<d>(tree, {.enough = costs.nodes(),
-                                                 .couple = couple,
-                                                 .steepest_fit = steepest_fit(options.tolerance, degrees.one_sided),
-                                                 .threads = options.threads});
-  choice.work = work_of<d>(partition, tree, costs.nodes());
-  typename Clustered<d>::Parts parts{std::move(tree), std::move(partition), std::move(operators), precisions,
-                                     options.threads};
-  std::unique_ptr<Clustered<d>> clustered;
-  if (couple) {
-    clustered = std::make_unique<SymmetricMethod<d>>(problem, std::move(parts));
-  } else {
-    clustered = std::make_unique<TreeMethod<d>>(problem, std::move(parts));
-  }
-  return clustered;
+  choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction.leaf_size;
+  return make_clustered<d>(problem, options, std::move(tree), degrees, costs, precisions, tree_bytes, choice);
 }
 
 template std::unique_ptr<Summation> choose_summation<2>(const Problem&, const Options&, Choice&);

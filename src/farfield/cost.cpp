@@ -120,67 +120,99 @@ Costs<d>::Costs(const Problem& problem, const Degrees<d>& degrees, Precisions pr
   good_leaf_size_ = std::sqrt(all * far_clusters / offsets / (near * pair_));
 }
 
+namespace {
+
+/// The work of a cluster and all that it has beside and above it, by the leaf sizes for which it comes about.
+template <int d>
+class Work {
+ public:
+  Work(const Tree<d>& fine, const Costs<d>& costs, bool couple) : fine_(fine), costs_(costs), couple_(couple) {
+    seconds_.add(0, larger_count(fine.clusters()[0]), costs.setup(couple));
+  }
+
+  /// Cluster i stands for `weight` clusters of its level.
+  void add(std::size_t i, double weight) {
+    const Cluster& cluster = fine_.clusters()[i];
+    const std::size_t own = larger_count(cluster), above = divided_above(cluster);
+    const std::size_t leaf_from = cluster.leaf() ? 0 : own;  // is a leaf for sizes leaf_from <= s < above
+    const double sources = static_cast<double>(cluster.source_count()),
+                 targets = static_cast<double>(cluster.target_count());
+    if (cluster.level > 0) {
+      seconds_.add(0, above, weight * (sources + (fine_.self() ? 0 : targets)) * sorted_point);
+      seconds_.add(0, above, weight * costs_.transfer() * ((sources > 0) + (couple_ && targets > 0)));
+    }
+    seconds_.add(
+        leaf_from, above,
+        weight * (sources * costs_.moments_of_point() + (couple_ ? targets : 0) * costs_.expansion_at_point()));
+    if (cluster.target_count() == 0) return;
+    find_colleagues(i);
+    for (const Index s : colleagues_)
+      seconds_.add(leaf_from, above,
+                   weight * targets * static_cast<double>(fine_.clusters()[s].source_count()) * costs_.pair());
+    for (const Index s : apart_) add_apart(cluster, fine_.clusters()[s], weight);
+  }
+
+  Prediction best(std::size_t smallest) const { return seconds_.best(smallest); }
+
+ private:
+  /// The leaf size from which on the parent of a cluster is a leaf.
+  std::size_t divided_above(const Cluster& cluster) const {
+    constexpr std::size_t any = ~std::size_t{0};
+    return cluster.level == 0 ? any : larger_count(fine_.clusters()[cluster.parent]);
+  }
+
+  /// Down from the root to cluster i, with what touches on the way.
+  void find_colleagues(std::size_t i) {
+    chain_.assign(1, static_cast<Index>(i));
+    while (fine_.clusters()[chain_.back()].level > 0) chain_.push_back(fine_.clusters()[chain_.back()].parent);
+    colleagues_.clear();
+    if (fine_.clusters()[0].source_count() > 0) colleagues_.push_back(0);
+    apart_.clear();
+    for (std::size_t n = chain_.size() - 1; n-- > 0;) {
+      next_colleagues<d>(fine_, fine_.clusters()[chain_[n]], colleagues_, touching_, apart_);
+      colleagues_.swap(touching_);
+    }
+  }
+
+  /// Sources of a cluster that does not touch.
+  void add_apart(const Cluster& cluster, const Cluster& other, double weight) {
+    const std::size_t above = divided_above(cluster), divided = divided_above(other);
+    const double targets = static_cast<double>(cluster.target_count()),
+                 count = static_cast<double>(other.source_count());
+    const double pairs = weight * targets * count * costs_.pair();
+    if (other.level != cluster.level) {  // a larger leaf
+      seconds_.add(0, above, pairs);
+      return;
+    }
+    const bool replaced = other.source_count() > costs_.nodes();
+    double event = replaced ? weight * targets * static_cast<double>(costs_.nodes()) * costs_.substitute_pair() : pairs;
+    if (couple_) {
+      int k[3] = {};
+      for (std::size_t l = 0; l < d; ++l) k[l] = static_cast<int>(std::abs(cluster.cell[l] - other.cell[l]));
+      event = weight * (costs_.coupling(k) + listed_coupling);
+    }
+    seconds_.add(0, std::min(above, divided), event);
+    seconds_.add(divided, above, pairs);  // the other is not divided down to here
+  }
+
+  const Tree<d>& fine_;
+  const Costs<d>& costs_;
+  const bool couple_;
+  BySize seconds_;
+  std::vector<Index> chain_, colleagues_, touching_, apart_;
+};
+
+}  // namespace
+
 template <int d>
 Prediction predict(const Tree<d>& fine, std::size_t fine_leaf_size, const Costs<d>& costs, bool couple) {
-  constexpr std::size_t any = ~std::size_t{0};
-  BySize seconds;
-  seconds.add(0, larger_count(fine.clusters()[0]), costs.setup(couple));
-  std::vector<Index> chain, colleagues, touching, apart;
+  Work<d> work(fine, costs, couple);
   for (std::size_t level = 0; level < fine.levels(); ++level) {
     const std::size_t begin = fine.level_begin(level), end = fine.level_begin(level + 1);
     const std::size_t step = (end - begin + samples_a_level - 1) / samples_a_level;
-    for (std::size_t i = begin; i < end; i += step) {
-      const Cluster& cluster = fine.clusters()[i];
-      const double weight = static_cast<double>(std::min(step, end - i));
-      const std::size_t own = larger_count(cluster),
-                        above = level == 0 ? any : larger_count(fine.clusters()[cluster.parent]);
-      const std::size_t leaf_from = cluster.leaf() ? 0 : own;  // is a leaf for sizes leaf_from <= s < above
-      const double sources = static_cast<double>(cluster.source_count()),
-                   targets = static_cast<double>(cluster.target_count());
-      if (level > 0) {
-        seconds.add(0, above, weight * (sources + (fine.self() ? 0 : targets)) * sorted_point);
-        seconds.add(0, above, weight * costs.transfer() * ((sources > 0) + (couple && targets > 0)));
-      }
-      seconds.add(leaf_from, above,
-                  weight * (sources * costs.moments_of_point() + (couple ? targets : 0) * costs.expansion_at_point()));
-      if (cluster.target_count() == 0) continue;
-
-      // Down from the root to this cluster, with what touches on the way.
-      chain.assign(1, static_cast<Index>(i));
-      while (fine.clusters()[chain.back()].level > 0) chain.push_back(fine.clusters()[chain.back()].parent);
-      colleagues.clear();
-      if (fine.clusters()[0].source_count() > 0) colleagues.push_back(0);
-      apart.clear();
-      for (std::size_t n = chain.size() - 1; n-- > 0;) {
-        next_colleagues<d>(fine, fine.clusters()[chain[n]], colleagues, touching, apart);
-        colleagues.swap(touching);
-      }
-      for (const Index s : colleagues)
-        seconds.add(leaf_from, above,
-                    weight * targets * static_cast<double>(fine.clusters()[s].source_count()) * costs.pair());
-      for (const Index s : apart) {
-        const Cluster& other = fine.clusters()[s];
-        const double count = static_cast<double>(other.source_count());
-        const std::size_t divided = other.level == 0 ? any : larger_count(fine.clusters()[other.parent]);
-        const double pairs = weight * targets * count * costs.pair();
-        if (other.level != cluster.level) {  // a larger leaf
-          seconds.add(0, above, pairs);
-          continue;
-        }
-        const bool replaced = other.source_count() > costs.nodes();
-        double event =
-            replaced ? weight * targets * static_cast<double>(costs.nodes()) * costs.substitute_pair() : pairs;
-        if (couple) {
-          int k[3] = {};
-          for (std::size_t l = 0; l < d; ++l) k[l] = static_cast<int>(std::abs(cluster.cell[l] - other.cell[l]));
-          event = weight * (costs.coupling(k) + listed_coupling);
-        }
-        seconds.add(0, std::min(above, divided), event);
-        seconds.add(divided, above, pairs);  // the other is not divided down to here
-      }
-    }
+    for (std::size_t i = begin; i < end; i += step) work.add(i, static_cast<double>(std::min(step, end - i)));
   }
-  return seconds.best(fine_leaf_size);
+  return work.best(fine_leaf_size);
 }
 
 template class Costs<2>;

@@ -126,6 +126,49 @@ std::vector<std::size_t> cut_slabs(const std::vector<Group<d>>& groups, std::siz
   return cuts;
 }
 
+/// What a sum of these groups takes.
+template <int d>
+struct Work {
+  double pairs = 0;                      // of a source and a node
+  std::array<std::size_t, d> longest{};  // nodes that the kernel sees at once, of each axis
+
+  explicit Work(const std::vector<Group<d>>& groups) {
+    for (const Group<d>& group : groups) {
+      double of_group = static_cast<double>(group.count);
+      for (std::size_t l = 0; l < d; ++l) {
+        const std::size_t nodes = group.window[l].end - group.window[l].begin;
+        longest[l] = std::min(outer_product_nodes, std::max(longest[l], nodes));
+        of_group *= static_cast<double>(nodes);
+      }
+      pairs += of_group;
+    }
+  }
+};
+
+/// Adds the sources of `job` at the nodes of a window, in blocks of at most outer_product_nodes nodes an axis, so that
+/// the tables stay small.
+template <int d>
+void sum_window(OuterProductJob& job, const std::array<Window, d>& window, const TensorGrid& grid, double* values) {
+  std::array<std::size_t, d> begin;
+  for (std::size_t l = 0; l < d; ++l) begin[l] = window[l].begin;
+  while (true) {
+    job.out = values;
+    for (std::size_t l = 0; l < d; ++l) {
+      job.node[l] = grid.axes[l].data() + begin[l];
+      job.nodes[l] = std::min(outer_product_nodes, window[l].end - begin[l]);
+      job.out += begin[l] * job.step[l];
+    }
+    kernels().outer_product(job);
+    std::size_t l = 0;
+    for (; l < d; ++l) {
+      begin[l] += outer_product_nodes;
+      if (begin[l] < window[l].end) break;
+      begin[l] = window[l].begin;
+    }
+    if (l == d) return;
+  }
+}
+
 }  // namespace
 
 template <int d>
@@ -139,22 +182,13 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
   const std::size_t threads = static_cast<std::size_t>(gaussdrift::base::resolve_threads(threads_));
   const std::vector<std::size_t> cuts =
       cut_slabs<d>(groups, grid.axes[d - 1].size(), threads > 1 ? slabs_a_thread * threads : 1);
-  std::array<std::size_t, d> step, longest{};
-  double pairs = 0;  // of a source and a node
-  for (const Group<d>& group : groups) {
-    double of_group = static_cast<double>(group.count);
-    for (std::size_t l = 0; l < d; ++l) {
-      const std::size_t nodes = group.window[l].end - group.window[l].begin;
-      longest[l] = std::min(outer_product_nodes, std::max(longest[l], nodes));
-      of_group *= static_cast<double>(nodes);
-    }
-    pairs += of_group;
-  }
-  const std::size_t scratch_size = outer_product_scratch(d, bundles.highest.data(), longest.data());
+  const Work<d> work(groups);
+  const std::size_t scratch_size = outer_product_scratch(d, bundles.highest.data(), work.longest.data());
+  std::array<std::size_t, d> step;
   for (std::size_t l = 0; l < d; ++l) step[l] = l == 0 ? 1 : step[l - 1] * grid.axes[l - 1].size();
 
-  const double seconds = static_cast<double>(outputs) *
-                         (pairs * cost::outer_product_step + static_cast<double>(total) * cost::outer_product_value);
+  const double seconds = static_cast<double>(outputs) * (work.pairs * cost::outer_product_step +
+                                                         static_cast<double>(total) * cost::outer_product_value);
   gaussdrift::base::parallel_for({cuts.size() - 1, seconds}, threads_, [&](std::size_t slab) {
     for (std::size_t output = 0; output < outputs; ++output)
       std::fill(values + output * total + cuts[slab] * step[d - 1],
@@ -197,25 +231,7 @@ void CellsSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, do
       job.weights = weights_.data() + group.first;
       job.low = group.low.data();
       job.high = group.high.data();
-      // Blocks of at most outer_product_nodes nodes an axis, so that the tables stay small.
-      std::array<std::size_t, d> begin;
-      for (std::size_t l = 0; l < d; ++l) begin[l] = window[l].begin;
-      while (true) {
-        job.out = values;
-        for (std::size_t l = 0; l < d; ++l) {
-          job.node[l] = grid.axes[l].data() + begin[l];
-          job.nodes[l] = std::min(outer_product_nodes, window[l].end - begin[l]);
-          job.out += begin[l] * step[l];
-        }
-        kernels().outer_product(job);
-        std::size_t l = 0;
-        for (; l < d; ++l) {
-          begin[l] += outer_product_nodes;
-          if (begin[l] < window[l].end) break;
-          begin[l] = window[l].begin;
-        }
-        if (l == d) break;
-      }
+      sum_window<d>(job, window, grid, values);
     }
   });
 }

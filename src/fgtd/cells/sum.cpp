@@ -153,6 +153,42 @@ void for_each_change(const std::vector<BoxIndex<d>>& index, const Open& open) {
   }
 }
 
+/// Targets of a piece in groups, and the runs of sources within reach of each group.
+struct Surroundings {
+  std::vector<CellsGroup> groups;
+  std::vector<std::size_t> runs;  // the first source of each and the end
+};
+
+/// Of the sorted targets begin .. end, whose cells are given.
+template <int d>
+Surroundings find_surroundings(const CellLattice<d>& cells, const std::vector<BoxIndex<d>>& index, std::size_t begin,
+                               std::size_t end, std::size_t lanes) {
+  Surroundings found;
+  std::vector<std::size_t>& runs = found.runs;
+  std::vector<NearLine> lines;
+  for (std::size_t i = begin; i < end;) {
+    const BoxIndex<d>& at = index[i];
+    if (i == begin || line_before<d>(index[i - 1], at)) find_lines<d>(cells, at, lines);
+    const std::size_t together = count_together<d>(index, i, end, cells.span, lanes);
+    const std::int64_t last = index[i + together - 1][0];
+    const std::size_t first_run = runs.size() / 2;
+    for (NearLine& line : lines) {
+      line.from = advance<d>(cells, line.from, line.end, at[0] - line.reach);
+      line.to = advance<d>(cells, std::max(line.from, line.to), line.end, last + line.reach + 1);
+      if (line.from == line.to) continue;
+      const std::size_t first_source = cells.first[line.from], end_source = cells.first[line.to];
+      if (runs.size() / 2 > first_run && runs.back() == first_source) {
+        runs.back() = end_source;
+      } else {
+        runs.insert(runs.end(), {first_source, end_source});
+      }
+    }
+    found.groups.push_back({i - begin, together, first_run, runs.size() / 2});
+    i += together;
+  }
+  return found;
+}
+
 /// Sorts `position` ([d][count]) into cells.
 template <int d>
 std::vector<double> sort_into_cells(CellLattice<d>& cells, const Buffer<double>& position, std::size_t count,
@@ -227,30 +263,7 @@ void CellsSum<d>::evaluate(const Request<d>& request, const double* targets, std
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t l = 0; l < d; ++l) target[l * stride + i - begin] = targets[order[i] * d + l];
 
-    std::vector<NearLine> lines;
-    std::vector<CellsGroup> groups;
-    std::vector<std::size_t> runs;
-    for (std::size_t i = begin; i < end;) {
-      const BoxIndex<d>& at = index[i];
-      if (i == begin || line_before<d>(index[i - 1], at)) find_lines<d>(cells_, at, lines);
-      const std::size_t together = count_together<d>(index, i, end, cells_.span, kernel.lanes);
-      const std::int64_t last = index[i + together - 1][0];
-      const std::size_t first_run = runs.size() / 2;
-      for (NearLine& line : lines) {
-        line.from = advance<d>(cells_, line.from, line.end, at[0] - line.reach);
-        line.to = advance<d>(cells_, std::max(line.from, line.to), line.end, last + line.reach + 1);
-        if (line.from == line.to) continue;
-        const std::size_t first_source = cells_.first[line.from], end_source = cells_.first[line.to];
-        if (runs.size() / 2 > first_run && runs.back() == first_source) {
-          runs.back() = end_source;
-        } else {
-          runs.insert(runs.end(), {first_source, end_source});
-        }
-      }
-      groups.push_back({i - begin, together, first_run, runs.size() / 2});
-      i += together;
-    }
-
+    const Surroundings near_sources = find_surroundings<d>(cells_, index, begin, end, kernel.lanes);
     std::vector<double> out(outputs * stride);
     kernel.cells({.dimension = d,
                   .degree = plan_.degree,
@@ -267,9 +280,9 @@ void CellsSum<d>::evaluate(const Request<d>& request, const double* targets, std
                   .coefficient = terms.coefficient.data(),
                   .highest = request.highest.data(),
                   .recurrence = recurrence.view(),
-                  .groups = groups.size(),
-                  .group = groups.data(),
-                  .run = runs.data(),
+                  .groups = near_sources.groups.size(),
+                  .group = near_sources.groups.data(),
+                  .run = near_sources.runs.data(),
                   .target = target.data(),
                   .out = out.data(),
                   .target_stride = stride});

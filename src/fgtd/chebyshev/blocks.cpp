@@ -99,7 +99,7 @@ class AxisTransform {
 template <int d>
 class Block {
  public:
-  Block(const Lattice<d>& lattice, const BoxRange<d>& range, std::size_t columns, const BoxIndex<d>* least,
+  Block(const BoxLattice<d>& lattice, const BoxRange<d>& range, std::size_t columns, const BoxIndex<d>* least,
         const BoxIndex<d>* most)
       : boxes_(static_cast<std::size_t>(range.count())),
         first_(boxes_ + 2),
@@ -185,7 +185,7 @@ bool are_few(double boxes, double box_numbers, double points) { return boxes <= 
 double box_of(double coordinate, double origin, double side) { return std::floor((coordinate - origin) * (1 / side)); }
 
 template <int d>
-void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int nodes, const PointView& points,
+void block_moments(const BoxLattice<d>& lattice, const BoxRange<d>& range, int nodes, const PointView& points,
                    const double* weights, std::size_t columns, int threads, Buffer<double>& moments) {
   const std::size_t p = static_cast<std::size_t>(nodes), box_numbers = to_power(p, d);
   const std::size_t boxes = static_cast<std::size_t>(range.count()), all = boxes * columns * box_numbers;
@@ -241,7 +241,7 @@ void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int node
 }
 
 template <int d>
-void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const BoxIndex<d>& least,
+void block_values(const BoxLattice<d>& lattice, const BoxRange<d>& range, const BoxIndex<d>& least,
                   const BoxIndex<d>& most, int nodes, const PointView& points, std::size_t outputs,
                   const double* at_nodes, double* values, std::size_t stride, int threads) {
   const std::size_t p = static_cast<std::size_t>(nodes), box_numbers = to_power(p, d);
@@ -321,11 +321,11 @@ double block_values_bytes(int d, int nodes, double boxes, double outputs, int th
          32.0 * nodes * nodes;
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                         \
-  template struct BoxRange<d>;                                                                                      \
-  template void block_moments<d>(const Lattice<d>&, const BoxRange<d>&, int, const PointView&, const double*,       \
-                                 std::size_t, int, Buffer<double>&);                                                \
-  template void block_values<d>(const Lattice<d>&, const BoxRange<d>&, const BoxIndex<d>&, const BoxIndex<d>&, int, \
+#define FGTD_INSTANTIATE(d)                                                                                            \
+  template struct BoxRange<d>;                                                                                         \
+  template void block_moments<d>(const BoxLattice<d>&, const BoxRange<d>&, int, const PointView&, const double*,       \
+                                 std::size_t, int, Buffer<double>&);                                                   \
+  template void block_values<d>(const BoxLattice<d>&, const BoxRange<d>&, const BoxIndex<d>&, const BoxIndex<d>&, int, \
                                 const PointView&, std::size_t, const double*, double*, std::size_t, int);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -37,13 +37,13 @@ bool are_few(double boxes, double box_numbers, double points);
 /// Sums of Lagrange polynomials, moments[box][column][P^d], first axis fastest; overwritten, with room for
 /// chain_padding numbers behind. weights [columns][points]. Points outside of the range belong to the nearest box.
 template <int d>
-void block_moments(const Lattice<d>& lattice, const BoxRange<d>& range, int nodes, const PointView& points,
+void block_moments(const BoxLattice<d>& lattice, const BoxRange<d>& range, int nodes, const PointView& points,
                    const double* weights, std::size_t columns, int threads, Buffer<double>& moments);
 
 /// values[q stride + j] at point j, by interpolation from values at nodes [box][outputs][P^d]; 0 for points in boxes
 /// beyond least .. most.
 template <int d>
-void block_values(const Lattice<d>& lattice, const BoxRange<d>& range, const BoxIndex<d>& least,
+void block_values(const BoxLattice<d>& lattice, const BoxRange<d>& range, const BoxIndex<d>& least,
                   const BoxIndex<d>& most, int nodes, const PointView& points, std::size_t outputs,
                   const double* at_nodes, double* values, std::size_t stride, int threads);
 

@@ -26,8 +26,8 @@ double rounded(double x, bool up) {
 
 /// Boxes of the points begin .. end, one at a time: visit(point, box, local or nullptr).
 template <int d, class Visit>
-void locate_points(const Lattice<d>& lattice, const PointView& points, const BoxIndex<d>& low, const BoxIndex<d>& high,
-                   bool with_local, std::size_t begin, std::size_t end, const Visit& visit) {
+void locate_points(const BoxLattice<d>& lattice, const PointView& points, const BoxIndex<d>& low,
+                   const BoxIndex<d>& high, bool with_local, std::size_t begin, std::size_t end, const Visit& visit) {
   double index[d][block], local[d][block];
   for (std::size_t start = begin; start < end; start += block) {
     const std::size_t size = std::min(block, end - start);
@@ -57,7 +57,7 @@ void locate_points(const Lattice<d>& lattice, const PointView& points, const Box
 
 template <int d>
 bool fit_lattice(const std::array<double, d>& low, const std::array<double, d>& extent, double widest,
-                 Lattice<d>& lattice) {
+                 BoxLattice<d>& lattice) {
   if (!(widest > 1e-290) || !(widest < 1e290)) return false;
   for (std::size_t l = 0; l < d; ++l) {
     const double high = low[l] + extent[l];
@@ -80,114 +80,147 @@ bool fit_lattice(const std::array<double, d>& low, const std::array<double, d>& 
   return true;
 }
 
+namespace {
+
+/// What is sorted: points in the boxes low .. high of a lattice, `axis[0]` the slowest axis of the order.
 template <int d>
-SortedPoints<d> sort_points(const Lattice<d>& lattice, const PointView& points, const BoxIndex<d>& low,
-                            const BoxIndex<d>& high, const std::array<int, d>& axis, int threads) {
-  SortedPoints<d> sorted;
-  const auto place = [&](std::size_t l) { return static_cast<std::size_t>(axis[l]); };
-  double boxes = 1;
-  for (std::size_t l = 0; l < d; ++l) boxes *= static_cast<double>(high[l] - low[l] + 1);
-  const auto outside = [&](const double* at) {
+struct Sorting {
+  const BoxLattice<d>& lattice;
+  const PointView& points;
+  const BoxIndex<d>&low, &high;
+  const std::array<int, d>& axis;
+
+  std::size_t place(std::size_t l) const { return static_cast<std::size_t>(axis[l]); }
+
+  bool outside(const double* at) const {
     bool any = false;
     for (std::size_t l = 0; l < d; ++l) {
       any |= at[l] < static_cast<double>(low[l]);
       any |= at[l] > static_cast<double>(high[l]);
     }
     return any;
-  };
-
-  if (boxes <= 2 * static_cast<double>(points.count) + 4096 && boxes < most_counters) {
-    // Counting sort: the numbers of points of every box and piece give every point its place.
-    const std::size_t bins = static_cast<std::size_t>(boxes) + 1;  // the last for points outside
-    const std::size_t most_pieces = std::max<std::size_t>(1, static_cast<std::size_t>(most_counters) / bins);
-    const std::size_t pieces =
-        std::max<std::size_t>(1, std::min((points.count + piece_points - 1) / piece_points, most_pieces));
-    const auto begin_of = [&](std::size_t piece) { return points.count * piece / pieces; };
-    std::array<double, d> stride{};
-    double step = 1;
-    for (std::size_t l = d; l-- > 0;) {
-      stride[place(l)] = step;
-      step *= static_cast<double>(high[place(l)] - low[place(l)] + 1);
-    }
-    Buffer<std::uint32_t> key(points.count);
-    const gaussdrift::base::Pieces parts(pieces, 0.5 * cost::chebyshev_sort * static_cast<double>(points.count));
-    std::vector<std::uint32_t> start(pieces * bins, 0);
-    gaussdrift::base::parallel_for(parts, threads, [&](std::size_t piece) {
-      std::uint32_t* counter = start.data() + piece * bins;
-      locate_points<d>(lattice, points, low, high, false, begin_of(piece), begin_of(piece + 1),
-                       [&](std::size_t j, const double* at, const double*) {
-                         double number = 0;
-                         for (std::size_t l = 0; l < d; ++l)
-                           number += (at[l] - static_cast<double>(low[l])) * stride[l];
-                         const std::uint32_t bin =
-                             outside(at) ? static_cast<std::uint32_t>(bins - 1) : static_cast<std::uint32_t>(number);
-                         key[j] = bin;
-                         ++counter[bin];
-                       });
-    });
-    std::uint32_t total = 0;
-    for (std::size_t bin = 0; bin < bins; ++bin) {
-      const std::uint32_t begin = total;
-      for (std::size_t piece = 0; piece < pieces; ++piece) {
-        const std::uint32_t count = start[piece * bins + bin];
-        start[piece * bins + bin] = total;
-        total += count;
-      }
-      if (bin + 1 == bins) {
-        sorted.outside.resize(total - begin);
-        total = begin;
-      } else if (total > begin) {
-        BoxIndex<d> index;
-        std::uint64_t rest = bin;
-        for (std::size_t l = d; l-- > 0;) {
-          const std::uint64_t size = static_cast<std::uint64_t>(high[place(l)] - low[place(l)] + 1);
-          index[place(l)] = low[place(l)] + static_cast<std::int64_t>(rest % size);
-          rest /= size;
-        }
-        sorted.box.push_back(index);
-        sorted.first.push_back(begin);
-      }
-    }
-    sorted.first.push_back(total);
-    sorted.order.resize(total);
-    sorted.local.resize(d * static_cast<std::size_t>(total));
-    gaussdrift::base::parallel_for(parts, threads, [&](std::size_t piece) {
-      std::uint32_t* next = start.data() + piece * bins;
-      locate_points<d>(lattice, points, low, high, true, begin_of(piece), begin_of(piece + 1),
-                       [&](std::size_t j, const double*, const double* local) {
-                         const std::size_t to = next[key[j]]++;
-                         if (key[j] + 1 == bins) {
-                           sorted.outside[to - total] = static_cast<std::uint32_t>(j);
-                           return;
-                         }
-                         sorted.order[to] = static_cast<std::uint32_t>(j);
-                         for (std::size_t l = 0; l < d; ++l) sorted.local[to * d + l] = local[l];
-                       });
-    });
-    return sorted;
   }
 
+  double boxes() const {
+    double product = 1;
+    for (std::size_t l = 0; l < d; ++l) product *= static_cast<double>(high[l] - low[l] + 1);
+    return product;
+  }
+
+  /// The box of a number in the order.
+  BoxIndex<d> box(std::uint64_t number) const {
+    BoxIndex<d> index;
+    for (std::size_t l = d; l-- > 0;) {
+      const std::uint64_t size = static_cast<std::uint64_t>(high[place(l)] - low[place(l)] + 1);
+      index[place(l)] = low[place(l)] + static_cast<std::int64_t>(number % size);
+      number /= size;
+    }
+    return index;
+  }
+
+  template <class Visit>
+  void locate(bool with_local, std::size_t begin, std::size_t end, const Visit& visit) const {
+    locate_points<d>(lattice, points, low, high, with_local, begin, end, visit);
+  }
+};
+
+/// From the numbers of points of every piece and box (`start`, [piece][bin]; the last bin is for points outside) to the
+/// places where those points begin, and the boxes that have points. Returns the number of points inside.
+template <int d>
+std::uint32_t place_bins(const Sorting<d>& sorting, std::size_t pieces, std::size_t bins,
+                         std::vector<std::uint32_t>& start, SortedPoints<d>& sorted) {
+  std::uint32_t total = 0;
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    const std::uint32_t begin = total;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      const std::uint32_t count = start[piece * bins + bin];
+      start[piece * bins + bin] = total;
+      total += count;
+    }
+    if (bin + 1 == bins) {
+      sorted.outside.resize(total - begin);
+      total = begin;
+    } else if (total > begin) {
+      sorted.box.push_back(sorting.box(bin));
+      sorted.first.push_back(begin);
+    }
+  }
+  sorted.first.push_back(total);
+  return total;
+}
+
+/// The numbers of points of every box and piece give every point its place.
+template <int d>
+SortedPoints<d> sort_by_counting(const Sorting<d>& sorting, int threads) {
+  SortedPoints<d> sorted;
+  const std::size_t count = sorting.points.count;
+  const std::size_t bins = static_cast<std::size_t>(sorting.boxes()) + 1;  // the last for points outside
+  const std::size_t most_pieces = std::max<std::size_t>(1, static_cast<std::size_t>(most_counters) / bins);
+  const std::size_t pieces = std::max<std::size_t>(1, std::min((count + piece_points - 1) / piece_points, most_pieces));
+  const auto begin_of = [&](std::size_t piece) { return count * piece / pieces; };
+  std::array<double, d> stride{};
+  double step = 1;
+  for (std::size_t l = d; l-- > 0;) {
+    const std::size_t at = sorting.place(l);
+    stride[at] = step;
+    step *= static_cast<double>(sorting.high[at] - sorting.low[at] + 1);
+  }
+  Buffer<std::uint32_t> key(count);
+  const gaussdrift::base::Pieces parts(pieces, 0.5 * cost::chebyshev_sort * static_cast<double>(count));
+  std::vector<std::uint32_t> start(pieces * bins, 0);
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t piece) {
+    std::uint32_t* counter = start.data() + piece * bins;
+    sorting.locate(false, begin_of(piece), begin_of(piece + 1), [&](std::size_t j, const double* at, const double*) {
+      double number = 0;
+      for (std::size_t l = 0; l < d; ++l) number += (at[l] - static_cast<double>(sorting.low[l])) * stride[l];
+      const std::uint32_t bin =
+          sorting.outside(at) ? static_cast<std::uint32_t>(bins - 1) : static_cast<std::uint32_t>(number);
+      key[j] = bin;
+      ++counter[bin];
+    });
+  });
+  const std::uint32_t total = place_bins<d>(sorting, pieces, bins, start, sorted);
+  sorted.order.resize(total);
+  sorted.local.resize(d * static_cast<std::size_t>(total));
+  gaussdrift::base::parallel_for(parts, threads, [&](std::size_t piece) {
+    std::uint32_t* next = start.data() + piece * bins;
+    sorting.locate(true, begin_of(piece), begin_of(piece + 1), [&](std::size_t j, const double*, const double* local) {
+      const std::size_t to = next[key[j]]++;
+      if (key[j] + 1 == bins) {
+        sorted.outside[to - total] = static_cast<std::uint32_t>(j);
+        return;
+      }
+      sorted.order[to] = static_cast<std::uint32_t>(j);
+      for (std::size_t l = 0; l < d; ++l) sorted.local[to * d + l] = local[l];
+    });
+  });
+  return sorted;
+}
+
+/// For far more boxes than points.
+template <int d>
+SortedPoints<d> sort_by_comparison(const Sorting<d>& sorting) {
+  SortedPoints<d> sorted;
   std::vector<BoxIndex<d>> index;  // the slowest axis last, as sorted_places() wants it
   std::vector<std::uint32_t> inside;
   std::vector<double> local;
-  locate_points<d>(lattice, points, low, high, true, 0, points.count,
-                   [&](std::size_t j, const double* at, const double* where) {
-                     if (outside(at)) {
-                       sorted.outside.push_back(static_cast<std::uint32_t>(j));
-                       return;
-                     }
-                     BoxIndex<d> i;
-                     for (std::size_t l = 0; l < d; ++l) i[d - 1 - l] = static_cast<std::int64_t>(at[place(l)]);
-                     index.push_back(i);
-                     inside.push_back(static_cast<std::uint32_t>(j));
-                     local.insert(local.end(), where, where + d);
-                   });
+  sorting.locate(true, 0, sorting.points.count, [&](std::size_t j, const double* at, const double* where) {
+    if (sorting.outside(at)) {
+      sorted.outside.push_back(static_cast<std::uint32_t>(j));
+      return;
+    }
+    BoxIndex<d> i;
+    for (std::size_t l = 0; l < d; ++l) i[d - 1 - l] = static_cast<std::int64_t>(at[sorting.place(l)]);
+    index.push_back(i);
+    inside.push_back(static_cast<std::uint32_t>(j));
+    local.insert(local.end(), where, where + d);
+  });
   const std::vector<std::size_t> places = sorted_places<d>(index);
   for (std::size_t j = 0; j < places.size(); ++j) {
     const std::size_t from = places[j];
     if (j == 0 || index[from] != index[places[j - 1]]) {
       BoxIndex<d> box;
-      for (std::size_t l = 0; l < d; ++l) box[place(l)] = index[from][d - 1 - l];
+      for (std::size_t l = 0; l < d; ++l) box[sorting.place(l)] = index[from][d - 1 - l];
       sorted.box.push_back(box);
       sorted.first.push_back(j);
     }
@@ -196,6 +229,18 @@ SortedPoints<d> sort_points(const Lattice<d>& lattice, const PointView& points, 
   }
   sorted.first.push_back(places.size());
   return sorted;
+}
+
+}  // namespace
+
+template <int d>
+SortedPoints<d> sort_points(const BoxLattice<d>& lattice, const PointView& points, const BoxIndex<d>& low,
+                            const BoxIndex<d>& high, const std::array<int, d>& axis, int threads) {
+  const Sorting<d> sorting{lattice, points, low, high, axis};
+  const double boxes = sorting.boxes();
+  if (boxes <= 2 * static_cast<double>(points.count) + 4096 && boxes < most_counters)
+    return sort_by_counting<d>(sorting, threads);
+  return sort_by_comparison<d>(sorting);
 }
 
 double sorting_bytes(int d, double points) {
@@ -220,10 +265,10 @@ std::array<BoxLevel, d> make_tree(const std::vector<BoxIndex<d>>& box, const std
   return level;
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                            \
-  template bool fit_lattice<d>(const std::array<double, d>&, const std::array<double, d>&, double, Lattice<d>&);       \
-  template SortedPoints<d> sort_points<d>(const Lattice<d>&, const PointView&, const BoxIndex<d>&, const BoxIndex<d>&, \
-                                          const std::array<int, d>&, int);                                             \
+#define FGTD_INSTANTIATE(d)                                                                                         \
+  template bool fit_lattice<d>(const std::array<double, d>&, const std::array<double, d>&, double, BoxLattice<d>&); \
+  template SortedPoints<d> sort_points<d>(const BoxLattice<d>&, const PointView&, const BoxIndex<d>&,               \
+                                          const BoxIndex<d>&, const std::array<int, d>&, int);                      \
   template std::array<BoxLevel, d> make_tree<d>(const std::vector<BoxIndex<d>>&, const std::array<int, d>&);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

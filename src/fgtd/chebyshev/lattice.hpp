@@ -17,7 +17,7 @@ using gaussdrift::core::Buffer;
 /// Box i of axis l covers origin + [i side, (i+1) side). Sides have 12 significant binary digits and origins are
 /// multiples of the last of them, so that origin + i side is exact for |i| < 2^41.
 template <int d>
-struct Lattice {
+struct BoxLattice {
   std::array<double, d> origin{}, side{};
   std::array<std::int64_t, d> boxes{};  // 0 .. boxes-1 cover the sources
 };
@@ -26,7 +26,7 @@ struct Lattice {
 /// sides or the side is no ordinary number.
 template <int d>
 bool fit_lattice(const std::array<double, d>& low, const std::array<double, d>& extent, double widest,
-                 Lattice<d>& lattice);
+                 BoxLattice<d>& lattice);
 
 /// Points as they are given: coordinate l of point j is at data[l * axis_stride + j * point_stride].
 struct PointView {
@@ -46,7 +46,7 @@ struct SortedPoints {
 
 /// At most 2^32 points.
 template <int d>
-SortedPoints<d> sort_points(const Lattice<d>& lattice, const PointView& points, const BoxIndex<d>& low,
+SortedPoints<d> sort_points(const BoxLattice<d>& lattice, const PointView& points, const BoxIndex<d>& low,
                             const BoxIndex<d>& high, const std::array<int, d>& axis, int threads);
 
 /// p^n, numbers of a box with p nodes an axis.

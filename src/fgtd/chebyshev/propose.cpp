@@ -30,7 +30,7 @@ struct Occupied {
 };
 
 template <int d>
-Occupied<d> all_occupied(const Lattice<d>& lattice) {
+Occupied<d> all_occupied(const BoxLattice<d>& lattice) {
   Occupied<d> found;
   double product = 1;
   for (std::size_t l = 0; l < d; ++l) found.leading[l] = product *= static_cast<double>(lattice.boxes[l]);
@@ -49,7 +49,7 @@ Occupied<d> one_box() {
 }
 
 template <int d>
-Occupied<d> occupied(const Situation<d>& at, const Lattice<d>& lattice, std::size_t most_looked_at) {
+Occupied<d> occupied(const Situation<d>& at, const BoxLattice<d>& lattice, std::size_t most_looked_at) {
   Occupied<d> found = all_occupied<d>(lattice);
   if (found.trailing[0] <= 8) return found;  // not worth a look
   const std::size_t looked_at = std::min(at.sample_count, most_looked_at);
@@ -77,84 +77,111 @@ Occupied<d> occupied(const Situation<d>& at, const Lattice<d>& lattice, std::siz
   return found;
 }
 
-/// Predicted seconds of moments and evaluation.
+/// Predicts the seconds of moments and evaluation, part by part.
 template <int d>
-double chebyshev_seconds(const Situation<d>& at, const ChebyshevPlan<d>& plan, const Occupied<d>& boxes) {
-  const double p = plan.nodes, numbers = std::pow(p, d), root = std::sqrt(at.sigma);
-  const double vectors = std::ceil(p / 8) * 8 / p;
-  const auto sort = [&](double points) {
-    return cost::chebyshev_sort + cost::chebyshev_spread * std::log10(std::max(1.0, boxes.leading[d - 1] / 100)) +
-           (points > cost::chebyshev_sort_cache ? cost::chebyshev_sort_far : 0);
-  };
-  const double fetch = boxes.leading[d - 1] * numbers > cost::chebyshev_cache ? cost::chebyshev_fetch : 0;
-  const double right = d == 1 ? 0 : std::min(p * p, numbers);
-  // points sorted a block at a time into few boxes, and what follows for those boxes
-  const auto by_blocks = [&](double points, double all_boxes) {
-    const double runs = std::min(points, (points / static_cast<double>(block_points(all_boxes)) + 1) * all_boxes);
-    return points * (cost::chebyshev_block_sort + d * p * cost::chebyshev_block_basis) +
-           runs * cost::chebyshev_block_run;
-  };
-  const auto by_polynomials = [&](double all_boxes) {
-    return all_boxes * d * numbers * (p * cost::chebyshev_product + cost::chebyshev_number);
-  };
-  double seconds = 0;
-  if (plan.few_boxes) {
-    const double all_boxes = boxes.leading[d - 1];
-    seconds = by_blocks(at.sources, all_boxes) + at.columns * at.sources * numbers * cost::chebyshev_block_moment +
-              at.columns * by_polynomials(all_boxes);
-  } else {
-    seconds = at.sources * (sort(at.sources) + d * p * cost::chebyshev_basis + right * cost::chebyshev_step +
-                            at.columns * numbers * (d <= 2 ? vectors : 1) * cost::chebyshev_step) +
-              boxes.leading[d - 1] * at.columns * numbers * cost::chebyshev_number;
+class Prediction {
+ public:
+  Prediction(const Situation<d>& at, const ChebyshevPlan<d>& plan, const Occupied<d>& boxes)
+      : at_(at), plan_(plan), boxes_(boxes), p_(plan.nodes), numbers_(std::pow(p_, d)) {}
+
+  double seconds() {
+    add_moments();
+    for (std::size_t l = d; l-- > 0;) add_axis(l);
+    if (at_.options.expected_grid) return seconds_ + derivatives_ * at_.targets * at_.columns * cost::grid_value;
+    add_targets();
+    return seconds_;
   }
-  const double derivatives = at.options.derivative_order > 0 ? 2 : 1;
-  double above = 1, outputs = 1;  // rows of the axes that are done, groups of targets there
-  for (std::size_t l = d; l-- > 0;) {
-    const double parents = l == 0 ? 1 : boxes.leading[l - 1];
-    const double window = 2 * std::floor(plan.reach / (plan.lattice.side[l] * root)) + 3;
-    if (!at.options.expected_grid)
-      seconds += window * p * p * (at.options.derivative_order + 1) * cost::chebyshev_table;
-    // boxes of a line along this axis that lie within the window
-    const double line = boxes.leading[l] / parents;
-    const double links = std::max(1.0, std::min(line, line * window / static_cast<double>(plan.lattice.boxes[l])));
-    double rows = p;
-    if (at.options.expected_grid) {
-      const auto& axis = at.options.expected_grid->axes[l];
+
+ private:
+  double sort(double points) const {
+    return cost::chebyshev_sort + cost::chebyshev_spread * std::log10(std::max(1.0, boxes_.leading[d - 1] / 100)) +
+           (points > cost::chebyshev_sort_cache ? cost::chebyshev_sort_far : 0);
+  }
+
+  /// Points sorted a block at a time into few boxes, and what follows for those boxes.
+  double by_blocks(double points, double all_boxes) const {
+    const double runs = std::min(points, (points / static_cast<double>(block_points(all_boxes)) + 1) * all_boxes);
+    return points * (cost::chebyshev_block_sort + d * p_ * cost::chebyshev_block_basis) +
+           runs * cost::chebyshev_block_run;
+  }
+  double by_polynomials(double all_boxes) const {
+    return all_boxes * d * numbers_ * (p_ * cost::chebyshev_product + cost::chebyshev_number);
+  }
+
+  void add_moments() {
+    const double all_boxes = boxes_.leading[d - 1];
+    if (plan_.few_boxes) {
+      seconds_ = by_blocks(at_.sources, all_boxes) +
+                 at_.columns * at_.sources * numbers_ * cost::chebyshev_block_moment +
+                 at_.columns * by_polynomials(all_boxes);
+      return;
+    }
+    const double packs = std::ceil(p_ / 8) * 8 / p_, right = d == 1 ? 0 : std::min(p_ * p_, numbers_);
+    seconds_ = at_.sources * (sort(at_.sources) + d * p_ * cost::chebyshev_basis + right * cost::chebyshev_step +
+                              at_.columns * numbers_ * (d <= 2 ? packs : 1) * cost::chebyshev_step) +
+               all_boxes * at_.columns * numbers_ * cost::chebyshev_number;
+  }
+
+  /// Boxes of a line along axis l within the window of a row of targets; the axes above are done.
+  void add_axis(std::size_t l) {
+    const double fetch = boxes_.leading[d - 1] * numbers_ > cost::chebyshev_cache ? cost::chebyshev_fetch : 0;
+    const double parents = l == 0 ? 1 : boxes_.leading[l - 1];
+    const double window = 2 * std::floor(plan_.reach / (plan_.lattice.side[l] * std::sqrt(at_.sigma))) + 3;
+    if (!at_.options.expected_grid)
+      seconds_ += window * p_ * p_ * (at_.options.derivative_order + 1) * cost::chebyshev_table;
+    const double line = boxes_.leading[l] / parents;
+    const double links = std::max(1.0, std::min(line, line * window / static_cast<double>(plan_.lattice.boxes[l])));
+    double rows = p_;
+    if (at_.options.expected_grid) {
+      const auto& axis = at_.options.expected_grid->axes[l];
       const double spacing = axis.size() > 1 ? (axis.back() - axis.front()) / static_cast<double>(axis.size() - 1) : 0;
-      rows = std::clamp(spacing > 0 ? std::floor(2 * plan.lattice.side[l] / spacing) + 1 : 1.0, 1.0,
+      rows = std::clamp(spacing > 0 ? std::floor(2 * plan_.lattice.side[l] / spacing) + 1 : 1.0, 1.0,
                         std::min(16.0, std::max(1.0, static_cast<double>(axis.size()))));
       const double groups = std::ceil(static_cast<double>(axis.size()) / rows);
-      seconds += groups * std::min(window, static_cast<double>(plan.lattice.boxes[l])) * p * rows *
-                 (at.options.derivative_order + 1) * cost::chebyshev_table;
-      outputs *= groups;
+      seconds_ += groups * std::min(window, static_cast<double>(plan_.lattice.boxes[l])) * p_ * rows *
+                  (at_.options.derivative_order + 1) * cost::chebyshev_table;
+      outputs_ *= groups;
     } else {
-      outputs = std::min(boxes.trailing[l], at.targets);
+      outputs_ = std::min(boxes_.trailing[l], at_.targets);
     }
-    const double width = std::pow(p, static_cast<double>(l));
+    const double width = std::pow(p_, static_cast<double>(l));
     // of all parents, those within reach on the axes that are done
     double near = parents;
-    for (std::size_t k = 0; k < l && l + 1 < d; ++k) near = std::min(near, boxes.leading[d - 1]);
+    for (std::size_t k = 0; k < l && l + 1 < d; ++k) near = std::min(near, boxes_.leading[d - 1]);
     const double filled = std::ceil(width / 8) * 8 / width;  // lanes paid for one used
-    const double products = l == 0 ? 1 : above;
-    const double multiplications = l == 0 ? above * p * std::ceil(rows / 8) * 8 : above * rows * p * width * filled;
-    seconds += derivatives * at.columns * outputs * cost::chebyshev_contraction;
-    seconds += derivatives * at.columns * outputs * near *
-               (links * multiplications * cost::chebyshev_product +
-                products * (cost::chebyshev_call + links * (cost::chebyshev_link + fetch * p * width)));
-    above *= rows;
+    const double products = l == 0 ? 1 : above_;
+    const double multiplications = l == 0 ? above_ * p_ * std::ceil(rows / 8) * 8 : above_ * rows * p_ * width * filled;
+    seconds_ += derivatives_ * at_.columns * outputs_ * cost::chebyshev_contraction;
+    seconds_ += derivatives_ * at_.columns * outputs_ * near *
+                (links * multiplications * cost::chebyshev_product +
+                 products * (cost::chebyshev_call + links * (cost::chebyshev_link + fetch * p_ * width)));
+    above_ *= rows;
   }
-  if (at.options.expected_grid) return seconds + derivatives * at.targets * at.columns * cost::grid_value;
-  const double target_boxes = std::min(boxes.trailing[0], at.targets), a_box = at.targets / target_boxes;
-  if (are_few(target_boxes, numbers, at.targets))
-    return seconds + by_blocks(at.targets, target_boxes) +
-           derivatives * at.columns *
-               (at.targets * numbers * cost::chebyshev_block_value + by_polynomials(target_boxes));
-  const double lanes = std::ceil(a_box / 8) * 8 / a_box;
-  return seconds +
-         at.targets * (sort(at.targets) + cost::chebyshev_value * derivatives * at.columns +
-                       lanes * (d * p * cost::chebyshev_basis +
-                                derivatives * at.columns * (numbers + std::pow(p, d - 1)) * cost::chebyshev_step));
-}
+
+  /// From the nodes of their boxes to the targets.
+  void add_targets() {
+    const double target_boxes = std::min(boxes_.trailing[0], at_.targets), a_box = at_.targets / target_boxes;
+    if (are_few(target_boxes, numbers_, at_.targets)) {
+      seconds_ = seconds_ + by_blocks(at_.targets, target_boxes) +
+                 derivatives_ * at_.columns *
+                     (at_.targets * numbers_ * cost::chebyshev_block_value + by_polynomials(target_boxes));
+      return;
+    }
+    const double lanes = std::ceil(a_box / 8) * 8 / a_box;
+    seconds_ +=
+        at_.targets * (sort(at_.targets) + cost::chebyshev_value * derivatives_ * at_.columns +
+                       lanes * (d * p_ * cost::chebyshev_basis +
+                                derivatives_ * at_.columns * (numbers_ + std::pow(p_, d - 1)) * cost::chebyshev_step));
+  }
+
+  const Situation<d>& at_;
+  const ChebyshevPlan<d>& plan_;
+  const Occupied<d>& boxes_;
+  const double p_, numbers_;
+  const double derivatives_ = at_.options.derivative_order > 0 ? 2 : 1;
+  double above_ = 1, outputs_ = 1;  // rows of the axes that are done, groups of targets there
+  double seconds_ = 0;
+};
 
 template <int d>
 std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at) {
@@ -179,9 +206,9 @@ std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at) {
     for (const std::int64_t along_axis : plan.lattice.boxes) all_boxes *= static_cast<double>(along_axis);
     plan.few_boxes = are_few(all_boxes, numbers, at.sources);
     const double to_beat = std::min(at.to_beat, choice.seconds);
-    if (!asked && chebyshev_seconds<d>(at, plan, one_box<d>()) >= to_beat) continue;
+    if (!asked && Prediction<d>(at, plan, one_box<d>()).seconds() >= to_beat) continue;
     if (!asked && !plan.few_boxes &&
-        chebyshev_seconds<d>(at, plan, occupied<d>(at, plan.lattice, points_glanced_at)) >= glance_error * to_beat)
+        Prediction<d>(at, plan, occupied<d>(at, plan.lattice, points_glanced_at)).seconds() >= glance_error * to_beat)
       continue;
     const Occupied<d> boxes =
         plan.few_boxes ? all_occupied<d>(plan.lattice) : occupied<d>(at, plan.lattice, points_looked_at);
@@ -193,7 +220,7 @@ std::optional<Proposal<d>> propose_chebyshev(const Situation<d>& at) {
                              8 * at.columns * numbers * 2 * std::ceil(at.sources / std::max(16384.0, 4 * numbers));
     smallest_memory = std::min(smallest_memory, memory);
     if (memory > static_cast<double>(at.options.memory_limit)) continue;
-    const double seconds = chebyshev_seconds<d>(at, plan, boxes);
+    const double seconds = Prediction<d>(at, plan, boxes).seconds();
     if (seconds >= choice.seconds) continue;
     best = plan;
     proposal.plan_bytes = memory;

@@ -27,7 +27,7 @@ template <int d>
 struct ChebyshevPlan {
   int nodes = 0;     // P
   double reach = 0;  // R: boxes farther apart on some axis (times sqrt(sigma)) do not see each other
-  Lattice<d> lattice;
+  BoxLattice<d> lattice;
   bool few_boxes = false;  // all are kept, see fgtd/chebyshev/blocks.hpp
 };
 

@@ -55,15 +55,26 @@ class ChebyshevSum<d>::Translation {
  private:
   /// False if nothing is in reach.
   bool contract(std::size_t axis, const Group& group, std::size_t above, int order) {
-    const std::size_t p = sum_.node_.size();
+    const std::size_t parents = axis == 0 ? 1 : sum_.tree_[axis - 1].index.size();
+    const std::size_t size = above * group.rows * to_power(sum_.node_.size(), static_cast<int>(axis));
+    std::vector<const double*>& out = input_[axis];
+    out.assign(parents, nullptr);
+    find_links(axis, group, parents);
+    if (place_.empty()) return false;
+    if (output_[axis].size() < place_.size() * size + chain_padding)
+      output_[axis].resize(place_.size() * size + chain_padding);
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      double* to = output_[axis].data() + i * size;
+      out[place_[i]] = to;
+      sum_links(axis, group, above, order, i, to);
+    }
+    return true;
+  }
+
+  /// Lists the parents that have children within reach of the group, and those children.
+  void find_links(std::size_t axis, const Group& group, std::size_t parents) {
     const BoxLevel& children = sum_.tree_[axis];
     const std::vector<const double*>& in = input_[axis + 1];
-    std::vector<const double*>& out = input_[axis];
-    const std::size_t parents = axis == 0 ? 1 : sum_.tree_[axis - 1].index.size();
-    const std::size_t width = to_power(p, static_cast<int>(axis));
-    const std::size_t size = above * group.rows * width;
-    out.assign(parents, nullptr);
-
     place_.clear();
     link_.clear();
     first_link_.assign(1, 0);
@@ -81,50 +92,46 @@ class ChebyshevSum<d>::Translation {
       first_link_.push_back(link_.size());
       place_.push_back(parent);
     }
-    if (place_.empty()) return false;
-    if (output_[axis].size() < place_.size() * size + chain_padding)
-      output_[axis].resize(place_.size() * size + chain_padding);
+  }
 
-    const AxisMatrices& matrices = matrices_[axis];
-    for (std::size_t i = 0; i < place_.size(); ++i) {
-      double* to = output_[axis].data() + i * size;
-      out[place_[i]] = to;
-      const std::size_t links = first_link_[i + 1] - first_link_[i];
-      matrix_.clear();
-      for (std::size_t k = 0; k < links; ++k)
-        matrix_.push_back(matrices.matrix(group, children.index[link_[first_link_[i] + k]], order));
-      block_.resize(links);
-      const std::size_t products = axis == 0 ? 1 : above;
-      for (std::size_t q = 0; q < products; ++q) {
-        for (std::size_t k = 0; k < links; ++k) block_[k] = in[link_[first_link_[i] + k]] + q * p * width;
-        if (axis == 0) {
-          kernels().chain({.rows = above,
-                           .depth = p,
-                           .width = group.rows,
-                           .links = links,
-                           .b = block_.data(),
-                           .b_stride = p,
-                           .d = matrix_.data(),
-                           .d_stride = group.rows,
-                           .c = to,
-                           .c_stride = group.rows,
-                           .add = false});
-        } else {
-          kernels().chain({.rows = group.rows,
-                           .depth = p,
-                           .width = width,
-                           .links = links,
-                           .b = matrix_.data(),
-                           .b_stride = p,
-                           .d = block_.data(),
-                           .d_stride = width,
-                           .c = to + q * group.rows * width,
-                           .c_stride = width,
-                           .add = false});
-        }
+  /// The sum over the children of parent i of those listed.
+  void sum_links(std::size_t axis, const Group& group, std::size_t above, int order, std::size_t i, double* to) {
+    const std::size_t p = sum_.node_.size(), width = to_power(p, static_cast<int>(axis));
+    const std::size_t* const link = link_.data() + first_link_[i];
+    const std::size_t links = first_link_[i + 1] - first_link_[i];
+    matrix_.clear();
+    for (std::size_t k = 0; k < links; ++k)
+      matrix_.push_back(matrices_[axis].matrix(group, sum_.tree_[axis].index[link[k]], order));
+    block_.resize(links);
+    const std::size_t products = axis == 0 ? 1 : above;
+    for (std::size_t q = 0; q < products; ++q) {
+      for (std::size_t k = 0; k < links; ++k) block_[k] = input_[axis + 1][link[k]] + q * p * width;
+      if (axis == 0) {
+        kernels().chain({.rows = above,
+                         .depth = p,
+                         .width = group.rows,
+                         .links = links,
+                         .b = block_.data(),
+                         .b_stride = p,
+                         .d = matrix_.data(),
+                         .d_stride = group.rows,
+                         .c = to,
+                         .c_stride = group.rows,
+                         .add = false});
+      } else {
+        kernels().chain({.rows = group.rows,
+                         .depth = p,
+                         .width = width,
+                         .links = links,
+                         .b = matrix_.data(),
+                         .b_stride = p,
+                         .d = block_.data(),
+                         .d_stride = width,
+                         .c = to + q * group.rows * width,
+                         .c_stride = width,
+                         .add = false});
       }
     }
-    return true;
   }
 
   const ChebyshevSum& sum_;

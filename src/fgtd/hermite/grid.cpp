@@ -59,7 +59,15 @@ struct Block {
   }
 };
 
-/// Calls body(offset_in_inner, offset_in_outer) for every run of nodes along axis 0 in `inner`, which lies in `outer_product`
+/// The boxes between two planes across the last axis, summed over the other axes.
+template <int d>
+struct Slab {
+  Window window;  // of the last axis
+  Block<d> block;
+  std::vector<std::vector<double>> table;  // [combination * prefixes + prefix]: of the last axis
+};
+
+/// Calls body(offset_in_inner, offset_in_outer) for every run of nodes along axis 0 in `inner`, which lies in an outer array
 /// (both over axes 0 .. axes-1). `stride` holds numbers from node to node of each axis in the outer array, whose first
 /// nodes are `origin`.
 template <int d, class Body>
@@ -129,6 +137,10 @@ class GridSum {
                                  std::size_t prefix) const;
   void run_line(int threads, double* values) const;
   void run_slabs(int threads, double* values);
+  /// Slabs begin .. end, of `numbers` numbers, for one column of weights.
+  std::vector<Slab<d>> sum_batch(std::size_t begin, std::size_t end, std::size_t k, double numbers, int threads) const;
+  /// Adds them at all nodes of the grid, by so many updates of a node.
+  void add_batch(const std::vector<Slab<d>>& batch, std::size_t k, double updates, int threads, double* values) const;
 
   const HermitePlan& plan_;
   double root_sigma_;
@@ -359,87 +371,89 @@ void GridSum<d>::run_line(int threads, double* values) const {
 /// d >= 2: batches of slabs; the slabs of a batch side by side, then the pieces of the grid side by side.
 template <int d>
 void GridSum<d>::run_slabs(int threads, double* values) {
-  struct Slab {
-    Window window;  // of the last axis
-    Block<d> block;
-    std::vector<std::vector<double>> table;  // [combination * prefixes + prefix]
-  };
-  const std::size_t slabs = boxes_.level[d - 1].index.size();
+  const std::size_t slabs = hull_.size();
+  std::vector<double> numbers_of(slabs);
+  const double a_hull = 20e-9;  // of one box
+  gaussdrift::base::parallel_for({slabs, static_cast<double>(boxes_.count()) * a_hull}, threads, [&](std::size_t slab) {
+    hull_[slab] = hull(d - 1, slab);
+    double numbers = static_cast<double>(prefix_[d - 2].size() * p_ * padded(hull_[slab][0].size()));
+    for (std::size_t l = 1; l + 1 < d; ++l) numbers *= static_cast<double>(hull_[slab][l].size());
+    numbers_of[slab] = numbers;
+  });
+  for (std::size_t k = 0; k < columns_; ++k)
+    for (std::size_t begin = 0; begin < slabs;) {
+      std::size_t end = begin;
+      double numbers = 0;
+      for (; end < slabs && (end == begin || numbers + numbers_of[end] <= static_cast<double>(batch_numbers)); ++end)
+        numbers += numbers_of[end];
+      // Lines from boxes, then slabs from lines; and the grid from slabs.
+      double updates = 0;
+      for (std::size_t slab = begin; slab < end; ++slab)
+        updates += numbers_of[slab] * static_cast<double>(hull_[slab][d - 1].size() * request_.combinations.size());
+      add_batch(sum_batch(begin, end, k, numbers, threads), k, updates, threads, values);
+      begin = end;
+    }
+}
+
+template <int d>
+std::vector<Slab<d>> GridSum<d>::sum_batch(std::size_t begin, std::size_t end, std::size_t k, double numbers,
+                                           int threads) const {
+  std::vector<Slab<d>> batch(end - begin);
+  const std::size_t prefixes = prefix_[d - 2].size();
+  const double boxes = static_cast<double>(boxes_.count() * batch.size()) / static_cast<double>(hull_.size()),
+               of_box = static_cast<double>(moments_.size()) / static_cast<double>(boxes_.count() * columns_) *
+                        cost::product_step;
+  const double width = static_cast<double>(padded(hull_[begin][0].size()) * prefixes);
+  const double seconds =
+      boxes * (cost::product_call + of_box * width) + numbers * static_cast<double>(p_) * cost::product_step;
+  gaussdrift::base::parallel_for({batch.size(), seconds}, threads, [&](std::size_t i) {
+    Slab<d>& slab = batch[i];
+    slab.window = hull_[begin + i][d - 1];
+    if (slab.window.size() == 0) return;
+    sum_children(d - 1, begin + i, k, slab.block);
+    for (std::size_t q = 0; q < request_.combinations.size(); ++q)
+      for (std::size_t f = 0; f < prefixes; ++f)
+        slab.table.push_back(last_table(column_of(d - 1, begin + i), slab.window, q, f));
+  });
+  return batch;
+}
+
+template <int d>
+void GridSum<d>::add_batch(const std::vector<Slab<d>>& batch, std::size_t k, double updates, int threads,
+                           double* values) const {
+  constexpr std::size_t piece_nodes = d == 2 ? 16 : 4;
   const std::size_t prefixes = prefix_[d - 2].size();
   const std::size_t last_nodes = grid_.axes[d - 1].size();
   std::array<std::size_t, d> origin{}, stride{};
   stride[0] = 1;
   for (std::size_t l = 1; l < d; ++l) stride[l] = stride[l - 1] * grid_.axes[l - 1].size();
   const std::size_t plane = stride[d - 1], size = plane * last_nodes;
-  constexpr std::size_t piece_nodes = d == 2 ? 16 : 4;
-
-  std::vector<double> slab_numbers(slabs);
-  const double a_hull = 20e-9;  // of one box
-  gaussdrift::base::parallel_for({slabs, static_cast<double>(boxes_.count()) * a_hull}, threads, [&](std::size_t slab) {
-    hull_[slab] = hull(d - 1, slab);
-    double numbers = static_cast<double>(prefixes * p_ * padded(hull_[slab][0].size()));
-    for (std::size_t l = 1; l + 1 < d; ++l) numbers *= static_cast<double>(hull_[slab][l].size());
-    slab_numbers[slab] = numbers;
-  });
-
-  for (std::size_t k = 0; k < columns_; ++k)
-    for (std::size_t begin = 0; begin < slabs;) {
-      std::size_t end = begin;
-      for (double numbers = 0;
-           end < slabs && (end == begin || numbers + slab_numbers[end] <= static_cast<double>(batch_numbers)); ++end)
-        numbers += slab_numbers[end];
-
-      std::vector<Slab> batch(end - begin);
-      // Lines from boxes, then slabs from lines; and the grid from slabs.
-      double numbers = 0, updates = 0;
-      for (std::size_t slab = begin; slab < end; ++slab) {
-        numbers += slab_numbers[slab];
-        updates += slab_numbers[slab] * static_cast<double>(hull_[slab][d - 1].size() * request_.combinations.size());
-      }
-      const double boxes = static_cast<double>(boxes_.count() * batch.size()) / static_cast<double>(slabs),
-                   of_box = static_cast<double>(moments_.size()) / static_cast<double>(boxes_.count() * columns_) *
-                            cost::product_step;
-      const double width = static_cast<double>(padded(hull_[begin][0].size()) * prefixes);
-      const double seconds =
-          boxes * (cost::product_call + of_box * width) + numbers * static_cast<double>(p_) * cost::product_step;
-      gaussdrift::base::parallel_for({batch.size(), seconds}, threads, [&](std::size_t i) {
-        Slab& slab = batch[i];
-        slab.window = hull_[begin + i][d - 1];
-        if (slab.window.size() == 0) return;
-        sum_children(d - 1, begin + i, k, slab.block);
-        for (std::size_t q = 0; q < request_.combinations.size(); ++q)
-          for (std::size_t f = 0; f < prefixes; ++f)
-            slab.table.push_back(last_table(column_of(d - 1, begin + i), slab.window, q, f));
-      });
-
-      const gaussdrift::base::Pieces pieces((last_nodes + piece_nodes - 1) / piece_nodes, updates * cost::product_step);
-      gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
-        const Window mine{piece * piece_nodes, std::min(last_nodes, (piece + 1) * piece_nodes)};
-        for (const Slab& slab : batch) {
-          const Window window{std::max(mine.begin, slab.window.begin), std::min(mine.end, slab.window.end)};
-          if (window.begin >= window.end || slab.block.row_numbers == 0) continue;
-          for (std::size_t q = 0; q < request_.combinations.size(); ++q)
-            for (std::size_t f = 0; f < prefixes; ++f) {
-              const std::vector<double>& table = slab.table[q * prefixes + f];
-              if (table.empty()) continue;
-              const double* from = slab.block.data.data() + f * p_ * slab.block.row_numbers;
-              double* to = values + (q * columns_ + k) * size + window.begin * plane;
-              for_each_run<d>(slab.block.window, d - 1, origin, stride, [&](std::size_t inner, std::size_t outer) {
-                kernels().product({.rows = window.size(),
-                                   .depth = p_,
-                                   .width = slab.block.window[0].size(),
-                                   .b = table.data() + (window.begin - slab.window.begin) * p_,
-                                   .b_stride = p_,
-                                   .d = from + inner,
-                                   .d_stride = slab.block.row_numbers,
-                                   .c = to + outer,
-                                   .c_stride = plane});
-              });
-            }
+  const gaussdrift::base::Pieces pieces((last_nodes + piece_nodes - 1) / piece_nodes, updates * cost::product_step);
+  gaussdrift::base::parallel_for(pieces, threads, [&](std::size_t piece) {
+    const Window mine{piece * piece_nodes, std::min(last_nodes, (piece + 1) * piece_nodes)};
+    for (const Slab<d>& slab : batch) {
+      const Window window{std::max(mine.begin, slab.window.begin), std::min(mine.end, slab.window.end)};
+      if (window.begin >= window.end || slab.block.row_numbers == 0) continue;
+      for (std::size_t q = 0; q < request_.combinations.size(); ++q)
+        for (std::size_t f = 0; f < prefixes; ++f) {
+          const std::vector<double>& table = slab.table[q * prefixes + f];
+          if (table.empty()) continue;
+          const double* from = slab.block.data.data() + f * p_ * slab.block.row_numbers;
+          double* to = values + (q * columns_ + k) * size + window.begin * plane;
+          for_each_run<d>(slab.block.window, d - 1, origin, stride, [&](std::size_t inner, std::size_t outer) {
+            kernels().product({.rows = window.size(),
+                               .depth = p_,
+                               .width = slab.block.window[0].size(),
+                               .b = table.data() + (window.begin - slab.window.begin) * p_,
+                               .b_stride = p_,
+                               .d = from + inner,
+                               .d_stride = slab.block.row_numbers,
+                               .c = to + outer,
+                               .c_stride = plane});
+          });
         }
-      });
-      begin = end;
     }
+  });
 }
 
 template <int d>

@@ -25,6 +25,49 @@ std::vector<std::size_t> cut(const std::vector<std::size_t>& first) {
   return cuts;
 }
 
+/// Tables of the powers of a chunk of sources.
+struct Powers {
+  std::size_t terms, padded;
+  std::vector<double> root;         // (x^b / sqrt(b!)) = root[b] x * (x^{b-1} / sqrt((b-1)!))
+  std::vector<double> of_axis;      // [b][j]
+  std::vector<double> left, right;  // Q [b_{d-1} .. b_1][j], X [j][b_0]
+
+  Powers(std::size_t p, std::size_t rows)
+      : terms(p),
+        padded((p + row_padding - 1) / row_padding * row_padding),
+        root(p),
+        of_axis(p * chunk),
+        left(rows * chunk),
+        right(chunk * padded) {
+    for (std::size_t b = 1; b < p; ++b) root[b] = 1 / std::sqrt(static_cast<double>(b));
+  }
+
+  /// Sources begin .. begin + size of `position` ([d][count]); scale = sqrt(2 sigma).
+  template <int d>
+  void fill(const double* position, std::size_t count, std::size_t begin, std::size_t size, const double* centre,
+            double scale) {
+    std::size_t filled = 1;  // rows of `left` so far
+    std::fill_n(left.begin(), size, 1.0);
+    for (std::size_t l = 0; l < d; ++l) {
+      const double* x = position + l * count + begin;
+      std::fill_n(of_axis.begin(), size, 1.0);
+      for (std::size_t b = 1; b < terms; ++b)
+        for (std::size_t j = 0; j < size; ++j)
+          of_axis[b * chunk + j] = of_axis[(b - 1) * chunk + j] * ((x[j] - centre[l]) * scale) * root[b];
+      if (l == 0) {
+        for (std::size_t j = 0; j < size; ++j)
+          for (std::size_t b = 0; b < terms; ++b) right[j * padded + b] = of_axis[b * chunk + j];
+        continue;
+      }
+      for (std::size_t b = terms; b-- > 0;)  // from the end, so that the rows of b = 0 are read before they are scaled
+        for (std::size_t m = 0; m < filled; ++m)
+          for (std::size_t j = 0; j < size; ++j)
+            left[(b * filled + m) * chunk + j] = left[m * chunk + j] * of_axis[b * chunk + j];
+      filled *= terms;
+    }
+  }
+};
+
 }  // namespace
 
 std::size_t power(int p, int n) {
@@ -66,14 +109,11 @@ void HermiteSum<d>::set_weights(const double* weights, std::size_t columns) {
   sources.columns = columns;
   sources.weights = reordered_weights(weights, columns, order_);
   const std::size_t p = static_cast<std::size_t>(plan_.terms);
-  const std::size_t padded = (p + row_padding - 1) / row_padding * row_padding;
   const std::size_t rows = power(plan_.terms, d - 1);
   columns_ = sources.columns;
   moments_.assign(boxes_.count() * columns_ * rows * p, 0.0);
   if (moments_.empty()) return;
 
-  std::vector<double> root(p);  // (x^b / sqrt(b!)) = root[b] x * (x^{b-1} / sqrt((b-1)!))
-  for (std::size_t b = 1; b < p; ++b) root[b] = 1 / std::sqrt(static_cast<double>(b));
   const double scale = std::sqrt(2.0) * std::sqrt(sigma_);
 
   const std::vector<std::size_t>& first = boxes_.level[0].first;
@@ -81,39 +121,21 @@ void HermiteSum<d>::set_weights(const double* weights, std::size_t columns) {
   const double a_source = static_cast<double>(columns_ * rows * p) * cost::moment_step;
   const gaussdrift::base::Pieces pieces(cuts.size() - 1, static_cast<double>(sources.count) * a_source);
   gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t piece) {
-    std::vector<double> powers(p * chunk);  // of one axis: [b][j]
-    std::vector<double> left(rows * chunk), right(chunk * padded), weighted(chunk * padded);
+    Powers powers(p, rows);
+    const std::size_t padded = powers.padded;
+    std::vector<double> weighted(chunk * padded);
     for (std::size_t box = cuts[piece]; box < cuts[piece + 1]; ++box)
       for (std::size_t begin = first[box]; begin < first[box + 1]; begin += chunk) {
         const std::size_t size = std::min(chunk, first[box + 1] - begin);
-        std::size_t filled = 1;  // rows of `left` so far
-        std::fill_n(left.begin(), size, 1.0);
-        for (std::size_t l = 0; l < d; ++l) {
-          const double centre = boxes_.centre[box * d + l];
-          const double* x = sources.position.data() + l * sources.count + begin;
-          std::fill_n(powers.begin(), size, 1.0);
-          for (std::size_t b = 1; b < p; ++b)
-            for (std::size_t j = 0; j < size; ++j)
-              powers[b * chunk + j] = powers[(b - 1) * chunk + j] * ((x[j] - centre) * scale) * root[b];
-          if (l == 0) {
-            for (std::size_t j = 0; j < size; ++j)
-              for (std::size_t b = 0; b < p; ++b) right[j * padded + b] = powers[b * chunk + j];
-            continue;
-          }
-          for (std::size_t b = p; b-- > 0;)  // from the end, so that the rows of b = 0 are read before they are scaled
-            for (std::size_t m = 0; m < filled; ++m)
-              for (std::size_t j = 0; j < size; ++j)
-                left[(b * filled + m) * chunk + j] = left[m * chunk + j] * powers[b * chunk + j];
-          filled *= p;
-        }
+        powers.fill<d>(sources.position.data(), sources.count, begin, size, boxes_.centre.data() + box * d, scale);
         for (std::size_t k = 0; k < columns_; ++k) {
           const double* row = sources.weights.data() + k * sources.count + begin;
           for (std::size_t j = 0; j < size; ++j)
-            for (std::size_t b = 0; b < p; ++b) weighted[j * padded + b] = row[j] * right[j * padded + b];
+            for (std::size_t b = 0; b < p; ++b) weighted[j * padded + b] = row[j] * powers.right[j * padded + b];
           kernels().product({.rows = rows,
                              .depth = size,
                              .width = p,
-                             .b = left.data(),
+                             .b = powers.left.data(),
                              .b_stride = chunk,
                              .d = weighted.data(),
                              .d_stride = padded,

@@ -68,6 +68,28 @@ std::vector<Group> make_groups(const std::vector<BoxIndex<d>>& index, const std:
   return groups;
 }
 
+/// The targets of a group by axis, as the kernel reads them: padded by repeating the last one.
+template <int d>
+void gather(const double* targets, const std::size_t* order, const Group& group, double* target) {
+  for (std::size_t i = 0; i < group_size; ++i) {
+    const double* from = targets + order[group.begin + std::min(i, group.size - 1)] * d;
+    for (std::size_t l = 0; l < d; ++l) target[l * group_size + i] = from[l];
+  }
+}
+
+/// Adds the derivatives at a group's targets (`out`, [derivative][column][group_size]) to the combinations asked for.
+template <int d>
+void scatter(const Request<d>& request, std::size_t columns, const double* out, const std::size_t* order,
+             const Group& group, std::size_t count, double* values) {
+  for (std::size_t q = 0; q < request.combinations.size(); ++q)
+    for (const auto& part : request.combinations[q])
+      for (std::size_t k = 0; k < columns; ++k) {
+        double* column = values + (q * columns + k) * count;
+        const double* from = out + (part.derivative * columns + k) * group_size;
+        for (std::size_t i = 0; i < group.size; ++i) column[order[group.begin + i]] += part.factor * from[i];
+      }
+}
+
 }  // namespace
 
 template <int d>
@@ -119,10 +141,7 @@ void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, s
       const BoxIndex<d>& home = index[order[group.begin]];
       if (g == first || home != index[order[groups[g - 1].begin]]) neighbours.find(home, near);
       if (near.empty()) continue;
-      for (std::size_t i = 0; i < group_size; ++i) {
-        const double* from = targets + order[group.begin + std::min(i, group.size - 1)] * d;
-        for (std::size_t l = 0; l < d; ++l) target[l * group_size + i] = from[l];
-      }
+      gather<d>(targets, order.data(), group, target);
       std::fill(out.begin(), out.end(), 0.0);
       kernels().expansion({.dimension = d,
                            .terms = plan_.terms,
@@ -143,13 +162,7 @@ void HermiteSum<d>::evaluate(const Request<d>& request, const double* targets, s
                            .recurrence = recurrence.view(),
                            .scratch = scratch.data(),
                            .out = out.data()});
-      for (std::size_t q = 0; q < request.combinations.size(); ++q)
-        for (const auto& part : request.combinations[q])
-          for (std::size_t k = 0; k < columns_; ++k) {
-            double* column = values + (q * columns_ + k) * count;
-            const double* from = out.data() + (part.derivative * columns_ + k) * group_size;
-            for (std::size_t i = 0; i < group.size; ++i) column[order[group.begin + i]] += part.factor * from[i];
-          }
+      scatter<d>(request, columns_, out.data(), order.data(), group, count, values);
     }
   });
 }

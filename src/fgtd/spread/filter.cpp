@@ -66,6 +66,33 @@ double chebyshev_point(std::size_t i, std::size_t terms) {
   return std::cos(pi * (static_cast<double>(i) + 0.5) / static_cast<double>(terms));
 }
 
+/// power[a] = factor q^a / sqrt(2^a a!). Returns the largest of the orders 1 .. power.size().
+double set_powers(double factor, double q, const std::vector<double>& root, std::vector<double>& power) {
+  double largest = 0;
+  for (std::size_t a = 0; a < power.size(); ++a) {
+    power[a] = factor;
+    factor *= q * root[a];
+    largest = std::max(largest, std::abs(factor));
+  }
+  return largest;
+}
+
+/// e^{i q t}.
+struct Wave {
+  double c, s;
+};
+
+/// Calls add(a, panel, power[a] cos(q t - a pi/2)) for all orders a at t_0, t_0 + H, ...; e^{i q t} goes from panel to
+/// panel by turning.
+template <class Add>
+void add_waves(Wave at, Wave turn, std::size_t panels, const std::vector<double>& power, const Add& add) {
+  for (std::size_t p = 0; p < panels; ++p) {
+    for (std::size_t a = 0; a < power.size(); ++a)
+      add(a, p, power[a] * (a % 4 == 0 ? at.c : a % 4 == 1 ? at.s : a % 4 == 2 ? -at.c : -at.s));
+    at = {at.c * turn.c - at.s * turn.s, at.s * turn.c + at.c * turn.s};
+  }
+}
+
 /// h~_a(t), a = 0 .. order.
 void hermite_functions(int order, double t, double* value) {
   double before = 0;
@@ -80,7 +107,12 @@ void hermite_functions(int order, double t, double* value) {
 }  // namespace
 
 SpreadFilter::SpreadFilter(int width, double spacing, double shape, int derivative_order, double tolerance)
-    : width_(width), spacing_(spacing), shape_(shape), tolerance_(tolerance), order_(derivative_order) {
+    : width_(width),
+      spacing_(spacing),
+      shape_(shape),
+      top_(bessel_i0(shape)),
+      tolerance_(tolerance),
+      order_(derivative_order) {
   make_window();
   make_filters();
   grid_axis_ = measure_grid();
@@ -91,13 +123,12 @@ void SpreadFilter::make_window() {
   degree_ = width_ + (tolerance_ < 1e-10 ? 3 : tolerance_ < 1e-5 ? 2 : 1);
   const std::size_t terms = static_cast<std::size_t>(degree_) + 1, w = static_cast<std::size_t>(width_);
   coefficients_.assign(terms * padded_window, 0.0);
-  const double top = bessel_i0(shape_);
   const Interpolation interpolation(terms);
   std::vector<double> value(terms), power(terms);
   for (std::size_t j = 0; j < w; ++j) {
     for (std::size_t i = 0; i < terms; ++i) {
       const double s = static_cast<double>(j) - 0.5 * width_ + 0.5 * (chebyshev_point(i, terms) + 1);
-      value[i] = bessel_i0(shape_ * std::sqrt(std::max(0.0, 1 - 4 * s * s / (width_ * width_)))) / top;
+      value[i] = bessel_i0(shape_ * std::sqrt(std::max(0.0, 1 - 4 * s * s / (width_ * width_)))) / top_;
     }
     interpolation(value.data(), power.data());
     for (std::size_t i = 0; i < terms; ++i) coefficients_[i * padded_window + j] = power[i];
@@ -114,79 +145,67 @@ void SpreadFilter::window_at(double theta, double* values) const {
   }
 }
 
-/// Integrates by the trapezoidal rule. It is exact to rounding, because the integrands are smooth and the images of f
-/// that the rule adds lie outside the range where f is used.
+double SpreadFilter::window_transform(double q) const {
+  const double squared = shape_ * shape_ - 0.25 * q * q * width_ * width_, root = std::sqrt(std::abs(squared));
+  const double value = root < 1e-4 ? 1 + squared / 6 : (squared > 0 ? std::sinh(root) : std::sin(root)) / root;
+  return width_ * value / top_;
+}
+
 void SpreadFilter::make_filters() {
-  const double top = bessel_i0(shape_), h = spacing_;
-  const auto transform = [&](double q) {
-    const double squared = shape_ * shape_ - 0.25 * q * q * width_ * width_, root = std::sqrt(std::abs(squared));
-    const double value = root < 1e-4 ? 1 + squared / 6 : (squared > 0 ? std::sinh(root) : std::sin(root)) / root;
-    return width_ * value / top;
-  };
-  const double allowed = 0.15 * tolerance_;
-  const double farthest = 1.3 * std::sqrt(std::log(1 / tolerance_) + 2.0 * order_) + 4 * h + 2;
-  const double step = pi / (farthest + 0.5 * width_ * h + 2);
-  const std::size_t panels = static_cast<std::size_t>(std::ceil(farthest / h));
+  const double farthest = 1.3 * std::sqrt(std::log(1 / tolerance_) + 2.0 * order_) + 4 * spacing_ + 2;
+  cut_filters(integrate(static_cast<std::size_t>(std::ceil(farthest / spacing_)),
+                        pi / (farthest + 0.5 * width_ * spacing_ + 2)));
+}
+
+/// The trapezoidal rule is exact to rounding, because the integrands are smooth and the images of f that the rule adds
+/// lie outside the range where f is used.
+SpreadFilter::Samples SpreadFilter::integrate(std::size_t panels, double step) {
+  const double h = spacing_;
   const std::size_t orders = static_cast<std::size_t>(order_) + 1;
-  std::vector<std::vector<double>> at(orders, std::vector<double>(panels * filter_terms, 0.0));
+  Samples samples{panels, std::vector<std::vector<double>>(orders, std::vector<double>(panels * filter_terms, 0.0))};
   lattice_.assign(orders, std::vector<double>(panels, 0.0));
   std::vector<double> root(orders);  // q^{a+1} / sqrt(2^{a+1} (a+1)!) from that of a
   for (std::size_t a = 0; a < orders; ++a) root[a] = 1 / std::sqrt(2.0 * static_cast<double>(a + 1));
+  std::vector<double> power(orders);
   for (int n = 0;; ++n) {
     const double q = n * step, gaussian = std::sqrt(pi) * std::exp(-0.25 * q * q);
     double sum = 0;
     for (int m = -3; m <= 3; ++m) {
-      const double image = transform(q * h + 2 * pi * m);
+      const double image = window_transform(q * h + 2 * pi * m);
       sum += image * image;
     }
-    const double quotient = transform(q * h) / sum;
-    double factor = (n == 0 ? 0.5 : 1.0) * step / pi * gaussian * quotient;
-    double largest = 0;
-    const double turn_c = std::cos(q * h), turn_s = std::sin(q * h);
+    const double quotient = window_transform(q * h) / sum;
+    const double factor = (n == 0 ? 0.5 : 1.0) * step / pi * gaussian * quotient;
+    const Wave turn{std::cos(q * h), std::sin(q * h)};
+    const double largest = set_powers(factor, q, root, power);
     for (std::size_t i = 0; i < filter_terms; ++i) {
-      // e^{i q t} along the panels by turning
       const double start = q * 0.5 * h * (chebyshev_point(i, filter_terms) + 1);
-      double c = std::cos(start), s = std::sin(start);
-      for (std::size_t p = 0; p < panels; ++p) {
-        double power = factor;
-        for (std::size_t a = 0; a < orders; ++a) {
-          // cos(q t - a pi/2)
-          const double wave = a % 4 == 0 ? c : a % 4 == 1 ? s : a % 4 == 2 ? -c : -s;
-          at[a][p * filter_terms + i] += power * wave;
-          power *= q * root[a];
-          largest = std::max(largest, std::abs(power));
-        }
-        const double next = c * turn_c - s * turn_s;
-        s = s * turn_c + c * turn_s;
-        c = next;
-      }
+      add_waves({std::cos(start), std::sin(start)}, turn, panels, power,
+                [&](std::size_t a, std::size_t p, double value) { samples.at[a][p * filter_terms + i] += value; });
     }
-    double c = 1, s = 0;
-    for (std::size_t j = 0; j < panels; ++j) {
-      double power = factor * quotient;
-      for (std::size_t a = 0; a < orders; ++a) {
-        lattice_[a][j] += power * (a % 4 == 0 ? c : a % 4 == 1 ? s : a % 4 == 2 ? -c : -s);
-        power *= q * root[a];
-      }
-      const double next = c * turn_c - s * turn_s;
-      s = s * turn_c + c * turn_s;
-      c = next;
-    }
-    if (q > 8 && largest < 1e-19) break;
+    set_powers(factor * quotient, q, root, power);
+    add_waves({1, 0}, turn, panels, power,
+              [&](std::size_t a, std::size_t j, double value) { lattice_[a][j] += value; });
+    if (q > 8 && largest < 1e-19) return samples;
   }
-  // Beyond the reach everything is below `allowed`.
+}
+
+/// Beyond the reach everything is below `allowed`.
+void SpreadFilter::cut_filters(const Samples& samples) {
+  const double allowed = 0.15 * tolerance_;
+  const std::size_t orders = lattice_.size();
   std::size_t used = 1;
   double last = 0;
-  for (std::size_t p = 0; p < panels; ++p)
+  for (std::size_t p = 0; p < samples.panels; ++p)
     for (std::size_t i = 0; i < filter_terms; ++i)
       for (std::size_t a = 0; a < orders; ++a)
-        if (std::abs(at[a][p * filter_terms + i]) > allowed) {
+        if (std::abs(samples.at[a][p * filter_terms + i]) > allowed) {
           used = p + 1;
-          last = std::max(last, (static_cast<double>(p) + 0.5 * (chebyshev_point(i, filter_terms) + 1)) * h);
+          last = std::max(last, (static_cast<double>(p) + 0.5 * (chebyshev_point(i, filter_terms) + 1)) * spacing_);
         }
-  reach_ = std::min(last + 0.1 * h, static_cast<double>(used) * h);
+  reach_ = std::min(last + 0.1 * spacing_, static_cast<double>(used) * spacing_);
   std::size_t kept = 1;
-  for (std::size_t j = 0; j < panels; ++j)
+  for (std::size_t j = 0; j < samples.panels; ++j)
     for (std::size_t a = 0; a < orders; ++a)
       if (std::abs(lattice_[a][j]) > allowed) kept = j + 1;
   const Interpolation interpolation(filter_terms);
@@ -194,7 +213,7 @@ void SpreadFilter::make_filters() {
   for (std::size_t a = 0; a < orders; ++a) {
     lattice_[a].resize(kept);
     for (std::size_t p = 0; p < used; ++p)
-      interpolation(at[a].data() + p * filter_terms, filter_[a].data() + p * filter_terms);
+      interpolation(samples.at[a].data() + p * filter_terms, filter_[a].data() + p * filter_terms);
   }
 }
 

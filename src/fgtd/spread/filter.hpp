@@ -47,15 +47,24 @@ class SpreadFilter {
     std::vector<double> error;  // E_a
     double excess = 0;          // max_t ln(|sum| e^{t^2})
   };
+  struct Samples {
+    std::size_t panels;
+    std::vector<std::vector<double>> at;  // [order + 1][panels of width H][filter_terms], f_a at the Chebyshev points
+  };
   void make_window();
+  double window_transform(double q) const;  // phi^
   void make_filters();
+  /// f_a at the points of the panels, and F_a in lattice_, by the trapezoidal rule with steps of q.
+  Samples integrate(std::size_t panels, double step);
+  /// Sets the reach, and the panels within it as polynomials.
+  void cut_filters(const Samples& samples);
   AxisError measure_grid() const;
   AxisError measure_points() const;
   double product_error(const AxisError& axis, int d) const;
   void window_at(double theta, double* values) const;
 
   int width_;
-  double spacing_, shape_, tolerance_;
+  double spacing_, shape_, top_, tolerance_;  // top: I_0(b)
   int order_;
   double reach_ = 0;
   int degree_ = 0;

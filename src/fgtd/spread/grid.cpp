@@ -102,6 +102,8 @@ class Filter {
   std::pair<std::int64_t, std::int64_t> band(std::size_t axis, std::size_t i) const;
   double entry(int a, std::size_t axis, std::size_t i, std::int64_t k) const;
   void run_piece(std::size_t begin, std::size_t end) const;
+  void sum_axis(std::size_t axis, const AxisMatrix& matrix, const std::vector<const double*>& in, std::size_t first,
+                std::size_t last, std::size_t inner, double* sums) const;
   void descend(std::size_t b, std::size_t k, std::size_t axis, const std::vector<const double*>& in, std::size_t begin,
                std::size_t end, std::size_t offset, std::array<Buffer<double>, d>& scratch) const;
   void write_rows(std::size_t b, std::size_t k, const std::vector<const double*>& in, std::size_t rows,
@@ -290,6 +292,41 @@ void Filter<d>::run_piece(std::size_t begin, std::size_t end) const {
   }
 }
 
+/// Sums over `axis` at its targets first .. last: [suffix][target][inner].
+template <int d>
+void Filter<d>::sum_axis(std::size_t axis, const AxisMatrix& matrix, const std::vector<const double*>& in,
+                         std::size_t first, std::size_t last, std::size_t inner, double* sums) const {
+  const std::size_t size = (last - first) * inner;
+  // Rows along axis 1 are short. Later axes take them from all over the lattice, for which the processor needs a hint.
+  const std::size_t block = axis == 1 ? inner : columns_at_once;
+  for (std::size_t x = 0; x < inner; x += block) {
+    const std::size_t columns = std::min(block, inner - x);
+    for (std::size_t s = 0; s < suffix_[axis].size(); ++s) {
+      const Suffix& suffix = suffix_[axis][s];
+      const double* entries = matrix.entries[static_cast<std::size_t>(suffix.a)].data();
+      double* const to_sums = sums + s * size + x;
+      for (std::size_t i = 0; i < last - first; ++i) std::fill_n(to_sums + i * inner, columns, 0.0);
+      for (std::size_t g = matrix.group_of[first - matrix.begin]; g < matrix.groups.size(); ++g) {
+        const Group& group = matrix.groups[g];
+        const std::size_t from = std::max(first, group.begin), to = std::min(last, group.begin + group.size);
+        if (from >= to) break;
+        const double* const from_sums = in[suffix.parent] + group.first * inner + x;
+        if (axis > 1 && x + block < inner)
+          fetch(from_sums + block, group.depth, inner, std::min(block, inner - x - block));
+        kernels().product({.rows = to - from,
+                           .depth = group.depth,
+                           .width = columns,
+                           .b = entries + group.offset + (from - group.begin) * group.depth,
+                           .b_stride = group.depth,
+                           .d = from_sums,
+                           .d_stride = inner,
+                           .c = to_sums + (from - first) * inner,
+                           .c_stride = inner});
+      }
+    }
+  }
+}
+
 /// From sums over axes axis+1 .. d-1, one array for every suffix, to those over `axis` at its targets begin .. end,
 /// some at a time.
 template <int d>
@@ -308,35 +345,7 @@ void Filter<d>::descend(std::size_t b, std::size_t k, std::size_t axis, const st
     const std::size_t last = std::min(end, (first / together + 1) * together), size = (last - first) * inner;
     sums.resize(std::max(sums.size(), out.size() * size + row_padding));
     std::fill_n(sums.begin() + static_cast<std::ptrdiff_t>(out.size() * size), row_padding, 0.0);
-    // Rows along axis 1 are short. Later axes take them from all over the lattice, for which the processor needs a
-    // hint.
-    const std::size_t block = axis == 1 ? inner : columns_at_once;
-    for (std::size_t x = 0; x < inner; x += block) {
-      const std::size_t columns = std::min(block, inner - x);
-      for (std::size_t s = 0; s < out.size(); ++s) {
-        const Suffix& suffix = suffix_[axis][s];
-        const double* entries = matrix.entries[static_cast<std::size_t>(suffix.a)].data();
-        double* const to_sums = sums.data() + s * size + x;
-        for (std::size_t i = 0; i < last - first; ++i) std::fill_n(to_sums + i * inner, columns, 0.0);
-        for (std::size_t g = matrix.group_of[first - matrix.begin]; g < matrix.groups.size(); ++g) {
-          const Group& group = matrix.groups[g];
-          const std::size_t from = std::max(first, group.begin), to = std::min(last, group.begin + group.size);
-          if (from >= to) break;
-          const double* const from_sums = in[suffix.parent] + group.first * inner + x;
-          if (axis > 1 && x + block < inner)
-            fetch(from_sums + block, group.depth, inner, std::min(block, inner - x - block));
-          kernels().product({.rows = to - from,
-                             .depth = group.depth,
-                             .width = columns,
-                             .b = entries + group.offset + (from - group.begin) * group.depth,
-                             .b_stride = group.depth,
-                             .d = from_sums,
-                             .d_stride = inner,
-                             .c = to_sums + (from - first) * inner,
-                             .c_stride = inner});
-        }
-      }
-    }
+    sum_axis(axis, matrix, in, first, last, inner, sums.data());
     if (axis == 1) {
       for (std::size_t s = 0; s < out.size(); ++s) out[s] = sums.data() + s * size;
       write_rows(b, k, out, last - first, below.begin, below.end, offset + first * stride_[1]);

@@ -21,82 +21,107 @@ struct NearTargets {
   Brick<d> brick;
 };
 
+/// Where targets are near a brick, and the targets as seen from the anchor.
+template <int d>
+class Vicinity {
+ public:
+  Vicinity(const LatticeFrame<d>& frame, const Brick<d>& source, int reach, const double* targets)
+      : anchor_(frame.anchor), targets_(targets) {
+    for (std::size_t l = 0; l < d; ++l) {  // first nodes within reach
+      const double first = static_cast<double>(source.first[l]), nodes = static_cast<double>(source.nodes[l]);
+      from_[l] = (first - reach - frame.width) * frame.spacing;
+      to_[l] = (first + nodes + reach + frame.width) * frame.spacing;
+    }
+  }
+
+  std::array<double, d> from_anchor(std::size_t i) const {
+    std::array<double, d> y;
+    for (std::size_t l = 0; l < d; ++l) y[l] = targets_[i * d + l] - anchor_[l];
+    return y;
+  }
+
+  bool has(const std::array<double, d>& y) const {
+    bool inside = true;
+    for (std::size_t l = 0; l < d; ++l) inside = inside && from_[l] <= y[l] && y[l] <= to_[l];
+    return inside;
+  }
+
+ private:
+  const std::array<double, d> anchor_;
+  const double* targets_;
+  std::array<double, d> from_, to_;
+};
+
+/// How many targets are near, and their extent.
+template <int d>
+struct Found {
+  std::size_t count = 0;
+  std::array<double, d> low, high;
+
+  Found() {
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+  }
+
+  void take(const std::array<double, d>& least, const std::array<double, d>& most) {
+    for (std::size_t l = 0; l < d; ++l) {
+      low[l] = std::min(low[l], least[l]);
+      high[l] = std::max(high[l], most[l]);
+    }
+  }
+};
+
+/// The brick around near targets of that extent: one node to spare on each side.
+template <int d>
+Brick<d> brick_of_targets(const LatticeFrame<d>& frame, const Found<d>& all) {
+  std::array<std::int64_t, d> low, high;
+  for (std::size_t l = 0; l < d; ++l) {
+    low[l] = frame.first_node(all.low[l]);
+    high[l] = frame.first_node(all.high[l]);
+  }
+  return brick_around<d>(low, high, frame.width);
+}
+
 template <int d>
 NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, int reach, const double* targets,
                          std::size_t count, int threads) {
-  std::array<double, d> from, to;  // first nodes within reach
-  for (std::size_t l = 0; l < d; ++l) {
-    const double first = static_cast<double>(source.first[l]), nodes = static_cast<double>(source.nodes[l]);
-    from[l] = (first - reach - frame.width) * frame.spacing;
-    to[l] = (first + nodes + reach + frame.width) * frame.spacing;
-  }
-  const auto from_anchor = [&](std::size_t i) {
-    std::array<double, d> y;
-    for (std::size_t l = 0; l < d; ++l) y[l] = targets[i * d + l] - frame.anchor[l];
-    return y;
-  };
-  const auto is_near = [&](const std::array<double, d>& y) {
-    bool inside = true;
-    for (std::size_t l = 0; l < d; ++l) inside = inside && from[l] <= y[l] && y[l] <= to[l];
-    return inside;
-  };
-  struct Found {
-    std::size_t count = 0;
-    std::array<double, d> low, high;
-    Found() {
-      low.fill(std::numeric_limits<double>::infinity());
-      high.fill(-std::numeric_limits<double>::infinity());
-    }
-  };
+  const Vicinity<d> vicinity(frame, source, reach, targets);
   const std::size_t pieces = (count + piece - 1) / piece;
-  std::vector<Found> found(pieces);
+  std::vector<Found<d>> found(pieces);
   const gaussdrift::base::Pieces parts(pieces, 0.3 * cost::spread_sort * static_cast<double>(count));
   gaussdrift::base::parallel_for(parts, threads, [&](std::size_t p) {
-    Found here;
+    Found<d> here;
     for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
-      const std::array<double, d> y = from_anchor(i);
-      if (!is_near(y)) continue;
+      const std::array<double, d> y = vicinity.from_anchor(i);
+      if (!vicinity.has(y)) continue;
       ++here.count;
-      for (std::size_t l = 0; l < d; ++l) {
-        here.low[l] = std::min(here.low[l], y[l]);
-        here.high[l] = std::max(here.high[l], y[l]);
-      }
+      here.take(y, y);
     }
     found[p] = here;
   });
-  Found all;
-  for (Found& part : found) {
-    for (std::size_t l = 0; l < d; ++l) {
-      all.low[l] = std::min(all.low[l], part.low[l]);
-      all.high[l] = std::max(all.high[l], part.high[l]);
-    }
+  Found<d> all;
+  for (Found<d>& part : found) {
+    all.take(part.low, part.high);
     all.count += std::exchange(part.count, all.count);  // from now on those before it
   }
   NearTargets<d> near;
   if (all.count == 0) return near;
-  Brick<d>& brick = near.brick;
-  for (std::size_t l = 0; l < d; ++l) {
-    const std::int64_t low = frame.first_node(all.low[l]);
-    const std::size_t span = static_cast<std::size_t>(frame.first_node(all.high[l]) - low) + 1;
-    brick.first[l] = low - 1;
-    brick.nodes[l] = span + (l == 0 ? SpreadFilter::padded_window : static_cast<std::size_t>(frame.width)) + 1;
-    brick.tiles[l] = (span + tile_side<d>(l) - 1) / tile_side<d>(l);
-  }
+  near.brick = brick_of_targets<d>(frame, all);
   Buffer<std::uint32_t> index(all.count), cell(all.count);
   gaussdrift::base::parallel_for(parts, threads, [&](std::size_t p) {
     std::size_t at = found[p].count;
     for (std::size_t i = p * piece; i < std::min(count, (p + 1) * piece); ++i) {
-      if (!is_near(from_anchor(i))) continue;
+      if (!vicinity.has(vicinity.from_anchor(i))) continue;
       index[at] = static_cast<std::uint32_t>(i);
-      cell[at++] = static_cast<std::uint32_t>(brick.cell_of(frame, from_anchor(i)));
+      cell[at++] = static_cast<std::uint32_t>(near.brick.cell_of(frame, vicinity.from_anchor(i)));
     }
   });
   near.index.resize(all.count);
   near.position.resize(d * all.count);
   std::vector<std::uint32_t> first;
-  sort_into_cells(cell, brick.cell_count(), threads, first, [&](std::size_t j, std::size_t place) {
+  sort_into_cells(cell, near.brick.cell_count(), threads, first, [&](std::size_t j, std::size_t place) {
     near.index[place] = index[j];
-    const std::array<double, d> y = from_anchor(index[j]);
+    const std::array<double, d> y = vicinity.from_anchor(index[j]);
     std::copy_n(y.begin(), d, near.position.begin() + static_cast<std::ptrdiff_t>(place * d));
   });
   return near;

@@ -63,15 +63,12 @@ double spread_seconds(const Situation<d>& at, const std::vector<Extent<d>>& bric
          at.targets * (cost::spread_sort + place + derivatives * at.columns * rows * vectors * cost::spread_gather);
 }
 
+/// Windows that may serve, with their predicted seconds, the fastest first: on a lattice that is dense, but not denser
+/// than single sources would need. None if the lattice has no finite size.
 template <int d>
-std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
-  const double tolerance = at.options.tolerance;
+std::vector<std::pair<double, int>> windows_by_cost(const Situation<d>& at) {
+  const double tolerance = at.options.tolerance, root = std::sqrt(at.sigma);
   const int order = at.options.derivative_order;
-  if (tolerance < finest_tolerance) return std::nullopt;
-  const bool asked = at.options.method == Method::spread;
-  const double root = std::sqrt(at.sigma);
-
-  // Windows by cost on a lattice that is dense, but not denser than single sources would need.
   const int wide = std::clamp(static_cast<int>(std::ceil(1.9 - std::log10(tolerance))), 4, largest_window);
   std::vector<std::pair<double, int>> windows;
   for (int width = tolerance <= narrow_windows_from ? wide - 1 : wide; width <= wide; ++width) {
@@ -85,11 +82,23 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
     }
     const double shrink = std::min(1.0, std::pow(at.sources * std::pow(width + 2, d) / nodes, 1.0 / d));
     for (double& n : extent) n = std::max(n * shrink, width + 2.0);
-    if (!std::isfinite(nodes)) return std::nullopt;
+    if (!std::isfinite(nodes)) return {};
     windows.emplace_back(spread_seconds<d>(at, {extent}, {at.low}, width, spacing / root, reach), width);
   }
   std::sort(windows.begin(), windows.end());
-  if (windows[0].first > glance_error * at.to_beat) return std::nullopt;
+  return windows;
+}
+
+template <int d>
+std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
+  const double tolerance = at.options.tolerance;
+  const int order = at.options.derivative_order;
+  if (tolerance < finest_tolerance) return std::nullopt;
+  const bool asked = at.options.method == Method::spread;
+  const double root = std::sqrt(at.sigma);
+
+  const std::vector<std::pair<double, int>> windows = windows_by_cost<d>(at);
+  if (windows.empty() || windows[0].first > glance_error * at.to_beat) return std::nullopt;
 
   std::shared_ptr<const SpreadFilter> filter;
   for (const auto& [seconds, width] : windows)

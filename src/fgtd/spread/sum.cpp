@@ -114,7 +114,8 @@ std::vector<Cluster<d>> find_clusters(const std::vector<BoxIndex<d>>& tiles, int
   return clusters;
 }
 
-/// The brick around sources whose first nodes lie in low .. high: one node to spare on each side.
+}  // namespace
+
 template <int d>
 Brick<d> brick_around(const std::array<std::int64_t, d>& low, const std::array<std::int64_t, d>& high, int width) {
   Brick<d> brick;
@@ -127,8 +128,6 @@ Brick<d> brick_around(const std::array<std::int64_t, d>& low, const std::array<s
   }
   return brick;
 }
-
-}  // namespace
 
 template <int d>
 std::size_t Brick<d>::size() const {
@@ -150,6 +149,65 @@ std::size_t SpreadLayout<d>::nodes() const {
   for (const auto& brick : bricks) sum += brick.size();
   return sum;
 }
+
+namespace {
+
+/// A brick around each cluster of sources, in the frame of `layout`. False if they would have far too many nodes.
+template <int d>
+bool lay_out_clusters(const Buffer<double>& position, std::size_t count, SpreadLayout<d>& layout) {
+  const LatticeFrame<d>& frame = layout.frame;
+  std::vector<BoxIndex<d>> node(count), index(count);
+  for (std::size_t l = 0; l < d; ++l)
+    for (std::size_t j = 0; j < count; ++j) {
+      node[j][l] = frame.first_node(position[l * count + j] - frame.anchor[l]);
+      index[j][l] = floor_divide(node[j][l], static_cast<std::int64_t>(tile_side<d>(l)));
+    }
+  const std::vector<std::size_t> order = sorted_places<d>(index);
+  std::vector<BoxIndex<d>> tiles;
+  std::vector<std::size_t> tile_of(count);
+  for (const std::size_t j : order) {
+    if (tiles.empty() || tiles.back() != index[j]) tiles.push_back(index[j]);
+    tile_of[j] = tiles.size() - 1;
+  }
+  const std::vector<Cluster<d>> clusters = find_clusters<d>(tiles, frame.width);
+  std::vector<std::uint16_t> cluster_of(tiles.size());
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    for (const std::size_t i : clusters[c].tile) cluster_of[i] = static_cast<std::uint16_t>(c);
+  // Bricks fit their sources tightly.
+  std::vector<BoxIndex<d>> lowest(clusters.size()), highest(clusters.size());
+  std::vector<char> seen(clusters.size(), 0);
+  layout.brick_of.resize(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::size_t c = cluster_of[tile_of[j]];
+    layout.brick_of[j] = static_cast<std::uint16_t>(c);
+    if (!seen[c]) lowest[c] = highest[c] = node[j];
+    seen[c] = 1;
+    for (std::size_t l = 0; l < d; ++l) {
+      lowest[c][l] = std::min(lowest[c][l], node[j][l]);
+      highest[c][l] = std::max(highest[c][l], node[j][l]);
+    }
+  }
+  double nodes = 0;
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    double product = 1;
+    for (std::size_t l = 0; l < d; ++l)
+      product *= static_cast<double>(highest[c][l] - lowest[c][l]) + SpreadFilter::padded_window + 2;
+    nodes += product;
+  }
+  const double enough = spare_sources * static_cast<double>(count) * std::pow(frame.width + 2, d);
+  if (nodes > enough + most_bricks * small_lattice) return false;
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    Brick<d> brick = brick_around<d>(lowest[c], highest[c], frame.width);
+    if (c > 0) {
+      brick.first_tile = layout.bricks.back().first_tile + layout.bricks.back().tile_count();
+      brick.offset = layout.bricks.back().offset + layout.bricks.back().size();
+    }
+    layout.bricks.push_back(brick);
+  }
+  return true;
+}
+
+}  // namespace
 
 template <int d>
 std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size_t count,
@@ -178,59 +236,11 @@ std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size
     last[l] = frame.first_node(high - frame.anchor[l]) + 1;
     dense *= static_cast<double>(last[l] - first[l] + 1 + width);
   }
-  const double sources = static_cast<double>(count);
-  if (dense <= dense_enough * sources + small_lattice) {
+  if (dense <= dense_enough * static_cast<double>(count) + small_lattice) {
     layout.bricks.push_back(brick_around<d>(first, last, width));
     return layout;
   }
-
-  std::vector<BoxIndex<d>> node(count), index(count);
-  for (std::size_t l = 0; l < d; ++l)
-    for (std::size_t j = 0; j < count; ++j) {
-      node[j][l] = frame.first_node(position[l * count + j] - frame.anchor[l]);
-      index[j][l] = floor_divide(node[j][l], static_cast<std::int64_t>(tile_side<d>(l)));
-    }
-  const std::vector<std::size_t> order = sorted_places<d>(index);
-  std::vector<BoxIndex<d>> tiles;
-  std::vector<std::size_t> tile_of(count);
-  for (const std::size_t j : order) {
-    if (tiles.empty() || tiles.back() != index[j]) tiles.push_back(index[j]);
-    tile_of[j] = tiles.size() - 1;
-  }
-  const std::vector<Cluster<d>> clusters = find_clusters<d>(tiles, width);
-  std::vector<std::uint16_t> cluster_of(tiles.size());
-  for (std::size_t c = 0; c < clusters.size(); ++c)
-    for (const std::size_t i : clusters[c].tile) cluster_of[i] = static_cast<std::uint16_t>(c);
-  // Bricks fit their sources tightly.
-  std::vector<BoxIndex<d>> lowest(clusters.size()), highest(clusters.size());
-  std::vector<char> seen(clusters.size(), 0);
-  layout.brick_of.resize(count);
-  for (std::size_t j = 0; j < count; ++j) {
-    const std::size_t c = cluster_of[tile_of[j]];
-    layout.brick_of[j] = static_cast<std::uint16_t>(c);
-    if (!seen[c]) lowest[c] = highest[c] = node[j];
-    seen[c] = 1;
-    for (std::size_t l = 0; l < d; ++l) {
-      lowest[c][l] = std::min(lowest[c][l], node[j][l]);
-      highest[c][l] = std::max(highest[c][l], node[j][l]);
-    }
-  }
-  double nodes = 0;
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    double product = 1;
-    for (std::size_t l = 0; l < d; ++l)
-      product *= static_cast<double>(highest[c][l] - lowest[c][l]) + SpreadFilter::padded_window + 2;
-    nodes += product;
-  }
-  if (nodes > spare_sources * sources * std::pow(width + 2, d) + most_bricks * small_lattice) return std::nullopt;
-  for (std::size_t c = 0; c < clusters.size(); ++c) {
-    Brick<d> brick = brick_around<d>(lowest[c], highest[c], width);
-    if (c > 0) {
-      brick.first_tile = layout.bricks.back().first_tile + layout.bricks.back().tile_count();
-      brick.offset = layout.bricks.back().offset + layout.bricks.back().size();
-    }
-    layout.bricks.push_back(brick);
-  }
+  if (!lay_out_clusters<d>(position, count, layout)) return std::nullopt;
   return layout;
 }
 
@@ -347,6 +357,7 @@ double SpreadSum<d>::plan_bytes(std::size_t columns) const {
                                                                                                                        \
   template struct Brick<d>;                                                                                            \
   template struct SpreadLayout<d>;                                                                                     \
+  template Brick<d> brick_around<d>(const std::array<std::int64_t, d>&, const std::array<std::int64_t, d>&, int);      \
   template std::optional<SpreadLayout<d>> lay_out<d>(const Buffer<double>&, std::size_t, const std::array<double, d>&, \
                                                      const std::array<double, d>&, double, int);                       \
   template SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter>, SpreadLayout<d>, double, Buffer<double>, int); \

@@ -98,6 +98,10 @@ struct Brick {
   }
 };
 
+/// The brick around points whose first nodes lie in low .. high: one node to spare on each side.
+template <int d>
+Brick<d> brick_around(const std::array<std::int64_t, d>& low, const std::array<std::int64_t, d>& high, int width);
+
 /// Where sources lie.
 template <int d>
 struct SpreadLayout {

@@ -169,15 +169,38 @@ class Preconditioner {
   const OverlappingBlocks<d>* blocks_ = nullptr;
 };
 
+void check_options(const GaussianFitOptions& options) {
+  if (!(options.residual > 0 && options.residual < 1))
+    throw InputError(fmt::format("residual = {}, must lie in (0, 1)", options.residual));
+  if (!(options.regularisation >= 0 && std::isfinite(options.regularisation)))
+    throw InputError(fmt::format("regularisation = {}, must be 0 or more", options.regularisation));
+}
+
+/// The solution, by the blocks alone if they are all of the system; names the solver in `fit`.
+template <int d>
+Eigen::VectorXd solve(const GaussianSystem<d>& system, const OverlappingBlocks<d>& blocks, const Eigen::VectorXd& right,
+                      const GaussianFitOptions& options, GaussianFit& fit) {
+  if (blocks.is_exact()) {
+    fit.solver = "cholesky";
+    return blocks.solve(right);
+  }
+  fit.solver = "conjugate gradients";
+  Eigen::ConjugateGradient<GaussianSystem<d>, Eigen::Lower | Eigen::Upper, Preconditioner<d>> solver;
+  solver.preconditioner().set(blocks);
+  solver.setMaxIterations(options.most_iterations);
+  solver.setTolerance(options.residual);
+  solver.compute(system);
+  const Eigen::VectorXd gamma = solver.solve(right);
+  fit.iterations = static_cast<int>(solver.iterations());
+  return gamma;
+}
+
 }  // namespace
 
 template <int d>
 GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, const Eigen::MatrixXd& samples,
                           double sigma, const GaussianFitOptions& options) {
-  if (!(options.residual > 0 && options.residual < 1))
-    throw InputError(fmt::format("residual = {}, must lie in (0, 1)", options.residual));
-  if (!(options.regularisation >= 0 && std::isfinite(options.regularisation)))
-    throw InputError(fmt::format("regularisation = {}, must be 0 or more", options.regularisation));
+  check_options(options);
   if (points.cols() == 0) throw InputError("there are no samples to fit a field to");
   check_distinct<d>(points, samples);
 
@@ -200,20 +223,7 @@ GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, 
               rcond > 0 ? fmt::format("the matrix has a condition of {:.0e} or more", 1 / rcond)
                         : "the matrix is not definite to rounding");
 
-  Eigen::VectorXd gamma;
-  if (blocks.is_exact()) {
-    fit.solver = "cholesky";
-    gamma = blocks.solve(right);
-  } else {
-    fit.solver = "conjugate gradients";
-    Eigen::ConjugateGradient<GaussianSystem<d>, Eigen::Lower | Eigen::Upper, Preconditioner<d>> solver;
-    solver.preconditioner().set(blocks);
-    solver.setMaxIterations(options.most_iterations);
-    solver.setTolerance(options.residual);
-    solver.compute(system);
-    gamma = solver.solve(right);
-    fit.iterations = static_cast<int>(solver.iterations());
-  }
+  const Eigen::VectorXd gamma = solve<d>(system, blocks, right, options, fit);
   fit.coefficients = gamma.reshaped(count, columns);
   const Eigen::MatrixXd field = system.field(fit.coefficients);
   fit.residual = (right - field.reshaped() - system.shift() * gamma).norm() / size;
