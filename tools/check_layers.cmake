@@ -51,9 +51,10 @@ set(may_gaussdrift base particle case reference sim input accuracy)
 set(public_expression expression foreign_names)
 set(public_core arguments buffer dispatch simd/functions simd/product_block simd/pack)
 set(public_time adaptive runge_kutta schedule stability tableau)
-set(public_field density/density density/shapes gaussians/divergence_free gaussians/gaussian_velocity gridded/grid_data gridded/gridded
+set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
+  gaussians/divergence_free gaussians/gaussian_velocity gridded/grid_data gridded/gridded
   named/named_fields scalar velocity/differences velocity/value_seconds
-  velocity/velocity)
+  velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read grid_file missing_data written_run)
 set(public_particle cutoff fgtd_points seeding subset)
 set(public_effect catalogue drift effect path_integral)

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base/stopwatch.hpp"
-#include "field/density/density.hpp"
+#include "field/density/radial_density.hpp"
 #include "field/named/named_fields.hpp"
 #include "particle/seeding.hpp"
 #include "reproduce/published.hpp"

@@ -7,9 +7,14 @@
 #include <vector>
 
 #include "field/density/shapes.hpp"
+#include "field/density/sum_density.hpp"
+#include "field/density/written_density.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/gridded.hpp"
 #include "field/named/named_fields.hpp"
+#include "field/velocity/expression_field.hpp"
+#include "field/velocity/streamfunction_field.hpp"
+#include "field/velocity/sum_field.hpp"
 #include "gaussdrift/lattice.hpp"
 
 namespace gaussdrift {

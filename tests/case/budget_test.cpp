@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "accuracy/target.hpp"
+#include "field/velocity/expression_field.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "reference/sample.hpp"

@@ -8,7 +8,7 @@
 
 #include "effect/charge.hpp"
 #include "effect/vortex.hpp"
-#include "field/velocity/velocity.hpp"
+#include "field/velocity/expression_field.hpp"
 #include "gaussdrift/error.hpp"
 #include "scene.hpp"
 #include "sim/carrier.hpp"

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "field/velocity/expression_field.hpp"
 #include "scenes.hpp"
 #include "sim/stepper.hpp"
 #include "time/schedule.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/weight_within.hpp"
-#include "field/density/density.hpp"
+#include "field/density/radial_density.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/seeding.hpp"
 

@@ -1,4 +1,8 @@
-#include "field/density/density.hpp"
+#include "field/density/box_density.hpp"
+#include "field/density/radial_density.hpp"
+#include "field/density/slotted_disk.hpp"
+#include "field/density/sum_density.hpp"
+#include "field/density/written_density.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "field/gridded/gridded.hpp"
+#include "field/velocity/expression_field.hpp"
 
 namespace gaussdrift {
 namespace {

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "expression/expression.hpp"
-#include "field/velocity/velocity.hpp"
+#include "field/velocity/expression_field.hpp"
+#include "field/velocity/streamfunction_field.hpp"
 
 namespace gaussdrift {
 namespace {

@@ -11,6 +11,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "field/density/radial_density.hpp"
+#include "field/density/written_density.hpp"
+#include "field/velocity/expression_field.hpp"
+
 namespace gaussdrift {
 namespace {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "field/density/density.hpp"
+#include "field/density/radial_density.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift {

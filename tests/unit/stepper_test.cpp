@@ -7,6 +7,7 @@
 #include <string>
 
 #include "field/named/named_fields.hpp"
+#include "field/velocity/expression_field.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift {

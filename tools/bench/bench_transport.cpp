@@ -7,6 +7,8 @@
 #include <random>
 
 #include "field/named/named_fields.hpp"
+#include "field/velocity/expression_field.hpp"
+#include "field/velocity/streamfunction_field.hpp"
 #include "sim/stepper.hpp"
 
 namespace gaussdrift {

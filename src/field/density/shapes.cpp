@@ -3,6 +3,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "field/density/box_density.hpp"
+#include "field/density/radial_density.hpp"
+#include "field/density/slotted_disk.hpp"
+
 namespace gaussdrift {
 
 namespace {

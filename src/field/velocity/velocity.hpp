@@ -1,13 +1,9 @@
 // Velocity fields u(x, t): the prescribed flow that carries the particles.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "expression/expression.hpp"
 #include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
@@ -37,62 +33,6 @@ class VelocityField {
   virtual std::string why_not_finite(double /*t*/, const Vector& /*x*/) const { return ""; }
   /// One line for people: formula and what is known of it.
   virtual std::string describe() const = 0;
-};
-
-/// One expression a component, in x, y, (z,) t and the params.
-class ExpressionField : public VelocityField {
- public:
-  /// Throws ExpressionError.
-  ExpressionField(const std::vector<std::string>& components,
-                  const std::vector<std::pair<std::string, double>>& params);
-  void add(double t, const PointsView& x, const VectorsView& u) const override;
-  /// Known where no component mentions its own coordinate.
-  bool is_solenoidal() const override;
-  void add_divergence(double t, const PointsView& x, double* values) const override;
-  bool is_steady() const override;
-  bool is_smooth() const override;
-  double cost() const override;
-  std::string describe() const override;
-
- private:
-  std::vector<Expression> components_;
-};
-
-/// 2D: u = d psi / dy, v = -d psi / dx with psi in x, y, t and the params; div u = 0 wherever psi is smooth.
-/// Expression::rough_spots says what is taken elsewhere.
-class StreamfunctionField : public VelocityField {
- public:
-  /// Throws ExpressionError.
-  StreamfunctionField(const std::string& psi, const std::vector<std::pair<std::string, double>>& params);
-  void add(double t, const PointsView& x, const VectorsView& u) const override;
-  void add_divergence(double t, const PointsView& x, double* values) const override;
-  bool is_steady() const override;
-  bool is_smooth() const override;
-  bool is_solenoidal() const override { return true; }
-  double cost() const override;
-  std::string describe() const override;
-
- private:
-  Expression psi_;
-};
-
-/// The sum of several fields. Its flow is known only if it has one part.
-class SumField : public VelocityField {
- public:
-  explicit SumField(std::vector<std::unique_ptr<VelocityField>> fields) : fields_(std::move(fields)) {}
-  void add(double t, const PointsView& x, const VectorsView& u) const override;
-  void add_divergence(double t, const PointsView& x, double* values) const override;
-  bool is_steady() const override;
-  bool is_smooth() const override;
-  bool is_solenoidal() const override;
-  std::optional<Vector> flow(double from, double to, const Vector& x) const override;
-  bool evaluates_in_blocks() const override;
-  double cost() const override;
-  std::string why_not_finite(double t, const Vector& x) const override;
-  std::string describe() const override;
-
- private:
-  std::vector<std::unique_ptr<VelocityField>> fields_;
 };
 
 }  // namespace gaussdrift
