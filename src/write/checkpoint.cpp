@@ -1,0 +1,293 @@
+#include "write/checkpoint.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <system_error>
+
+#include "gaussdrift/error.hpp"
+#include "write/atomic_file.hpp"
+
+namespace gaussdrift::write {
+
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kind = "gaussdrift checkpoint";
+constexpr int version = 1;
+constexpr std::size_t most_in_a_piece = std::size_t{1} << 22;  // particles
+constexpr const char* manifest_name = "manifest.json";
+constexpr double largest_manifest = 1e6;  // bytes
+
+fs::path slot(const fs::path& folder, int number) { return folder / checkpoints_folder / std::to_string(number); }
+fs::path piece_file(std::size_t number) { return fmt::format("particles_{:04}.raw", number); }
+constexpr const char* state_file = "run.raw";
+
+/// The arrays of particles in the order of a piece, each as bytes of 8 a particle. Works on const and other particles.
+template <class P, class Visit>
+void for_each_column(P& particles, const Visit& visit) {
+  for (int k = 0; k < particles.dimension; ++k) visit(fmt::format("position_{}", k), particles.position[k]);
+  visit("alpha", particles.alpha);
+  visit("id", particles.id);
+  for (std::size_t q = 0; q < particles.path.size(); ++q) visit(fmt::format("path_{}", q), particles.path[q]);
+  if (!particles.volume.empty()) visit("volume", particles.volume);
+}
+
+json columns_of(const Particles& particles) {
+  json names = json::array();
+  for_each_column(particles, [&](const std::string& name, const auto&) { names.push_back(name); });
+  return names;
+}
+
+/// A file that is written or read in large parts, with a check sum of all of them.
+class RawFile {
+ public:
+  RawFile(const fs::path& file, const char* mode) : file_(std::fopen(file.c_str(), mode), &std::fclose) {
+    if (!file_) throw std::system_error(errno, std::generic_category());
+  }
+  void write(const void* data, std::size_t bytes) {
+    add(data, bytes);
+    if (bytes > 0 && std::fwrite(data, 1, bytes, file_.get()) != bytes)
+      throw std::system_error(errno, std::generic_category());
+  }
+  void read(void* data, std::size_t bytes) {
+    if (bytes > 0 && std::fread(data, 1, bytes, file_.get()) != bytes) throw std::runtime_error("it is cut short");
+    add(data, bytes);
+  }
+  void close() {
+    if (std::fclose(file_.release()) != 0) throw std::system_error(errno, std::generic_category());
+  }
+  std::uint64_t sum() const { return sum_; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  void add(const void* data, std::size_t bytes) {
+    sum_ = crc32_z(sum_, static_cast<const Bytef*>(data), bytes);
+    bytes_ += bytes;
+  }
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  uLong sum_ = crc32_z(0, nullptr, 0);
+  std::size_t bytes_ = 0;
+};
+
+/// Writes a whole file and tells what the manifest says of it.
+template <class Write>
+json write_raw(const fs::path& folder, const fs::path& name, const Write& write) {
+  json entry{{"file", name.string()}};
+  write_atomically(folder / name, [&](const fs::path& part) {
+    RawFile file(part, "wb");
+    write(file);
+    file.close();
+    entry["bytes"] = file.bytes();
+    entry["crc32"] = file.sum();
+  });
+  return entry;
+}
+
+/// Of a manifest without its own check sum.
+std::uint64_t sum_of(const json& manifest) {
+  const std::string text = manifest.dump();
+  return crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(text.data()), text.size());
+}
+
+json read_manifest(const fs::path& folder) {
+  std::error_code error;
+  const auto bytes = fs::file_size(folder / manifest_name, error);
+  if (error) throw std::runtime_error("it has no manifest");
+  if (static_cast<double>(bytes) > largest_manifest) throw std::runtime_error("its manifest is too large");
+  std::ifstream in(folder / manifest_name, std::ios::binary);
+  json manifest = json::parse(in, nullptr, false);
+  if (manifest.is_discarded() || !manifest.is_object()) throw std::runtime_error("its manifest is damaged");
+  if (manifest.value("kind", "") != kind) throw std::runtime_error("its manifest is none of a checkpoint");
+  if (manifest.at("version").get<int>() > version)
+    throw std::runtime_error(fmt::format("it was written by a newer gaussdrift (format {}, this one knows {})",
+                                         manifest.at("version").get<int>(), version));
+  const auto sum = manifest.at("crc32").get<std::uint64_t>();
+  manifest.erase("crc32");
+  if (sum != sum_of(manifest)) throw std::runtime_error("its manifest is damaged: its check sum is wrong");
+  return manifest;
+}
+
+std::uint64_t serial_of(const fs::path& folder) {
+  try {
+    return read_manifest(folder).at("serial").get<std::uint64_t>();
+  } catch (const std::exception&) {
+    return 0;  // what cannot be read is overwritten first
+  }
+}
+
+/// Checks what the manifest says of a file against its size, before memory is taken for it.
+RawFile open_checked(const fs::path& folder, const json& entry, std::size_t expected) {
+  const auto name = entry.at("file").get<std::string>();
+  if (fs::path(name).has_parent_path() || name.find("..") != std::string::npos)
+    throw std::runtime_error("its manifest names a file elsewhere");
+  std::error_code error;
+  const auto bytes = fs::file_size(folder / name, error);
+  if (error) throw std::runtime_error(fmt::format("{} is missing", name));
+  if (bytes != expected || entry.at("bytes").get<std::uint64_t>() != expected)
+    throw std::runtime_error(fmt::format("{} has {} bytes, must have {}", name, bytes, expected));
+  return RawFile(folder / name, "rb");
+}
+
+void check_sum(const RawFile& file, const json& entry) {
+  if (file.sum() != entry.at("crc32").get<std::uint64_t>())
+    throw std::runtime_error(fmt::format("{} is damaged: its check sum is wrong", entry.at("file").get<std::string>()));
+}
+
+Checkpoint read_slot(const fs::path& folder, const json& manifest) {
+  Checkpoint checkpoint;
+  const auto count = manifest.at("particles").get<std::uint64_t>();
+  CheckpointFacts& facts = checkpoint.facts;
+  facts = {manifest.at("time").get<double>(), manifest.at("steps").get<std::size_t>(), count, 0};
+  Particles& particles = checkpoint.particles;
+  particles.dimension = manifest.at("dimension").get<int>();
+  if (particles.dimension < 1 || particles.dimension > max_dimension)
+    throw std::runtime_error("its dimension is wrong");
+  const json& columns = manifest.at("columns");
+  const auto paths = manifest.at("paths").get<std::size_t>();
+  if (paths > columns.size()) throw std::runtime_error("its columns are wrong");
+  particles.path.resize(paths);
+  if (columns.size() > static_cast<std::size_t>(particles.dimension) + 2 + paths) particles.volume.resize(1);
+  if (columns_of(particles) != columns) throw std::runtime_error("its columns are wrong");
+
+  // All sizes before any memory.
+  std::size_t there = 0;
+  const json& pieces = manifest.at("pieces");
+  for (const json& piece : pieces) {
+    const auto in_piece = piece.at("particles").get<std::uint64_t>();
+    if (in_piece > most_in_a_piece) throw std::runtime_error("its pieces are wrong");
+    open_checked(folder, piece, in_piece * 8 * columns.size());
+    there += in_piece;
+  }
+  if (there != count) throw std::runtime_error("its pieces are wrong");
+  for_each_column(particles, [&](const std::string&, auto& column) { column.resize(count); });
+  std::size_t first = 0;
+  for (const json& piece : pieces) {
+    const auto in_piece = piece.at("particles").get<std::uint64_t>();
+    RawFile file = open_checked(folder, piece, in_piece * 8 * columns.size());
+    for_each_column(particles,
+                    [&](const std::string&, auto& column) { file.read(column.data() + first, 8 * in_piece); });
+    check_sum(file, piece);
+    first += in_piece;
+    facts.bytes += static_cast<double>(file.bytes());
+  }
+  const json& state = manifest.at("state");
+  RawFile file = open_checked(folder, state, state.at("bytes").get<std::uint64_t>());
+  checkpoint.state.resize(state.at("bytes").get<std::size_t>());
+  file.read(checkpoint.state.data(), checkpoint.state.size());
+  check_sum(file, state);
+  facts.bytes += static_cast<double>(file.bytes());
+  const auto spread = manifest.at("spread").get<std::string>();
+  particles.spread = std::strtod(spread.c_str(), nullptr);
+  return checkpoint;
+}
+
+}  // namespace
+
+CheckpointFacts write_checkpoint(const fs::path& folder, const std::string& past, double time, std::size_t steps,
+                                 const Particles& particles, const std::string& state) {
+  const std::uint64_t serials[] = {serial_of(slot(folder, 0)), serial_of(slot(folder, 1))};
+  const int older = serials[0] <= serials[1] ? 0 : 1;
+  const fs::path here = slot(folder, older);
+  std::error_code error;
+  fs::remove(here / manifest_name, error);  // from now on it is none
+  if (error) throw FileError(fmt::format("{} cannot be replaced: {}", here.string(), error.message()));
+
+  CheckpointFacts facts{time, steps, particles.size(), 0};
+  json manifest{{"kind", kind},
+                {"version", version},
+                {"serial", std::max(serials[0], serials[1]) + 1},
+                {"case", past},
+                {"time", time},
+                {"steps", steps},
+                {"particles", particles.size()},
+                {"dimension", particles.dimension},
+                {"paths", particles.path.size()},
+                {"spread", fmt::format("{:a}", particles.spread)},
+                {"columns", columns_of(particles)},
+                {"pieces", json::array()}};
+  std::size_t number = 0;
+  for (std::size_t first = 0; first < particles.size(); first += most_in_a_piece, ++number) {
+    const std::size_t count = std::min(most_in_a_piece, particles.size() - first);
+    json piece = write_raw(here, piece_file(number), [&](RawFile& file) {
+      for_each_column(particles,
+                      [&](const std::string&, const auto& column) { file.write(column.data() + first, 8 * count); });
+    });
+    piece["particles"] = count;
+    facts.bytes += piece["bytes"].get<double>();
+    manifest["pieces"].push_back(std::move(piece));
+  }
+  manifest["state"] = write_raw(here, state_file, [&](RawFile& file) { file.write(state.data(), state.size()); });
+  facts.bytes += manifest["state"]["bytes"].get<double>();
+  manifest["crc32"] = sum_of(manifest);
+  write_text(here / manifest_name, manifest.dump(2) + "\n");
+  while (fs::remove(here / piece_file(number++), error)) {  // of an older one with more particles
+  }
+  return facts;
+}
+
+std::optional<Checkpoint> read_checkpoint(const fs::path& folder, const std::string& past,
+                                          std::vector<std::string>& refused) {
+  struct Found {
+    std::uint64_t serial;
+    int number;
+    json manifest;
+  };
+  std::vector<Found> found;
+  const auto refuse = [&](int number, const char* why) {
+    refused.push_back(fmt::format("the checkpoint in {} is not used: {}", slot(folder, number).string(), why));
+  };
+  for (const int number : {0, 1}) {
+    std::error_code error;
+    if (!fs::exists(slot(folder, number) / manifest_name, error)) continue;  // none, or one that was under way
+    try {
+      json manifest = read_manifest(slot(folder, number));
+      if (manifest.at("case").get<std::string>() != past)
+        throw std::runtime_error("it belongs to a case with other settings or data");
+      const auto serial = manifest.at("serial").get<std::uint64_t>();
+      found.push_back({serial, number, std::move(manifest)});
+    } catch (const std::exception& why) {
+      refuse(number, why.what());
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.serial > b.serial; });
+  for (const Found& one : found) try {
+      return read_slot(slot(folder, one.number), one.manifest);
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& why) {
+      refuse(one.number, why.what());
+    }
+  return std::nullopt;
+}
+
+double bytes_of_checkpoint(const Particles& particles) {
+  double columns = 0;
+  for_each_column(particles, [&](const std::string&, const auto&) { ++columns; });
+  return 8 * columns * static_cast<double>(particles.size());
+}
+
+std::vector<fs::path> checkpoint_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const int number : {0, 1}) {
+    for (const char* name : {manifest_name, state_file})
+      if (fs::exists(slot(folder, number) / name, error)) files.push_back(slot(folder, number) / name);
+    for (std::size_t piece = 0; fs::exists(slot(folder, number) / piece_file(piece), error); ++piece)
+      files.push_back(slot(folder, number) / piece_file(piece));
+  }
+  return files;
+}
+
+}  // namespace gaussdrift::write

@@ -1,0 +1,170 @@
+#include "write/checkpoint.hpp"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "gaussdrift/error.hpp"
+#include "write/disk.hpp"
+#include "write/files.hpp"
+
+namespace gaussdrift::write {
+namespace {
+
+namespace fs = std::filesystem;
+
+Particles some_particles(std::size_t count, double first) {
+  Particles particles;
+  for (std::size_t j = 0; j < count; ++j) {
+    particles.position[0].push_back(first + 0.1 * static_cast<double>(j));
+    particles.position[1].push_back(-static_cast<double>(j));
+    particles.alpha.push_back(1.0 / static_cast<double>(j + 3));
+    particles.id.push_back(static_cast<std::int64_t>(count - j) - 2);
+  }
+  particles.path.assign(1, std::vector<double>(count, 0.25));
+  particles.volume.assign(count, 0.5);
+  particles.spread = 0.1;
+  return particles;
+}
+
+void expect_same(const Particles& a, const Particles& b) {
+  EXPECT_EQ(a.dimension, b.dimension);
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.alpha, b.alpha);
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.path, b.path);
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.spread, b.spread);
+}
+
+/// Two of them: of 5 particles at t = 1, then of 3 at t = 2.
+class TwoCheckpoints : public testing::Test {
+ protected:
+  TwoCheckpoints() {
+    write_checkpoint(folder.path(), "hash", 1, 10, older, "first");
+    write_checkpoint(folder.path(), "hash", 2, 20, newer, std::string("sec\0nd", 6));
+  }
+  std::optional<Checkpoint> read(const std::string& past = "hash") {
+    refused.clear();
+    return read_checkpoint(folder.path(), past, refused);
+  }
+  const Folder folder;
+  const Particles older = some_particles(5, 0), newer = some_particles(3, 7);
+  std::vector<std::string> refused;
+};
+
+TEST_F(TwoCheckpoints, TheNewerCountsWithAllItsBits) {
+  const auto checkpoint = read();
+  ASSERT_TRUE(checkpoint);
+  EXPECT_EQ(checkpoint->facts.time, 2);
+  EXPECT_EQ(checkpoint->facts.steps, 20u);
+  EXPECT_EQ(checkpoint->state, std::string("sec\0nd", 6));
+  EXPECT_EQ(checkpoint->facts.bytes, 8 * 3 * 6 + 6);
+  expect_same(checkpoint->particles, newer);
+  EXPECT_TRUE(refused.empty());
+}
+
+TEST_F(TwoCheckpoints, AThirdTakesThePlaceOfTheOlder) {
+  write_checkpoint(folder.path(), "hash", 3, 30, some_particles(2, 1), "third");
+  EXPECT_EQ(read()->facts.time, 3);
+  fs::remove(folder / "state/0/manifest.json");
+  EXPECT_EQ(read()->facts.time, 2);
+}
+
+TEST_F(TwoCheckpoints, WhatIsDamagedIsRefusedAndTheOlderTaken) {
+  for (const char* file : {"state/1/particles_0000.raw", "state/1/run.raw"}) {
+    const std::string whole = text_of(folder / file);
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+      std::string damaged = whole;
+      damaged[at] = static_cast<char>(damaged[at] ^ 1);
+      std::ofstream(folder / file, std::ios::binary) << damaged;
+      const auto checkpoint = read();
+      ASSERT_TRUE(checkpoint);
+      ASSERT_EQ(checkpoint->facts.time, 1) << file << " byte " << at;
+      expect_same(checkpoint->particles, older);
+      ASSERT_EQ(refused.size(), 1u);
+      ASSERT_NE(refused[0].find("check sum"), std::string::npos) << refused[0];
+    }
+    std::ofstream(folder / file, std::ios::binary) << whole.substr(1);
+    EXPECT_EQ(read()->facts.time, 1);
+    EXPECT_NE(refused[0].find("bytes, must have"), std::string::npos) << refused[0];
+    fs::remove(folder / file);
+    EXPECT_EQ(read()->facts.time, 1);
+    EXPECT_NE(refused[0].find("is missing"), std::string::npos) << refused[0];
+    std::ofstream(folder / file, std::ios::binary) << whole;
+    EXPECT_EQ(read()->facts.time, 2);
+  }
+}
+
+TEST_F(TwoCheckpoints, AManifestWithAnyOneByteWrongIsNeverACrash) {
+  const fs::path file = folder / "state/1/manifest.json";
+  const std::string whole = text_of(file);
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    for (const char wrong : {'9', '"', '-', '}', '\0'}) {
+      std::string damaged = whole;
+      damaged[at] = wrong;
+      std::ofstream(file, std::ios::binary) << damaged;
+      const auto checkpoint = read();
+      ASSERT_TRUE(checkpoint) << at << wrong;
+      const bool space = whole[at] == ' ' || whole[at] == '\n';
+      if (damaged != whole && !space) EXPECT_EQ(checkpoint->facts.time, 1) << at << wrong;
+    }
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    std::ofstream(file, std::ios::binary) << whole.substr(0, length);
+    const auto checkpoint = read();
+    ASSERT_TRUE(checkpoint);
+    if (length + 1 < whole.size()) EXPECT_EQ(checkpoint->facts.time, 1) << length;
+  }
+}
+
+TEST_F(TwoCheckpoints, AnotherCaseAndANewerFormatAreRefusedByTheirReason) {
+  EXPECT_FALSE(read("other"));
+  ASSERT_EQ(refused.size(), 2u);
+  EXPECT_NE(refused[0].find("a case with other settings or data"), std::string::npos) << refused[0];
+  const fs::path file = folder / "state/1/manifest.json";
+  std::string text = text_of(file);
+  text.replace(text.find("\"version\": 1"), 12, "\"version\": 2");
+  std::ofstream(file, std::ios::binary) << text;
+  EXPECT_EQ(read()->facts.time, 1);
+  EXPECT_NE(refused[0].find("newer gaussdrift"), std::string::npos) << refused[0];
+}
+
+TEST_F(TwoCheckpoints, AManifestThatNamesAFileElsewhereIsRefused) {
+  const fs::path file = folder / "state/1/manifest.json";
+  std::string text = text_of(file);
+  text.replace(text.find("run.raw"), 7, "../0/run.raw");
+  nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(text);  // by somebody who knows the check sum
+  manifest.erase("crc32");
+  const std::string rest = manifest.dump();
+  manifest["crc32"] = crc32_z(0, reinterpret_cast<const Bytef*>(rest.data()), rest.size());
+  text = manifest.dump(2);
+  std::ofstream(file, std::ios::binary) << text;
+  EXPECT_EQ(read()->facts.time, 1);
+  EXPECT_NE(refused[0].find("elsewhere"), std::string::npos) << refused[0];
+}
+
+TEST(Checkpoint, WhereThereIsNoneNothingIsRefused) {
+  const Folder folder;
+  std::vector<std::string> refused;
+  EXPECT_FALSE(read_checkpoint(folder.path(), "hash", refused));
+  EXPECT_TRUE(refused.empty());
+}
+
+TEST(Checkpoint, AFullDiskLeavesTheOneBefore) {
+  const Folder folder;
+  write_checkpoint(folder.path(), "hash", 1, 10, some_particles(5, 0), "first");
+  {
+    const FileSizeLimit limit(100);
+    EXPECT_THROW(write_checkpoint(folder.path(), "hash", 2, 20, some_particles(500, 0), "second"), FileError);
+  }
+  std::vector<std::string> refused;
+  EXPECT_EQ(read_checkpoint(folder.path(), "hash", refused)->facts.time, 1);
+}
+
+}  // namespace
+}  // namespace gaussdrift::write
