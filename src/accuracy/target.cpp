@@ -22,8 +22,9 @@ namespace {
 
 constexpr double most_particles = 4e6;  // on the lattice; each costs a path for every prediction
 // Parts of the target, because a prediction is right to a factor of two or so. The second is used if the first cannot
-// be met.
+// be met. The rest is for steps and sums.
 constexpr std::array aims{0.45, 0.8};
+constexpr double for_steps = 0.2, for_sums = 0.02;  // parts of the target
 constexpr int fewest_per_axis = 12;
 
 int most_per_axis(const Case& spec) {
@@ -40,25 +41,51 @@ int most_per_axis(const Case& spec) {
 
 /// Smoothing and quadrature alone: steps and transform are chosen afterwards.
 struct Settings {
+  const NamedCutoff* cutoff = nullptr;
   int per_axis = 0;
   double overlap = 2;
   double error = 0;  // of both
   double quadrature = 0;
   std::size_t particles = 0;
+
+  /// A cutoff of higher order has more terms in the transform, all in one pass.
+  double dearer() const { return 1 + 0.1 * cutoff->order; }
+  double cost() const { return static_cast<double>(particles) * dearer(); }
 };
 
 /// What a search may take, has taken and says while it does.
 struct Search {
   Allowance allowance;
   std::function<void(const std::string&)> doing;
-  std::size_t lattices = 0;
+  std::vector<Settings> tried{};
   bool stopped = false;  // a lattice would have taken too much
   int threads = 0;
+
+  const Settings* known(const NamedCutoff& cutoff, int per_axis, double overlap) const {
+    for (const Settings& one : tried)
+      if (one.cutoff == &cutoff && one.per_axis == per_axis && one.overlap == overlap) return &one;
+    return nullptr;
+  }
+  /// Infinite if nothing has been tried.
+  double smallest_error() const {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Settings& one : tried) smallest = std::min(smallest, one.error);
+    return smallest;
+  }
+  /// The cheapest that has been tried with an error of at most `wanted`.
+  std::optional<Settings> cheapest(double wanted) const {
+    std::optional<Settings> found;
+    for (const Settings& one : tried)
+      if (one.error <= wanted && (!found || one.cost() < found->cost())) found = one;
+    return found;
+  }
 };
 
 /// Nothing if the prediction would take too much work: more than is left, or more than a sixth of the whole search,
 /// because chosen settings are predicted some six times more.
 std::optional<Settings> try_lattice(Case spec, int per_axis, double overlap, Search& search) {
+  const NamedCutoff& cutoff = find_cutoff(spec.particles.cutoff);
+  if (const Settings* known = search.known(cutoff, per_axis, overlap)) return *known;
   spec.particles.per_axis = per_axis;
   spec.particles.overlap = overlap;
   if (search.doing)
@@ -73,15 +100,15 @@ std::optional<Settings> try_lattice(Case spec, int per_axis, double overlap, Sea
     return std::nullopt;
   }
   if (!budget.known()) throw InputError("no settings can be chosen for this accuracy: " + budget.not_covered);
-  ++search.lattices;
-  return Settings{per_axis, overlap, std::max(budget.total, budget.smoothing), budget.quadrature, budget.particles};
+  search.tried.push_back(
+      {&cutoff, per_axis, overlap, std::max(budget.total, budget.smoothing), budget.quadrature, budget.particles});
+  return search.tried.back();
 }
 
 /// The coarsest lattice of this cutoff and overlap that meets `wanted`, with no more particles than `most_carried`;
-/// nothing if none does, or if the search ends. `best`: the smallest error seen. `gaps`: more overlap would help, a
-/// finer lattice would not.
+/// nothing if none does, or if the search ends. `gaps`: more overlap would help, a finer lattice would not.
 std::optional<Settings> find_lattice(const Case& spec, double wanted, double overlap, double most_carried,
-                                     Search& search, double& best, bool& gaps) {
+                                     Search& search, bool& gaps) {
   const int order = find_cutoff(spec.particles.cutoff).order;
   int most = most_per_axis(spec);
   gaps = false;
@@ -97,7 +124,6 @@ std::optional<Settings> find_lattice(const Case& spec, double wanted, double ove
       continue;
     }
     const Settings& trial = *tried;
-    best = std::min(best, trial.error);
     // Particles are drawn apart, so their sum has ripples, however fine the lattice.
     gaps = trial.quadrature > 0.3 * trial.error;
     if (trial.error > wanted && (gaps || static_cast<double>(trial.particles) > most_carried)) return std::nullopt;
@@ -151,87 +177,105 @@ std::vector<const NamedCutoff*> cutoffs_to_try() {
   return list;
 }
 
+/// Replaces `chosen` by a cheaper lattice that meets `wanted`, if there is one.
+void find_cheaper(const Case& spec, double wanted, Search& search, std::optional<Settings>& chosen) {
+  for (const NamedCutoff* cutoff : cutoffs_to_try()) {
+    Case varied = spec;
+    varied.particles.cutoff = cutoff->name;
+    varied.particles.cutoff_arguments.clear();
+    varied.evaluate.tolerance = 1e-8;
+    // More overlap where the flow draws particles apart.
+    for (const double overlap : {2.0, 3.0, 4.5, 7.0}) {
+      const double cheapest = chosen ? chosen->cost() : std::numeric_limits<double>::infinity();
+      bool gaps = false;
+      const std::optional<Settings> trial =
+          find_lattice(varied, wanted, overlap, cheapest / Settings{.cutoff = cutoff}.dearer(), search, gaps);
+      if (trial && trial->cost() < cheapest) chosen = trial;
+      if (!gaps) break;  // more overlap would only widen the blobs
+    }
+  }
+}
+
+/// Throws what says why a search has found nothing.
+[[noreturn]] void refuse(double target, const Search& search) {
+  const double best = search.smallest_error();
+  const std::string too_near = best <= target ? ", which leaves too little of the target to steps and sums" : "";
+  if (search.stopped)
+    throw InputError(fmt::format(
+        "no settings for an error of {:g} were found: the search is bounded, and {} lattices were tried{}. Finer ones "
+        "were left out because their errors take too long to predict. Choose particles.per_axis and time.step "
+        "yourself; `run` measures the error",
+        target, search.tried.size(),
+        std::isfinite(best) ? fmt::format(", with errors of {:.1e} at least{}", best, too_near) : ""));
+  throw InputError(fmt::format(
+      "an error of {:g} cannot be met with at most {:.0e} lattice points: the smallest predicted is {:.1e}{}; ask for "
+      "a larger error, or make the density smoother",
+      target, most_particles, best, too_near));
+}
+
+/// Chooses steps and the tolerance of the sums for this lattice, and predicts the whole. Steps have a part of the
+/// target, or what the lattice leaves of it.
+Case with_steps_and_sums(const Case& spec, const Settings& lattice, double target, int threads, Budget& predicted) {
+  Case settled = spec;
+  settled.particles.cutoff = lattice.cutoff->name;
+  settled.particles.cutoff_arguments.clear();
+  settled.particles.per_axis = lattice.per_axis;
+  settled.particles.overlap = lattice.overlap;
+  settled.evaluate.tolerance = std::clamp(base::rounded_down(for_sums * target, 2), 1e-13, 1e-3);
+  const Scene scene = make_scene(settled, threads);
+  const double left = target - lattice.error - settled.evaluate.tolerance;
+  if (time::is_adaptive(time::find_tableau(settled.time.method)))
+    settled.time.tolerance = std::min(settled.time.tolerance, 1e-2 * target);
+  else
+    settled.time.step =
+        base::rounded_down(step_for(settled, scene, std::min(for_steps * target, 0.9 * left), threads), 2);
+  predicted = predict_budget(settled, scene, Effort::whatever, threads);
+  settled.accuracy.target.reset();
+  return settled;
+}
+
+/// As they are written in a case.
+std::vector<std::string> settings_of(const Case& spec) {
+  return {fmt::format("particles.per_axis = {}", spec.particles.per_axis),
+          fmt::format("particles.overlap = {:g}", spec.particles.overlap),
+          fmt::format("particles.cutoff = \"{}\"", spec.particles.cutoff),
+          time::is_adaptive(time::find_tableau(spec.time.method))
+              ? fmt::format("time.tolerance = {:g}", spec.time.tolerance)
+              : fmt::format("time.step = {:g}", spec.time.step),
+          fmt::format("evaluate.tolerance = {:g}", spec.evaluate.tolerance)};
+}
+
 }  // namespace
 
 AccuracyChoice choose_for_accuracy(const Case& spec, double target, int threads,
                                    const std::function<void(const std::string&)>& doing, double most_work) {
   if (const std::string reason = budget_not_covered(spec); !reason.empty())
     throw InputError("no settings can be chosen for this accuracy: " + reason);
+  Search search{.allowance = {most_work}, .doing = doing, .threads = threads};
+  std::optional<Settings> lattice;
+  for (const double aim : aims) {
+    if (lattice || (!search.tried.empty() && search.smallest_error() > target)) break;
+    // One that was tried for a smaller error may do. There may be a cheaper one, as far as there is work left.
+    lattice = search.cheapest(aim * target);
+    find_cheaper(spec, aim * target, search, lattice);
+  }
+  if (!lattice) refuse(target, search);
   AccuracyChoice choice;
   choice.target = target;
-  Search search{.allowance = {most_work}, .doing = doing, .threads = threads};
-  double best = std::numeric_limits<double>::infinity(), cheapest = best;
-  std::optional<Case> chosen;
-  for (const double aim : aims) {
-    if (chosen || (std::isfinite(best) && best > target)) break;
-    for (const NamedCutoff* cutoff : cutoffs_to_try()) {
-      Case varied = spec;
-      varied.particles.cutoff = cutoff->name;
-      varied.particles.cutoff_arguments.clear();
-      varied.evaluate.tolerance = 1e-8;
-      // More overlap where the flow draws particles apart.
-      for (const double overlap : {2.0, 3.0, 4.5, 7.0}) {
-        const double dearer = 1 + 0.1 * cutoff->order;  // more terms in the transform, all in one pass
-        bool gaps = false;
-        const std::optional<Settings> trial =
-            find_lattice(varied, aim * target, overlap, cheapest / dearer, search, best, gaps);
-        if (!trial && gaps) continue;
-        if (!trial) break;
-        const double cost = static_cast<double>(trial->particles) * dearer;
-        if (cost < cheapest) {
-          cheapest = cost;
-          chosen = varied;
-          chosen->particles.per_axis = trial->per_axis;
-          chosen->particles.overlap = overlap;
-        }
-        if (!gaps) break;  // more overlap would only widen the blobs
-      }
-    }
-  }
-  choice.lattices = search.lattices;
+  choice.lattices = search.tried.size();
   choice.work = search.allowance.spent;
-  if (!chosen && search.stopped)
-    throw InputError(fmt::format(
-        "no settings for an error of {:g} were found: the search is bounded, and {} lattices were tried{}. Finer ones "
-        "were left out because their errors take too long to predict. Choose particles.per_axis and time.step "
-        "yourself; "
-        "`run` measures the error",
-        target, search.lattices,
-        std::isfinite(best) ? fmt::format(", with errors of {:.1e} at least", best) : std::string()));
   if (search.stopped)
     choice.left_out = fmt::format(
         "the search is bounded: {} lattices were tried, finer ones were left out because their errors take "
         "too long to predict; there may be cheaper settings",
-        search.lattices);
-  if (!chosen)
-    throw InputError(fmt::format(
-        "an error of {:g} cannot be met with at most {:.0e} lattice points: the smallest predicted is {:.1e}; ask for "
-        "a larger error, or make the density smoother",
-        target, most_particles, best));
-  Case& settled = *chosen;
-  settled.evaluate.tolerance = std::clamp(base::rounded_down(0.02 * target, 2), 1e-13, 1e-3);
-  {
-    const Scene scene = make_scene(settled, threads);
-    if (time::is_adaptive(time::find_tableau(settled.time.method)))
-      settled.time.tolerance = std::min(settled.time.tolerance, 1e-2 * target);
-    else
-      settled.time.step = base::rounded_down(step_for(settled, scene, 0.2 * target, threads), 2);
-    choice.predicted = predict_budget(settled, scene, Effort::whatever, threads);
-  }
+        search.tried.size());
+  choice.spec = with_steps_and_sums(spec, *lattice, target, threads, choice.predicted);
   if (choice.predicted.total > target)
-    throw InputError(fmt::format("an error of {:g} cannot be met: {} alone is predicted to make {:.1e}", target,
-                                 choice.predicted.dominates, choice.predicted.total));
-  settled.accuracy.target.reset();
-  if (const std::string reason = why_refused(settled, threads); !reason.empty())
+    throw InputError(fmt::format("an error of {:g} cannot be met: the smallest predicted is {:.1e}, most of it by {}",
+                                 target, choice.predicted.total, choice.predicted.dominates));
+  if (const std::string reason = why_refused(choice.spec, threads); !reason.empty())
     throw InputError(fmt::format("no settings can be chosen for an error of {:g}: {}", target, reason));
-  choice.settings = {fmt::format("particles.per_axis = {}", settled.particles.per_axis),
-                     fmt::format("particles.overlap = {:g}", settled.particles.overlap),
-                     fmt::format("particles.cutoff = \"{}\"", settled.particles.cutoff),
-                     time::is_adaptive(time::find_tableau(settled.time.method))
-                         ? fmt::format("time.tolerance = {:g}", settled.time.tolerance)
-                         : fmt::format("time.step = {:g}", settled.time.step),
-                     fmt::format("evaluate.tolerance = {:g}", settled.evaluate.tolerance)};
-  choice.spec = std::move(settled);
+  choice.settings = settings_of(choice.spec);
   return choice;
 }
 

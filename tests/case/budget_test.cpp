@@ -327,6 +327,35 @@ TEST(Accuracy, IsMetAndNotMuchMore) {
   }
 }
 
+// Each lattice of a search counts, whatever error it was tried for. Where the work ends before the error that the search
+// aims at is reached, one that it has met on the way still meets the target.
+TEST(Accuracy, IsNotRefusedWhereALatticeThatWasTriedMeetsIt) {
+  const Case spec = parse_case(
+                        "gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [3, 2]\n[velocity]\nfield = \"lamb_oseen\"\n"
+                        "center = [1.5, 1]\ncirculation = 3\nradius = 0.4\n[density]\nshape = \"wendland\"\n"
+                        "center = [1, 1]\nradius = 0.5\n[particles]\nper_axis = 300\n[time]\nend = 1\nstep = 0.1\n"
+                        "[evaluate]\nper_axis = 41\n[output]\ntimes = [1]\nimages = []\n",
+                        "eddy.toml")
+                        .spec;
+  int chosen = 0, refused = 0;
+  for (const double work : {1e6, 2e6})
+    for (const double target : {0.3, 0.1, 0.05, 0.03, 0.02, 0.01, 0.005}) {
+      try {
+        EXPECT_LE(choose_for_accuracy(spec, target, 1, {}, work).predicted.total, target);
+        ++chosen;
+      } catch (const InputError& error) {
+        ++refused;
+        const std::string text = error.what(), mark = "with errors of ";
+        const std::size_t at = text.find(mark);
+        if (at == std::string::npos) continue;  // no lattice could be tried
+        // The rest of the target is for steps and sums.
+        EXPECT_GT(std::stod(text.substr(at + mark.size())), 0.79 * target) << "work " << work << ": " << text;
+      }
+    }
+  EXPECT_GT(chosen, 0);
+  EXPECT_GT(refused, 0);
+}
+
 TEST(Accuracy, IsRefusedWhereItCannotBeMet) {
   const Case disk = built_in("zalesak", {"output.times=[0]", "time.end=0.1"});
   try {
