@@ -15,6 +15,7 @@
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "particle/cutoff.hpp"
+#include "study/standard_studies.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::study {
@@ -181,36 +182,69 @@ void finish(Experiment& experiment, const Case& spec) {
   }
 }
 
-Study run_study(const StudyOptions& options) {
-  const base::Stopwatch watch;
-  const Case spec = read_case(options.file, options.overrides, options.threads).spec;
-  Study study{spec.name, spec.title, {}, base::resolve_threads(options.threads), 0};
-  if (options.vary.empty()) {
-    const auto tell = [&](const std::string& what) {
-      if (options.progress) options.progress(what);
-    };
-    const auto add = [&](Experiment experiment) {
-      study.experiments.push_back(std::move(experiment));
-      if (options.table_grew) options.table_grew(study.experiments.back());
-    };
-    refuse_what_does_not_fit(spec, options.threads);
-    tell("the Gauss transform");
-    add(study_transform(spec, options.threads, 0.1 * options.seconds));
-    tell("steps");
-    add(study_steps(spec, options.threads, 0.15 * options.seconds));
-    if (spec.reference.kind != ReferenceSpec::Kind::none) {
-      tell("lattice and cutoff");
-      add(study_lattice(spec, options, 0.4 * options.seconds));
-      tell("whole runs");
-      add(study_whole(spec, options, 0.35 * options.seconds));
-    } else {
-      study.experiments.back().notes.push_back(std::string("lattices and whole runs are not studied: ") +
-                                               no_exact_density);
-    }
-    study.seconds = watch.seconds();
-    return study;
-  }
+namespace {
 
+/// All standard studies that go with the case.
+void make_standard_studies(const Case& spec, const StudyOptions& options, Study& study) {
+  refuse_what_does_not_fit(spec, options.threads);
+  const bool exact = spec.reference.kind != ReferenceSpec::Kind::none;
+  for (const StandardStudy& standard : standard_studies()) {
+    if (standard.compares_density && !exact) continue;
+    if (options.progress) options.progress(standard.meaning);
+    study.experiments.push_back(standard.make(spec, options, standard.share * options.seconds));
+    if (options.table_grew) options.table_grew(study.experiments.back());
+  }
+  if (!exact)
+    study.experiments.back().notes.push_back(std::string("lattices and whole runs are not studied: ") +
+                                             no_exact_density);
+}
+
+/// Fills in the keys and returns the number of combinations of their values. Throws CommandLineError for keys that
+/// cannot be varied and for too many combinations.
+std::size_t combinations_of(const StudyOptions& options, std::vector<std::string>& keys) {
+  std::size_t combinations = 1;
+  for (const Variation& variation : options.vary) {
+    for (const char* fixed : {"case", "output", "reference", "check", "accuracy", "gaussdrift"})
+      if (variation.key.substr(0, variation.key.find('.')) == fixed)
+        throw CommandLineError(fmt::format("--vary {}: what is in [{}] does not change a run's error or its seconds",
+                                           variation.key, fixed));
+    if (std::find(keys.begin(), keys.end(), variation.key) != keys.end())
+      throw CommandLineError(fmt::format("--vary {}: it is given twice; all values go into one, --vary {}=a,b,c",
+                                         variation.key, variation.key));
+    keys.push_back(variation.key);
+    combinations *= variation.values.size();
+    if (combinations > most_combinations)
+      throw CommandLineError(fmt::format("the study has more than {} combinations; vary less", most_combinations));
+  }
+  return combinations;
+}
+
+/// The values of combination i, one a key; those of the last key change first.
+std::vector<std::string> combination(const std::vector<Variation>& vary, std::size_t i) {
+  std::vector<std::string> values(vary.size());
+  for (std::size_t rest = i, k = vary.size(); k-- > 0; rest /= vary[k].values.size())
+    values[k] = vary[k].values[rest % vary[k].values.size()];
+  return values;
+}
+
+/// "4", or "4 with gauss4" where other keys vary, too.
+std::string order_text(double order, const std::vector<std::string>& values) {
+  if (values.size() < 2) return fmt::format("{:g}", order);
+  return fmt::format("{:g} with {}", order, fmt::join(values.begin(), values.end() - 1, ", "));
+}
+
+/// A note where every run has a large error.
+void note_large_errors(Experiment& experiment) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Sample& sample : experiment.samples)
+    if (sample.failure.empty()) smallest = std::min(smallest, sample.error);
+  if (std::isfinite(smallest) && smallest > 0.3)
+    experiment.notes.push_back(
+        "Linf is large in every run, as at a jump of the density, where it stays at any resolution: compare L1 and L2");
+}
+
+/// Runs all combinations of values.
+Experiment vary_keys(const Case& spec, const StudyOptions& options) {
   Experiment experiment{.name = "study",
                         .title = spec.title.empty() ? spec.name : spec.title,
                         .question = "What does accuracy cost here?",
@@ -220,27 +254,13 @@ Study run_study(const StudyOptions& options) {
                         .samples = {},
                         .conclusion = {},
                         .notes = {}};
-  std::size_t combinations = 1;
-  for (const Variation& variation : options.vary) {
-    for (const char* fixed : {"case", "output", "reference", "check", "accuracy", "gaussdrift"})
-      if (variation.key.substr(0, variation.key.find('.')) == fixed)
-        throw CommandLineError(fmt::format("--vary {}: what is in [{}] does not change a run's error or its seconds",
-                                           variation.key, fixed));
-    if (std::find(experiment.keys.begin(), experiment.keys.end(), variation.key) != experiment.keys.end())
-      throw CommandLineError(fmt::format("--vary {}: it is given twice; all values go into one, --vary {}=a,b,c",
-                                         variation.key, variation.key));
-    experiment.keys.push_back(variation.key);
-    combinations *= variation.values.size();
-    if (combinations > most_combinations)
-      throw CommandLineError(fmt::format("the study has more than {} combinations; vary less", most_combinations));
-  }
+  const std::size_t combinations = combinations_of(options, experiment.keys);
   if (spec.reference.kind == ReferenceSpec::Kind::none) throw InputError(std::string("study: ") + no_exact_density);
   std::optional<Case> varied;  // the last one that could be read
   std::vector<std::string> orders;
   for (std::size_t i = 0; i < combinations; ++i) {
-    std::vector<std::string> overrides = options.overrides, values;
-    for (std::size_t rest = i, k = options.vary.size(); k-- > 0; rest /= options.vary[k].values.size())
-      values.insert(values.begin(), options.vary[k].values[rest % options.vary[k].values.size()]);
+    const std::vector<std::string> values = combination(options.vary, i);
+    std::vector<std::string> overrides = options.overrides;
     for (std::size_t k = 0; k < values.size(); ++k)
       overrides.push_back(experiment.keys[k] + "=" + value_or_quoted(values[k]));
     if (options.progress) options.progress(fmt::format("{} of {}: {}", i + 1, combinations, fmt::join(values, ", ")));
@@ -256,10 +276,8 @@ Study run_study(const StudyOptions& options) {
     sample.values = values;
     experiment.samples.push_back(sample);
     if (const auto order = sample.failure.empty() ? expected_order(experiment.keys.back(), *varied) : std::nullopt) {
-      const std::string told =
-          values.size() > 1 ? fmt::format("{:g} with {}", *order, fmt::join(values.begin(), values.end() - 1, ", "))
-                            : fmt::format("{:g}", *order);
-      if (std::find(orders.begin(), orders.end(), told) == orders.end()) orders.push_back(told);
+      const std::string text = order_text(*order, values);
+      if (std::find(orders.begin(), orders.end(), text) == orders.end()) orders.push_back(text);
     }
     if (options.table_grew) options.table_grew(experiment);
   }
@@ -267,14 +285,21 @@ Study run_study(const StudyOptions& options) {
   if (!orders.empty())
     experiment.notes.push_back(
         fmt::format("orders expected where {} decides: {}", experiment.keys.back(), fmt::join(orders, "; ")));
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Sample& sample : experiment.samples)
-    if (sample.failure.empty()) smallest = std::min(smallest, sample.error);
-  if (std::isfinite(smallest) && smallest > 0.3)
-    experiment.notes.push_back(
-        "Linf is large in every run, as at a jump of the density, where it stays at any resolution: compare L1 and L2");
+  note_large_errors(experiment);
   experiment.conclusion = conclusion_of(experiment);
-  study.experiments.push_back(std::move(experiment));
+  return experiment;
+}
+
+}  // namespace
+
+Study run_study(const StudyOptions& options) {
+  const base::Stopwatch watch;
+  const Case spec = read_case(options.file, options.overrides, options.threads).spec;
+  Study study{spec.name, spec.title, {}, base::resolve_threads(options.threads), 0};
+  if (options.vary.empty())
+    make_standard_studies(spec, options, study);
+  else
+    study.experiments.push_back(vary_keys(spec, options));
   study.seconds = watch.seconds();
   return study;
 }

@@ -90,7 +90,7 @@ std::string to_markdown(const Study& study);
 /// Draws <name>.png of every experiment into the folder; nothing where pictures are not available.
 void draw_charts(const Study& study, const std::filesystem::path& folder);
 
-// The standard studies, in src/study/standard_studies.cpp.
+// The standard studies; standard_studies.hpp lists them.
 Experiment study_transform(const Case& spec, int threads, double seconds);
 Experiment study_steps(const Case& spec, int threads, double seconds);
 Experiment study_lattice(const Case& spec, const StudyOptions& options, double seconds);
