@@ -7,6 +7,16 @@
 
 namespace gaussdrift::cli {
 
+void declare_case(OptionList& options, CaseOptions& given) {
+  options.add("case", given.file, "CASE", "case file (TOML), see docs/cases.md").required();
+  options.add("--set", given.overrides, "KEY=VALUE", "set a key of the case: --set time.step=0.01. Repeatable")
+      .repeatable();
+  options.add("--accuracy", given.accuracy, "X",
+              "error that you accept at the end, relative to the largest density. Settings are chosen for it");
+  options.threads(given.threads);
+  options.json(given.json);
+}
+
 Case read(const CaseOptions& options) {
   std::vector<std::string> overrides = options.overrides;
   if (!options.accuracy.empty()) overrides.push_back("accuracy.target=" + options.accuracy);

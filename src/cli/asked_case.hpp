@@ -1,10 +1,25 @@
 // The case that a verb was asked for.
 #pragma once
 
-#include "cli/verbs.hpp"
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
 #include "gaussdrift/case.hpp"
 
 namespace gaussdrift::cli {
+
+/// Options that every verb with a case understands.
+struct CaseOptions {
+  std::filesystem::path file;
+  std::vector<std::string> overrides{};  // --set key=value
+  std::string accuracy{};                // --accuracy, as accuracy.target; empty: as the case says
+  int threads = 0;                       // 0: all
+  bool json = false;                     // results as JSON on stdout
+};
+
+void declare_case(OptionList& options, CaseOptions& given);
 
 /// The file with its overrides. Its warnings are told.
 Case read(const CaseOptions& options);

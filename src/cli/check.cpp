@@ -3,8 +3,11 @@
 #include "cli/asked_case.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
 
 namespace gaussdrift::cli {
+
+namespace {
 
 ExitCode check(const CaseOptions& options) {
   const Case spec = settled(read(options), options);
@@ -15,6 +18,13 @@ ExitCode check(const CaseOptions& options) {
   }
   say("{}", options.json ? accuracy::to_json(spec, forecast) : accuracy::to_text(spec, forecast));
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Verb check_verb() {
+  return make_verb<CaseOptions>("check", "describe a case and predict what it costs, without running it", declare_case,
+                                check);
 }
 
 }  // namespace gaussdrift::cli

@@ -22,6 +22,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+struct DoctorOptions {
+  bool json = false;
+};
+
 struct Finding {
   std::string what, found;
   bool well = true;
@@ -65,8 +69,6 @@ Finding check_file(const fs::path& folder) {
   return {"file", "a density written for ParaView reads back bit for bit", back->values.front() == density.rho};
 }
 
-}  // namespace
-
 ExitCode doctor(const DoctorOptions& options) {
   std::vector<Finding> findings;
   findings.push_back({"version", fmt::format("gaussdrift {}, {}", GAUSSDRIFT_VERSION, GAUSSDRIFT_COMPILER)});
@@ -102,6 +104,14 @@ ExitCode doctor(const DoctorOptions& options) {
   }
   if (options.json) say("{}\n", document.dump(2));
   return well ? ExitCode::ok : ExitCode::internal;
+}
+
+}  // namespace
+
+Verb doctor_verb() {
+  return make_verb<DoctorOptions>(
+      "doctor", "try everything on this machine: a sum, a picture, a file",
+      [](OptionList& options, DoctorOptions& given) { options.json(given.json); }, doctor);
 }
 
 }  // namespace gaussdrift::cli

@@ -20,6 +20,25 @@ namespace gaussdrift::cli {
 
 namespace {
 
+struct ExplainOptions {
+  std::string word;             // empty: all keys
+  bool schema = false;          // the JSON schema instead
+  std::filesystem::path guide;  // --markdown; docs/cases.md, whose generated parts are written anew
+  bool json = false;
+};
+
+void declare(OptionList& options, ExplainOptions& given) {
+  const Option word = options.add("key", given.word, "KEY",
+                                  "a key, table, field, shape, function, value or symbol (n_g, alpha_j). Without it, "
+                                  "all keys");
+  Option schema = options.flag("--schema", given.schema, "the JSON schema of a case");
+  options.json(given.json);
+  options.add("--markdown", given.guide, "FILE", "write the generated parts of docs/cases.md (FILE) anew")
+      .excludes(word)
+      .excludes(schema);
+  schema.excludes(word);
+}
+
 /// Replaces what stands between "<!-- mark: begin" and "<!-- mark: end -->".
 void replace_part(std::string& guide, const std::filesystem::path& file, const std::string& mark,
                   const std::string& generated) {
@@ -55,8 +74,6 @@ std::string not_known(const std::string& word) {
   return text + (near ? fmt::format("; did you mean \"{}\"?", *near) : "") + "; gaussdrift explain shows the keys";
 }
 
-}  // namespace
-
 ExitCode explain(const ExplainOptions& options) {
   if (!options.guide.empty()) {
     write_guide(options.guide);
@@ -70,6 +87,13 @@ ExitCode explain(const ExplainOptions& options) {
     say("{}", options.json ? input::to_json(options.word, found) : input::to_text(found));
   }
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Verb explain_verb() {
+  return make_verb<ExplainOptions>(
+      "explain", "tell what a key of the case file means: type, default, range, unit, symbol", declare, explain);
 }
 
 }  // namespace gaussdrift::cli

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/suggest.hpp"
+#include "cli/laid_out.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
@@ -17,6 +18,20 @@ namespace gaussdrift::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct NewOptions {
+  std::string name;              // empty: a list
+  std::filesystem::path folder;  // --out; empty: here
+  bool force = false;
+  bool json = false;
+};
+
+void declare(OptionList& options, NewOptions& given) {
+  options.add("name", given.name, "NAME", "the case to write. Without it, a list");
+  options.add("--out", given.folder, "DIR", "folder for the file; this one by default");
+  options.flag("--force", given.force, "replace a file of that name");
+  options.json(given.json);
+}
 
 bool is_case(const input::ExampleFile& file) { return fs::path(file.name).extension() == ".toml"; }
 
@@ -42,8 +57,6 @@ void list_examples(bool json) {
   for (const auto& entry : list)
     say("  {:<18} {}\n", entry["name"].get<std::string>(), entry["title"].get<std::string>());
 }
-
-}  // namespace
 
 ExitCode new_case(const NewOptions& options) {
   if (options.name.empty()) {
@@ -81,11 +94,16 @@ ExitCode new_case(const NewOptions& options) {
     if (!options.json) say("wrote  {}\n", path.string());
   }
   if (options.json)
-    say("{}\n", nlohmann::ordered_json{{"written", written}}.dump(2, ' ', false,
-                                                                  nlohmann::ordered_json::error_handler_t::replace));
+    say("{}\n", laid_out({{"written", written}}));
   else
     say("next   gaussdrift run {}\n", (options.folder / (wanted + ".toml")).string());
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Verb new_verb() {
+  return make_verb<NewOptions>("new", "list the built-in cases, or write one to start from", declare, new_case);
 }
 
 }  // namespace gaussdrift::cli

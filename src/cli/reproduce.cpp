@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cli/output_name.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -18,6 +19,28 @@ namespace gaussdrift::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct ReproduceOptions {
+  std::string what;              // "cone", "fgtd", "divergence", "figures"; empty: a list
+  std::string table;             // of fgtd or divergence, or a figure, as in 4.6; empty: all
+  std::filesystem::path folder;  // --out, of figures; empty: output/figures
+  bool full = false;             // fgtd, divergence: every row, and no samples of targets; figures: the thesis's steps
+  int threads = 0;               // 0: all
+  bool json = false;
+};
+
+void declare(OptionList& options, ReproduceOptions& given) {
+  options.add("what", given.what, "WHAT", "what to reproduce. Without it, a list");
+  options.add("table,--table", given.table, "TABLE",
+              "one table of fgtd or divergence, or one figure, such as 4.6. By default all");
+  options.add("--out", given.folder, "DIR",
+              "folder for figures or for logkernel; output/figures or output/logkernel by default");
+  options.flag("--full", given.full,
+               "fgtd, divergence, coulomb: also the largest rows, and every target compared; figures: 5.3 with the "
+               "thesis's steps");
+  options.threads(given.threads);
+  options.json(given.json);
+}
 
 ExitCode reproduce_cone(const ReproduceOptions& options) {
   if (!options.table.empty() || options.full)
@@ -110,9 +133,8 @@ ExitCode reproduce_figures(const ReproduceOptions& options) {
   return ExitCode::ok;
 }
 
-}  // namespace
-
 ExitCode reproduce(const ReproduceOptions& options) {
+  check_folder_name(options.folder, "pictures are written into a folder");
   if (!options.folder.empty() && options.what != "figures" && options.what != "logkernel")
     throw CommandLineError("--out goes with: reproduce figures, logkernel");
   if (options.what == "figures") return reproduce_figures(options);
@@ -139,6 +161,13 @@ ExitCode reproduce(const ReproduceOptions& options) {
       fmt::join(reproduce::table_numbers(reproduce::TableSet::divergence), " and "),
       fmt::join(reproduce::figure_numbers(), ", "));
   return ExitCode::ok;
+}
+
+}  // namespace
+
+Verb reproduce_verb() {
+  return make_verb<ReproduceOptions>("reproduce", "compute a published table again, beside the published numbers",
+                                     declare, reproduce);
 }
 
 }  // namespace gaussdrift::cli

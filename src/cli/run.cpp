@@ -10,10 +10,12 @@
 #include "base/printable.hpp"
 #include "cli/asked_case.hpp"
 #include "cli/look_back.hpp"
+#include "cli/output_name.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_words.hpp"
 #include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/data_files.hpp"
@@ -32,6 +34,19 @@ namespace gaussdrift::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct RunOptions {
+  CaseOptions case_options;
+  std::filesystem::path folder{};  // --out; empty: output/<case name>
+  bool force = false;
+  std::string command{};  // as it was typed, for provenance.json
+};
+
+void declare(OptionList& options, RunOptions& given) {
+  declare_case(options, given.case_options);
+  options.add("--out", given.folder, "DIR", "folder for the results; output/<name> by default");
+  options.flag("--force", given.force, "replace an earlier run in that folder");
+}
 
 void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder) {
   simulation.observe(
@@ -72,15 +87,15 @@ std::string provenance_of(const Case& spec, const fs::path& folder, const RunOpt
   for (const fs::path& file : input::data_files(spec))
     data.push_back({input::seen_from(folder, file).generic_string(), file});
   return write::provenance_json(spec, case_text(input::with_bare_names(spec)), data, options.command,
-                                base::resolve_threads(options.scene.threads));
+                                base::resolve_threads(options.case_options.threads));
 }
 
 class Run {
  public:
   explicit Run(const RunOptions& options)
       : options_(options),
-        asked_(read(options.scene)),
-        spec_(settled(asked_, options.scene)),
+        asked_(read(options.case_options)),
+        spec_(settled(asked_, options.case_options)),
         folder_(options.folder.empty() ? fs::path("output") / spec_.name : options.folder) {}
 
   void simulate() {
@@ -131,7 +146,7 @@ class Run {
 
   ExitCode report() const {
     for (const std::string& warning : warnings_) note("warning: {}\n", warning);
-    put(stdout, options_.scene.json ? summary_text_ : ending_);
+    put(stdout, options_.case_options.json ? summary_text_ : ending_);
     bool failed = false;
     for (const CheckResult& result : summary_.checks) {
       if (result.passed) continue;
@@ -143,7 +158,7 @@ class Run {
   }
 
  private:
-  int threads() const { return options_.scene.threads; }
+  int threads() const { return options_.case_options.threads; }
 
   const RunOptions& options_;
   const Case asked_, spec_;  // spec_: with the settings that the target asked for
@@ -157,14 +172,21 @@ class Run {
   OwedFiles owed_;
 };
 
-}  // namespace
-
 ExitCode run(const RunOptions& options) {
+  check_folder_name(options.folder,
+                    "a run leaves a folder with ParaView files (density.pvd), pictures (PNG) and tables (CSV)");
   Run run(options);
   run.simulate();
   run.explain_errors();
   run.write();
   return run.report();
+}
+
+}  // namespace
+
+Verb run_verb(const std::string& typed) {
+  return make_verb<RunOptions>("run", "run a case: files, pictures and numbers in output/<name>/", declare, run,
+                               {.case_options = {}, .command = typed});
 }
 
 }  // namespace gaussdrift::cli

@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include "cli/asked_case.hpp"
+#include "cli/output_name.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
@@ -18,6 +20,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
+struct StudyVerbOptions {
+  CaseOptions case_options;
+  std::vector<std::string> vary;  // --vary key=a,b,c; none: the standard studies
+  int repeats = 3;
+  double seconds = 90;
+  fs::path folder;  // --out; empty: output/study_<case name>
+  fs::path csv;     // --csv; empty: the tables in the folder alone
+  bool force = false;
+};
+
+void declare(OptionList& options, StudyVerbOptions& given) {
+  declare_case(options, given.case_options);
+  options
+      .add("--vary", given.vary, "KEY=A,B,...",
+           "run with these values of a key: --vary time.step=0.1,0.05. Repeatable: then every combination. Without it, "
+           "the standard studies")
+      .repeatable();
+  options.add("--repeats", given.repeats, "N", "how often a cheap run is timed. The fastest counts; 3 by default")
+      .within(1, 100);
+  options.add("--seconds", given.seconds, "S", "about how long the standard studies may take; 90 by default")
+      .within(1, 100000);
+  options.add("--out", given.folder, "DIR", "folder for tables and charts; output/study_<case> by default");
+  options.add("--csv", given.csv, "FILE", "also write all results as one table");
+  options.flag("--force", given.force, "replace an earlier study in that folder");
+}
+
 /// A finished study, or the tables of one that was interrupted.
 bool holds_a_study(const fs::path& folder) {
   std::error_code ignored;
@@ -27,18 +55,18 @@ bool holds_a_study(const fs::path& folder) {
   return false;
 }
 
-}  // namespace
-
 ExitCode study(const StudyVerbOptions& options) {
+  check_folder_name(options.folder, "a study leaves a folder with tables (CSV) and charts (PNG)");
   study::StudyOptions wanted;
-  wanted.file = options.scene.file;
-  wanted.overrides = options.scene.overrides;
+  wanted.file = options.case_options.file;
+  wanted.overrides = options.case_options.overrides;
   wanted.repeats = options.repeats;
   wanted.seconds = options.seconds;
-  wanted.threads = options.scene.threads;
+  wanted.threads = options.case_options.threads;
   for (const std::string& text : options.vary) wanted.vary.push_back(study::parse_variation(text));
-  const fs::path folder =
-      options.folder.empty() ? fs::path("output") / ("study_" + options.scene.file.stem().string()) : options.folder;
+  const fs::path folder = options.folder.empty()
+                              ? fs::path("output") / ("study_" + options.case_options.file.stem().string())
+                              : options.folder;
   if (!options.force && holds_a_study(folder))
     throw FileError(
         fmt::format("{} holds an earlier study, or what is left of one; --force replaces it, --out DIR writes "
@@ -68,12 +96,19 @@ ExitCode study(const StudyVerbOptions& options) {
     });
   if (const std::string reason = render::unavailable_reason(); !reason.empty())
     note("warning: no charts are drawn: {}\n", reason);
-  if (options.scene.json)
+  if (options.case_options.json)
     put(stdout, json);
   else
     say("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.md").string());
   for (const std::string& why : owed.missing()) note("error: {}\n", why);
   return owed.missing().empty() ? ExitCode::ok : ExitCode::files;
+}
+
+}  // namespace
+
+Verb study_verb() {
+  return make_verb<StudyVerbOptions>("study", "measure what accuracy costs in time: tables, charts, a conclusion",
+                                     declare, study);
 }
 
 }  // namespace gaussdrift::cli

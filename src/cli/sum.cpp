@@ -14,6 +14,7 @@
 #include "accuracy/footprint.hpp"
 #include "base/stopwatch.hpp"
 #include "base/suggest.hpp"
+#include "cli/output_name.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
@@ -26,6 +27,48 @@ namespace gaussdrift::cli {
 namespace fs = std::filesystem;
 
 namespace {
+
+struct SumOptions {
+  std::string kernel = "gauss";
+  fs::path sources, targets;  // targets empty: --grid, or the sources
+  std::string columns;        // "x,y"; empty: all but the weight
+  std::string grid;           // "-1:1:200,-1:1:200"
+  std::optional<double> sigma;
+  std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum
+  double tolerance = 1e-6;
+  std::string method = "auto";
+  std::optional<double> seconds;  // most that may be predicted; by default 300 for a method that is named
+  fs::path out;                   // empty or "-": standard output
+  int threads = 0;                // 0: all
+  bool json = false;              // what was chosen as JSON on stdout
+};
+
+void declare(OptionList& options, SumOptions& given) {
+  options.add("--sources", given.sources, "FILE", "table of sources (CSV): coordinates and a column weight").required();
+  const Option targets = options.add("--targets", given.targets, "FILE", "table of targets. By default the sources");
+  options.add("--columns", given.columns, "NAME,...",
+              "the columns that are coordinates: --columns x,y. By default all but weight");
+  options
+      .add("--grid", given.grid, "LOW:HIGH:COUNT,...",
+           "a grid of targets: --grid=-1:1:200,0:1:100. Its first axis runs fastest")
+      .excludes(targets);
+  options.add("--sigma", given.sigma, "X", "of the Gaussian exp(-sigma r^2)");
+  options
+      .add("--derivative", given.derivatives, "A1,A2,...",
+           "a derivative of the Gaussians: --derivative 0,1,2. Repeatable. By default the plain sum")
+      .repeatable();
+  options.add("--tolerance", given.tolerance, "X",
+              "error of every term (docs/fgtd.md, docs/farfield.md); 1e-6 by default");
+  options.add("--method", given.method, "NAME",
+              "auto (the default), or a method of the library. A wrong name is answered with the list");
+  options.add("--seconds", given.seconds, "S",
+              "refuse a sum that is predicted to take longer; 300 by default for a method that you name");
+  options.add("--kernel", given.kernel, "NAME",
+              "gauss (the default), coulomb (2D, 3D) or log (1D, 2D). The last two give potential and field");
+  options.add("--out", given.out, "FILE", "file for the values. By default, or as -, standard output");
+  options.threads(given.threads);
+  options.json(given.json, "what was chosen and what it cost, as JSON on standard output. Needs --out");
+}
 
 /// The one of that name; to_string() of the library that `all` comes from.
 template <class Choice>
@@ -192,15 +235,21 @@ ExitCode sum_pairs(const SumOptions& options) {
   return write(sums, options);
 }
 
-}  // namespace
-
 ExitCode sum(const SumOptions& options) {
+  check_table_name(options.out);
   check_options(options);
   try {
     return of_pairs(options) ? sum_pairs(options) : sum_gaussians(options);
   } catch (const std::bad_alloc&) {
     throw InputError("out of memory; ask for fewer targets at a time, or give fewer sources");
   }
+}
+
+}  // namespace
+
+Verb sum_verb() {
+  return make_verb<SumOptions>("sum", "sum Gaussians, Coulomb charges or logarithms over a table of points", declare,
+                               sum);
 }
 
 }  // namespace gaussdrift::cli

@@ -79,9 +79,13 @@ bool explains(const std::string& word, const std::string& kind) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string said(const std::function<void()>& run) {
+/// What the program says that is called with these words.
+std::string said(std::vector<std::string> words) {
+  words.insert(words.begin(), "gaussdrift");
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
   testing::internal::CaptureStdout();
-  run();
+  EXPECT_EQ(cli::main_verbs(static_cast<int>(arguments.size()), arguments.data()), 0);
   return testing::internal::GetCapturedStdout();
 }
 
@@ -106,23 +110,18 @@ TEST(OutputFile, OfACatalogueIsKnownToAll) {
 TEST(OutputFile, OfACatalogueIsWrittenByARunAndRemovedByTheNext) {
   const Folder folder;
   std::ofstream(folder / "small.toml") << small_case;
-  const cli::RunOptions options{.scene = {.file = folder / "small.toml", .overrides = {}},
-                                .folder = folder / "out",
-                                .force = true,
-                                .command = ""};
+  const std::vector<std::string> run{"run", folder / "small.toml", "--out", folder / "out", "--force"};
   {
     write::FileKind toy = toy_file();
     toy.memory = [](const write::Extent&) { return 0.0; };
     const base::Added<write::FileKind> added(toy);
-    said([&] { EXPECT_EQ(cli::run(options), ExitCode::ok); });
+    said(run);
     EXPECT_TRUE(has(text_of(folder / "out/toy/toy_0001.txt"), " particles move\n"));
     EXPECT_TRUE(has(text_of(folder / "out/toy.pvd"), "toy/toy_0000.txt"));
     EXPECT_TRUE(has(text_of(folder / "out/view.py"), "toy = PVDReader(registrationName='toy'"));
-    const cli::RunOptions again{.scene = {.file = folder / "small.toml", .overrides = {"output.vtk=[\"density\"]"}},
-                                .folder = folder / "out",
-                                .force = true,
-                                .command = ""};
-    said([&] { EXPECT_EQ(cli::run(again), ExitCode::ok); });
+    std::vector<std::string> again = run;
+    again.insert(again.end(), {"--set", "output.vtk=[\"density\"]"});
+    said(again);
     EXPECT_FALSE(std::filesystem::exists(folder / "out/toy")) << "the files of the run before";
     EXPECT_FALSE(std::filesystem::exists(folder / "out/toy.pvd"));
   }
@@ -152,17 +151,10 @@ TEST(PictureStyle, OfACatalogueIsDrawnByARunAndLater) {
   const base::Added<render::Style> added(toy_style());
   const Folder folder;
   std::ofstream(folder / "small.toml") << small_case;
-  const std::vector<std::string> overrides{"output.images=[\"toy_picture\"]", "output.vtk=[\"density\"]"};
-  said([&] {
-    EXPECT_EQ(cli::run({.scene = {.file = folder / "small.toml", .overrides = overrides},
-                        .folder = folder / "out",
-                        .force = false,
-                        .command = ""}),
-              ExitCode::ok);
-  });
+  said({"run", folder / "small.toml", "--out", folder / "out", "--set", "output.images=[\"toy_picture\"]", "--set",
+        "output.vtk=[\"density\"]"});
   EXPECT_TRUE(std::filesystem::exists(folder / "out/images/toy_picture_0001.png"));
-  const std::string text =
-      said([&] { cli::render({.folder = folder / "out", .style = "toy_picture", .times = {}, .out = folder / "p"}); });
+  const std::string text = said({"render", folder / "out", "--style", "toy_picture", "--out", folder / "p"});
   EXPECT_TRUE(has(text, "toy_picture_0000.png")) << text;
 }
 

@@ -1,0 +1,171 @@
+// gaussdrift compare: how far two results are apart.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/number.hpp"
+#include "cli/laid_out.hpp"
+#include "cli/outputs_of.hpp"
+#include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
+#include "reference/norms.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using nlohmann::ordered_json;
+using read::WrittenOutput;
+
+struct CompareOptions {
+  fs::path first, second;
+  double tolerance = -1;  // negative: none
+  bool json = false;
+};
+
+void declare(OptionList& options, CompareOptions& given) {
+  options.add("first", given.first, "A", "folder of a run, or a .vti").required();
+  options.add("second", given.second, "B", "what it is compared with").required();
+  options.add("--tolerance", given.tolerance, "X", "exit code 5 if the largest difference is above this")
+      .not_negative();
+  options.json(given.json);
+}
+
+/// "50 x 50 points from (0, 0) with spacing 0.02".
+std::string described(const Lattice& lattice) {
+  std::vector<std::size_t> points;
+  std::vector<double> origin;
+  for (int k = 0; k < lattice.dimension; ++k) {
+    points.push_back(lattice.points[k]);
+    origin.push_back(lattice.origin[k]);
+  }
+  return fmt::format("{} points from ({:.10g}) with spacing {:.10g}", fmt::join(points, " x "), fmt::join(origin, ", "),
+                     lattice.spacing);
+}
+
+std::string in_text(std::optional<double> time) { return time ? fmt::format("t = {:g}", *time) : "no time"; }
+
+bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+/// Outputs of two runs that belong together, as indices, and those that have no partner.
+struct Partners {
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<std::size_t> first_alone, second_alone;
+};
+
+/// Two single outputs belong together whatever their times; others if their times agree, or if neither has one, in
+/// their order.
+Partners partners_of(const std::vector<WrittenOutput>& a, const std::vector<WrittenOutput>& b) {
+  if (a.size() == 1 && b.size() == 1) return {.pairs = {{0, 0}}, .first_alone = {}, .second_alone = {}};
+  Partners partners;
+  std::vector<bool> taken(b.size(), false);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t j = 0;
+    while (j < b.size() && (taken[j] || a[i].time.has_value() != b[j].time.has_value() ||
+                            (a[i].time && !same_time(*a[i].time, *b[j].time))))
+      ++j;
+    if (j == b.size()) {
+      partners.first_alone.push_back(i);
+      continue;
+    }
+    taken[j] = true;
+    partners.pairs.emplace_back(i, j);
+  }
+  for (std::size_t j = 0; j < b.size(); ++j)
+    if (!taken[j]) partners.second_alone.push_back(j);
+  return partners;
+}
+
+/// "t = 0, 0.5 and 1", at most the first and the last where they are many.
+std::string times_text(const std::vector<WrittenOutput>& outputs) {
+  std::vector<std::string> times;
+  for (const auto& output : outputs) times.push_back(output.time ? fmt::format("{:g}", *output.time) : "none");
+  if (times.size() > 8) return fmt::format("{} from t = {} to {}", times.size(), times.front(), times.back());
+  return fmt::format("t = {}", fmt::join(times, ", "));
+}
+
+ordered_json time_in_json(std::optional<double> time) { return time ? ordered_json(*time) : nullptr; }
+
+/// Warns of outputs that are not compared, and adds them to the list.
+void tell_alone(const std::vector<WrittenOutput>& outputs, const std::vector<std::size_t>& which, const fs::path& other,
+                ordered_json& list) {
+  for (const std::size_t i : which) {
+    note("warning: {} ({}) is not compared: {} has no output at that time\n", outputs[i].file.string(),
+         in_text(outputs[i].time), other.string());
+    list.push_back({{"file", outputs[i].file.string()}, {"t", time_in_json(outputs[i].time)}});
+  }
+}
+
+bool same_grid(const Lattice& a, const Lattice& b) {
+  const double same = 1e-6 * a.spacing;
+  const auto apart_by = [&](std::size_t k) { return std::abs(a.origin[k] - b.origin[k]); };
+  return a.points == b.points && std::abs(a.spacing - b.spacing) <= same * 1e-3 && apart_by(0) <= same &&
+         apart_by(1) <= same && apart_by(2) <= same;
+}
+
+ErrorNorms difference(const WrittenOutput& a, const WrittenOutput& b) {
+  const DensityGrid x = read::read_density(a.file, "rho"), y = read::read_density(b.file, "rho");
+  if (!same_grid(x.lattice, y.lattice))
+    throw FileError(fmt::format(
+        "{} and {} are on different grids, {} and {}; run one of them with the domain and [evaluate] of the other",
+        a.file.string(), b.file.string(), described(x.lattice), described(y.lattice)));
+  ErrorNorms norms = gaussdrift::compare(x.rho, y.rho);
+  if (std::isnan(norms.linf)) norms.linf = x.rho == y.rho ? 0.0 : INFINITY;
+  return norms;
+}
+
+/// Compares two outputs and tells about it; the row for JSON.
+ordered_json compare_outputs(const WrittenOutput& a, const WrittenOutput& b, bool json) {
+  const bool at_other_time = a.time && b.time && !same_time(*a.time, *b.time);
+  if (at_other_time)  // has it come back?
+    note("warning: the times differ: {} is at t = {}, {} at t = {}\n", a.file.string(),
+         base::told_apart(*a.time, *b.time), b.file.string(), base::told_apart(*b.time, *a.time));
+  const ErrorNorms norms = difference(a, b);
+  if (!json) say("{:<14} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", in_text(a.time), norms.l1, norms.l2, norms.linf);
+  ordered_json row = {{"t", time_in_json(a.time)}, {"L1", norms.l1}, {"L2", norms.l2}, {"Linf", norms.linf}};
+  if (at_other_time) row["t_second"] = time_in_json(b.time);
+  return row;
+}
+
+ExitCode compare(const CompareOptions& options) {
+  const auto a = outputs_of(options.first), b = outputs_of(options.second);
+  const Partners partners = partners_of(a, b);
+  if (partners.pairs.empty())
+    throw FileError(
+        fmt::format("{} and {} have no output time in common: the one has {}, the other {}; compare two of "
+                    "their files to see how far apart they are all the same",
+                    options.first.string(), options.second.string(), times_text(a), times_text(b)));
+  ordered_json rows = ordered_json::array(), alone = ordered_json::array();
+  tell_alone(a, partners.first_alone, options.second, alone);
+  tell_alone(b, partners.second_alone, options.first, alone);
+  double worst = 0;
+  for (const auto& [i, j] : partners.pairs) {
+    rows.push_back(compare_outputs(a[i], b[j], options.json));
+    worst = std::max(worst, rows.back()["Linf"].get<double>());
+  }
+  const bool apart = options.tolerance >= 0 && !(worst <= options.tolerance);
+  if (options.json)
+    say("{}\n", laid_out({{"outputs", rows}, {"not_compared", alone}, {"largest", worst}, {"within", !apart}}));
+  else
+    say("largest difference {:.2e}, relative to {}{}\n", worst, options.second.string(),
+        options.tolerance < 0 ? ""
+        : apart               ? fmt::format(": more than {:g}", options.tolerance)
+                              : fmt::format(": within {:g}", options.tolerance));
+  return apart ? ExitCode::check : ExitCode::ok;
+}
+
+}  // namespace
+
+Verb compare_verb() {
+  return make_verb<CompareOptions>("compare", "compare two results: norms of the difference, relative to the second",
+                                   declare, compare);
+}
+
+}  // namespace gaussdrift::cli

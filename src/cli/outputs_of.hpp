@@ -1,0 +1,14 @@
+// The densities that a run has written, for the verbs that look at them.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "read/written_run.hpp"
+
+namespace gaussdrift::cli {
+
+/// Of the folder of a run, or the one of a file. Throws FileError if there are none.
+std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place);
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,126 @@
+// gaussdrift render: the densities of a run, drawn again.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "base/suggest.hpp"
+#include "cli/laid_out.hpp"
+#include "cli/output_name.hpp"
+#include "cli/outputs_of.hpp"
+#include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
+#include "render/styles.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct RenderOptions {
+  fs::path folder;
+  std::string style;          // empty: the default of the dimension and field
+  std::string field = "rho";  // rho, rho_exact, error
+  std::vector<double> times;  // empty: all
+  fs::path out;               // empty: images/ of the folder
+  bool json = false;
+};
+
+void declare(OptionList& options, RenderOptions& given) {
+  options.add("folder", given.folder, "DIR", "folder of a run, or a .vti").required();
+  options.add("--style", given.style, "NAME", "surface, contour, heatmap; slices, projection, isosurface; error");
+  options.add("--field", given.field, "NAME", "rho (the default), rho_exact or error");
+  options.add("--times", given.times, "T,...", "only these output times").separated_by(',');
+  options.add("--out", given.out, "DIR", "folder for the pictures; images/ of the run by default");
+  options.json(given.json);
+}
+
+/// The one at a time that was typed, maybe with few digits: the nearest within a thousandth.
+std::size_t output_at(double wanted, const std::vector<read::WrittenOutput>& outputs, const fs::path& folder) {
+  std::optional<std::size_t> nearest;
+  std::vector<double> times;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (!outputs[i].time) continue;
+    const double time = *outputs[i].time, apart = std::abs(wanted - time);
+    times.push_back(time);
+    if (apart <= 1e-3 * std::max(1e-9, std::abs(time)) &&
+        (!nearest || apart < std::abs(wanted - *outputs[*nearest].time)))
+      nearest = i;
+  }
+  if (!nearest)
+    throw CommandLineError(fmt::format("--times {:g}: no output of {} is within a thousandth of it; there are {:.6g}",
+                                       wanted, folder.string(), fmt::join(times, ", ")));
+  return *nearest;
+}
+
+const render::Style& style_called(const std::string& name) {
+  if (const render::Style* style = base::find_or_null(render::styles(), name)) return *style;
+  std::vector<std::string> names;
+  for (const render::Style& style : render::styles()) names.emplace_back(style.about.name);
+  const auto near = base::suggest(name, names);
+  throw CommandLineError(fmt::format("--style {} is not known{} there are {}", name,
+                                     near ? fmt::format("; did you mean {}?", *near) : ";", fmt::join(names, ", ")));
+}
+
+ExitCode render(const RenderOptions& options) {
+  check_folder_name(options.out, "pictures are written into a folder, as surface_0000.png and so on");
+  if (const std::string reason = render::unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
+  const std::vector<std::string> fields{"rho", "rho_exact", "error"};
+  if (std::find(fields.begin(), fields.end(), options.field) == fields.end()) {
+    const auto near = base::suggest(options.field, fields);
+    throw CommandLineError(fmt::format("--field {}: there are rho, rho_exact, error{}", options.field,
+                                       near ? fmt::format("; did you mean {}?", *near) : ""));
+  }
+  const bool error = options.field == "error";
+  const render::Style* style = options.style.empty() ? nullptr : &style_called(options.style);
+  const auto outputs = outputs_of(options.folder);
+  std::set<std::size_t> wanted;
+  for (const double time : options.times) wanted.insert(output_at(time, outputs, options.folder));
+  for (std::size_t i = 0; options.times.empty() && i < outputs.size(); ++i) wanted.insert(i);
+  // Read twice, for the range and for the picture: all of a run at once need not fit into memory.
+  double low = 0, high = 0;
+  int dimension = 2;
+  for (const std::size_t i : wanted) {
+    const DensityGrid density = read::read_density(outputs[i].file, options.field);
+    dimension = density.lattice.dimension;
+    for (const double value : density.rho) low = std::min(low, value), high = std::max(high, value);  // not of NaN
+  }
+  if (!style) style = &render::default_style(dimension, error);
+  if (!style->about.shows(dimension))
+    throw CommandLineError(
+        fmt::format("--style {} does not show densities of {} dimensions", style->about.name, dimension));
+  const auto [range_min, range_max] = style->range(low, high);
+  const fs::path out = options.out.empty()
+                           ? (fs::is_directory(options.folder) ? options.folder / "images" : fs::path("."))
+                           : options.out;
+  nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  const fs::path named = (options.folder / "").parent_path();  // "a/b/" is "a/b"
+  for (const std::size_t i : wanted) {
+    const fs::path png = out / fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_",
+                                           style->about.name, outputs[i].number);
+    draw(*style, read::read_density(outputs[i].file, options.field),
+         {.title = named.stem().string(),
+          .quantity = options.field == "rho" ? "density" : options.field,
+          .time = outputs[i].time,
+          .range_min = range_min,
+          .range_max = range_max},
+         png);
+    written.push_back(png.string());
+    if (!options.json) say("wrote  {}\n", png.string());
+  }
+  if (options.json) say("{}\n", laid_out(nlohmann::ordered_json{{"written", written}}));
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+Verb render_verb() {
+  return make_verb<RenderOptions>("render", "draw the densities of a run again, without running it", declare, render);
+}
+
+}  // namespace gaussdrift::cli
