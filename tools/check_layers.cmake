@@ -62,7 +62,7 @@ set(public_reference characteristics exact_paths formula lost_velocity norms ref
 set(public_sim carrier checks comparison landings outside scene stable_step stepper transform work)
 set(public_write atomic_file output_files provenance run_folder series_table summary vtk_files)
 set(public_render chart panel picture picture_series styles)
-set(public_input data_files effect_rules examples explain foreign_keys points_table registry)
+set(public_input data_files effect_rules examples explain foreign_keys markdown points_table registry)
 set(public_blockmatrix block_matrix)
 set(public_accuracy accuracy_table budget footprint forecast target would_run)
 set(public_report page)

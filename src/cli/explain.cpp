@@ -13,7 +13,7 @@
 #include "expression/foreign_names.hpp"
 #include "input/effect_rules.hpp"
 #include "input/foreign_keys.hpp"
-#include "input/registry.hpp"
+#include "input/markdown.hpp"
 #include "write/atomic_file.hpp"
 
 namespace gaussdrift::cli {

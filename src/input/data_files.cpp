@@ -18,20 +18,20 @@ void add_file(const Spec& spec, std::vector<std::filesystem::path>& files) {
 
 }  // namespace
 
-std::vector<std::filesystem::path> data_files(const Case& scene) {
+std::vector<std::filesystem::path> data_files(const Case& spec) {
   std::vector<std::filesystem::path> files;
-  for (const auto& part : scene.velocity) std::visit([&](const auto& spec) { add_file(spec, files); }, part);
-  for (const auto& part : scene.density) std::visit([&](const auto& spec) { add_file(spec, files); }, part);
+  for (const auto& part : spec.velocity) std::visit([&](const auto& one) { add_file(one, files); }, part);
+  for (const auto& part : spec.density) std::visit([&](const auto& one) { add_file(one, files); }, part);
   return files;
 }
 
-Case with_bare_names(Case scene) {
-  const auto shorten = [](auto& spec) {
-    if constexpr (requires { spec.file; }) spec.file = spec.file.filename();
+Case with_bare_names(Case spec) {
+  const auto shorten = [](auto& one) {
+    if constexpr (requires { one.file; }) one.file = one.file.filename();
   };
-  for (auto& part : scene.velocity) std::visit(shorten, part);
-  for (auto& part : scene.density) std::visit(shorten, part);
-  return scene;
+  for (auto& part : spec.velocity) std::visit(shorten, part);
+  for (auto& part : spec.density) std::visit(shorten, part);
+  return spec;
 }
 
 std::filesystem::path seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "base/printable.hpp"
 #include "base/text_file.hpp"
 #include "input/reader.hpp"
 #include "input/tables/tables.hpp"
@@ -19,36 +16,28 @@ namespace {
 // A case is a few kilobytes; a long list of output times may take more. Data belong into files of their own.
 constexpr std::size_t largest_case_file = 4'000'000;
 
-/// Titles go to terminals, pages and pictures.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  return base::printable(text);
-}
-
 /// Complains about everything that is wrong, table after table.
 Case read_tables(Reader& in) {
-  Case scene;
+  Case spec;
   in.check_names();
   in.read_version();
   in.check_tables();
-  scene.title = one_line(in.text("case", "title"));
-  scene.cite = one_line(in.text("case", "cite"));
-  read_params(in, scene.params);
-  read_domain(in, scene.domain);
-  read_velocity(in, scene.velocity);
-  read_density(in, scene.density);
-  read_particles(in, scene.particles, scene.domain);
-  read_time(in, scene.time);
+  read_heading(in, spec);
+  read_params(in, spec.params);
+  read_domain(in, spec.domain);
+  read_velocity(in, spec.velocity);
+  read_density(in, spec.density);
+  read_particles(in, spec.particles, spec.domain);
+  read_time(in, spec.time);
   check_times_of_files(in);
-  read_evaluate(in, scene.evaluate, scene.domain);
-  read_output(in, scene.output, scene.time);
-  read_effects(in, scene);
-  read_reference(in, scene);
-  read_accuracy(in, scene);
-  read_checks(in, scene);
+  read_evaluate(in, spec.evaluate, spec.domain);
+  read_output(in, spec.output, spec.time);
+  read_effects(in, spec);
+  read_reference(in, spec);
+  read_accuracy(in, spec);
+  read_checks(in, spec);
   if (in.diagnostics.errors() == 0) warn_unused_params(in);
-  return scene;
+  return spec;
 }
 
 }  // namespace

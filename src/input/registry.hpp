@@ -1,5 +1,6 @@
-// Every key of a case file: its type, default, range, symbol and meaning, in one table. The reader, its messages,
-// `gaussdrift explain`, the JSON schema and docs/cases.md are driven by it, so that they cannot disagree.
+// Every key of a case file: its type, default, range, symbol and meaning. Each stands beside the reader of its table, in
+// tables/; the registry collects them. The reader, its messages, `gaussdrift explain`, the JSON schema and docs/cases.md
+// are driven by it, so that they cannot disagree.
 #pragma once
 
 #include <string>
@@ -24,7 +25,7 @@ enum class Type {
 };
 
 struct Key {
-  std::string table;  // empty: the top of the file
+  std::string table = {};  // empty: the top of the file
   std::string_view name;
   Type type = Type::text;
   bool required = false;
@@ -82,9 +83,5 @@ std::string range_text(const Range& range);
 
 /// The first sentence of a meaning, for lists of keys and under errors.
 std::string_view first_sentence(std::string_view meaning);
-
-/// The tables of keys and of functions, as docs/cases.md shows them.
-std::string registry_markdown();
-std::string functions_markdown();
 
 }  // namespace gaussdrift::input

@@ -20,7 +20,7 @@
 #include "gaussdrift/simulation.hpp"
 #include "input/effect_rules.hpp"
 #include "input/explain.hpp"
-#include "input/registry.hpp"
+#include "input/markdown.hpp"
 #include "particle/cutoff.hpp"
 #include "time/tableau.hpp"
 

@@ -11,6 +11,7 @@
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/explain.hpp"
+#include "input/markdown.hpp"
 #include "input/registry.hpp"
 #include "render/canvas.hpp"
 #include "render/styles.hpp"

@@ -13,6 +13,7 @@
 #include "base/catalogue.hpp"
 #include "cases.hpp"
 #include "input/effect_rules.hpp"
+#include "input/markdown.hpp"
 #include "input/registry.hpp"
 
 namespace gaussdrift::input {

@@ -8,20 +8,47 @@
 
 namespace gaussdrift::input {
 
-void read_accuracy(Reader& in, Case& scene) {
+Section accuracy_section() {
+  return {
+      {.name = "accuracy",
+       .required = false,
+       .meaning = "how accurate the run has to be, and whether its error is split by cause"},
+      {{.name = "target",
+        .type = Type::number,
+        .range = {1e-9, 0.5},
+        .meaning =
+            "largest error allowed at the last output, relative to max |rho|. `run` and `check` then choose the "
+            "cheapest settings that are predicted to reach it: particles.per_axis, overlap and cutoff, time.step "
+            "and evaluate.tolerance. The option `--accuracy` does the same"},
+       {.name = "budget",
+        .type = Type::choice,
+        .fallback = "auto",
+        .choices = {"auto", "measured", "none"},
+        .meaning =
+            "whether the run measures how much of its error comes from time stepping, smoothing, quadrature and Gauss "
+            "transform. This needs a reference. `auto` measures where that costs at most about a tenth of the run"}}};
+}
+
+void read_accuracy(Reader& in, Case& spec) {
   const auto& budgets = find_key("accuracy", "budget").choices;
-  scene.accuracy.budget = static_cast<AccuracySpec::Budget>(
+  spec.accuracy.budget = static_cast<AccuracySpec::Budget>(
       std::find(budgets.begin(), budgets.end(), in.choice("accuracy", "budget")) - budgets.begin());
   const auto target = in.number("accuracy", "target");
   if (!target) return;
-  scene.accuracy.target = target->number;
+  spec.accuracy.target = target->number;
   std::string without;
-  for (const auto& [effect, spec] : effects_of(scene.effects))
-    if (without.empty() && effect->decay_rate.empty()) without = spec.name;
+  for (const auto& [effect, values] : effects_of(spec.effects))
+    if (without.empty() && effect->decay_rate.empty()) without = values.name;
   if (const Entry* written = in.find("accuracy", "target"); written && !without.empty())
     in.diagnostics.error(written->value.place,
                          fmt::format("no settings can be chosen for a target with [effects.{}]", without),
                          "the error is predicted for transport and reaction; leave out accuracy.target");
+}
+
+void write_accuracy(Writer& out, const AccuracySpec& accuracy) {
+  out.table("accuracy");
+  if (accuracy.target) out.entry("target", written(*accuracy.target));
+  out.entry("budget", written_choice(find_key("accuracy", "budget"), accuracy.budget));
 }
 
 }  // namespace gaussdrift::input

@@ -5,6 +5,28 @@
 
 namespace gaussdrift::input {
 
+Section density_section() {
+  std::vector<Key> keys{
+      {.name = "expression", .type = Type::expression, .symbol = "rho_0", .meaning = "the density at time 0"},
+      {.name = "shape",
+       .type = Type::choice,
+       .choices = base::names_of(named_shapes()),
+       .meaning = "name of a shape. Its parameters stand beside it"}};
+  add_parameters(keys, "shape", named_shapes());
+  keys.push_back(
+      {.name = "file",
+       .meaning =
+           "a file of ParaView with the density on a grid: .vti or .vtr. The path is relative to the case file"});
+  const std::vector<Key> of_file =
+      grid_file_keys("zero", "what to do where the file has no value. The choices are those of `velocity.missing`");
+  keys.insert(keys.end(), of_file.begin(), of_file.end());
+  return {{.name = "density",
+           .required = true,
+           .meaning = "the density rho_0 at time 0. Several `[[density]]` add up",
+           .kinds = {"expression", "shape", "file"}},
+          keys};
+}
+
 void read_density(Reader& in, std::vector<DensitySpec>& density) {
   in.each_part("density", [&](std::string_view kind, const Value& value) {
     const Key& key = find_key("density", kind);
@@ -14,6 +36,26 @@ void read_density(Reader& in, std::vector<DensitySpec>& density) {
     if (kind == "shape")
       density.emplace_back(ShapeDensity{value.text, in.arguments(key, find_named_shape(value.text).about, value)});
   });
+}
+
+namespace {
+
+void write_part(Writer& out, const ExpressionDensity& spec) { out.entry("expression", written(spec.text)); }
+
+void write_part(Writer& out, const FileDensity& spec) { write_grid_file(out, spec); }
+
+void write_part(Writer& out, const ShapeDensity& spec) {
+  out.entry("shape", written(spec.shape));
+  out.arguments("density", spec.shape, spec.arguments);
+}
+
+}  // namespace
+
+void write_density(Writer& out, const std::vector<DensitySpec>& density) {
+  for (const DensitySpec& part : density) {
+    out.part("density", density.size());
+    std::visit([&](const auto& spec) { write_part(out, spec); }, part);
+  }
 }
 
 }  // namespace gaussdrift::input

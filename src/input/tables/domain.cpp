@@ -7,6 +7,22 @@
 
 namespace gaussdrift::input {
 
+Section domain_section() {
+  return {{.name = "domain",
+           .required = true,
+           .meaning = "the box in which particles start and on which the density is evaluated"},
+          {{.name = "min",
+            .type = Type::numbers,
+            .required = true,
+            .unit = "length",
+            .meaning = "lower corner: 2 numbers in 2D, 3 numbers in 3D"},
+           {.name = "max",
+            .type = Type::numbers,
+            .required = true,
+            .unit = "length",
+            .meaning = "upper corner. It lies above `min` on every axis"}}};
+}
+
 namespace {
 
 bool is_corner(Reader& in, const Value& value, const Key& key) {
@@ -48,6 +64,15 @@ void read_domain(Reader& in, Domain& domain) {
   }
   in.facts.domain_valid = valid;
   in.facts.box = {domain.dimension, domain.min, domain.max};
+}
+
+void write_domain(Writer& out, const Domain& domain) {
+  const auto corner = [&](const std::array<double, 3>& point) {
+    return written(std::vector<double>(point.begin(), point.begin() + domain.dimension));
+  };
+  out.table("domain");
+  out.entry("min", corner(domain.min));
+  out.entry("max", corner(domain.max));
 }
 
 }  // namespace gaussdrift::input

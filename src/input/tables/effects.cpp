@@ -10,14 +10,20 @@
 
 namespace gaussdrift::input {
 
+Section effect_section(const NamedEffect& effect) {
+  Section section{{.name = table_of(effect), .required = false, .meaning = std::string(effect.about.meaning)}, {}};
+  for (const NamedParameter& parameter : effect.about.parameters) section.keys.push_back(key_of(parameter));
+  return section;
+}
+
 using Kind = Value::Kind;
 
 namespace {
 
-bool is_complete(const NamedEffect& effect, const EffectSpec& spec) {
+bool is_complete(const NamedEffect& effect, const EffectSpec& values) {
   return std::all_of(effect.about.parameters.begin(), effect.about.parameters.end(),
                      [&](const NamedParameter& parameter) {
-                       return parameter.optional || spec.has(parameter.name) || !applies(parameter, spec);
+                       return parameter.optional || values.has(parameter.name) || !applies(parameter, values);
                      });
 }
 
@@ -73,10 +79,10 @@ EffectSpec effect_values(Reader& in, const NamedEffect& effect) {
 }
 
 /// Effects that need to know their steps do not go with a method that chooses them.
-void check_steps(Reader& in, const NamedEffect& effect, const EffectSpec& spec, const Case& scene) {
+void check_steps(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
   const Trait& fixed = effect.traits.needs_fixed_steps;
   const Entry* method = in.find("time", "method");
-  if (!method || !fixed.of(spec, in.facts.dimension) || !time::is_adaptive(time::find_tableau(scene.time.method)))
+  if (!method || !fixed.of(values, in.facts.dimension) || !time::is_adaptive(time::find_tableau(spec.time.method)))
     return;
   in.diagnostics.error(
       method->value.place,
@@ -85,30 +91,30 @@ void check_steps(Reader& in, const NamedEffect& effect, const EffectSpec& spec, 
                   fixed.remedy));
 }
 
-/// What does not go with the scene, or with another effect.
-void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& scene) {
+/// What does not go with the case, or with another effect.
+void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& spec) {
   const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
     in.diagnostics.error(in.table("effects." + name)->place, fmt::format("[effects.{}] {}", name, what), remedy);
   };
-  for (const auto& [effect, spec] : read) {
+  for (const auto& [effect, values] : read) {
     const NamedFormula& about = effect->about;
     if (in.facts.dimension && (in.facts.dimension < about.least_dimension || in.facts.dimension > about.most_dimension))
-      refuse(spec.name,
+      refuse(values.name,
              in.facts.dimension == 3 ? "is for two dimensions, the domain has three"
                                      : "is for three dimensions, the domain has two",
              "");
-    check_steps(in, *effect, spec, scene);
-    if (!effect->problems || !is_complete(*effect, spec)) continue;
-    for (const Complaint& problem : effect->problems(spec, scene)) {
+    check_steps(in, *effect, values, spec);
+    if (!effect->problems || !is_complete(*effect, values)) continue;
+    for (const Complaint& problem : effect->problems(values, spec)) {
       const Entry* entry = in.find(table_of(*effect), problem.key);
       if (entry)
         in.diagnostics.error(entry->value.place, problem.message, problem.remedy);
       else
-        refuse(spec.name, problem.message, problem.remedy);
+        refuse(values.name, problem.message, problem.remedy);
     }
   }
   for (const EffectRule& rule : effect_rules()) {
-    const EffectSpec *one = scene.effects.find(rule.effect), *two = scene.effects.find(rule.other);
+    const EffectSpec *one = spec.effects.find(rule.effect), *two = spec.effects.find(rule.other);
     if (!one || !two || !rule.apart(*one, *two, in.facts.dimension)) continue;
     const std::string unless = rule.unless().empty() ? "" : fmt::format(" unless {}", without_backticks(rule.unless()));
     refuse(rule.effect, fmt::format("does not go with [effects.{}]{}: {}", rule.other, unless, rule.reason),
@@ -118,12 +124,40 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
 
 }  // namespace
 
-void read_effects(Reader& in, Case& scene) {
+void read_effects(Reader& in, Case& spec) {
   std::vector<std::pair<const NamedEffect*, EffectSpec>> read;
   for (const NamedEffect& effect : effects())
     if (in.table(table_of(effect))) read.emplace_back(&effect, effect_values(in, effect));
-  for (const auto& [effect, spec] : read) scene.effects.list.push_back(spec);
-  refuse_effects(in, read, scene);
+  for (const auto& [effect, values] : read) spec.effects.list.push_back(values);
+  refuse_effects(in, read, spec);
+}
+
+namespace {
+
+std::string written_value(const NamedParameter& parameter, const EffectSpec& effect) {
+  switch (parameter.kind) {
+    case NamedParameter::Kind::number:
+      return written(effect.number(parameter.name));
+    case NamedParameter::Kind::whole:
+      return fmt::format("{:.0f}", effect.number(parameter.name));
+    case NamedParameter::Kind::point:
+      return written(effect.point(parameter.name));
+    case NamedParameter::Kind::choice:
+    case NamedParameter::Kind::expression:
+    case NamedParameter::Kind::expression_in_time:
+      return written(effect.text(parameter.name));
+  }
+  return "";
+}
+
+}  // namespace
+
+void write_effects(Writer& out, const EffectsSpec& list) {
+  for (const auto& [effect, values] : effects_of(list)) {
+    out.table(table_of(*effect));
+    for (const NamedParameter& parameter : effect->about.parameters)
+      if (values.has(parameter.name)) out.entry(parameter.name, written_value(parameter, values));
+  }
 }
 
 }  // namespace gaussdrift::input

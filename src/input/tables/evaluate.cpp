@@ -5,9 +5,58 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fgtd/fgtd.hpp"
 #include "input/tables/tables.hpp"
 
 namespace gaussdrift::input {
+
+namespace {
+
+/// The names of the methods that sum the Gauss transform.
+std::vector<std::string_view> summation_methods() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const fgtd::Method method : fgtd::methods()) list.push_back(fgtd::to_string(method));
+    return list;
+  }();
+  return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+Section evaluate_section() {
+  return {
+      {.name = "evaluate", .required = false, .meaning = "the lattice on which the density is summed for output"},
+      {{.name = "per_axis",
+        .type = Type::whole,
+        .fallback = "200",
+        .range = {2, infinity},
+        .symbol = "n_ge",
+        .meaning = "number of evaluation points along the longest axis. The spacing is the same on all axes"},
+       {.name = "spacing",
+        .type = Type::number,
+        .range = {0, infinity, true},
+        .unit = "length",
+        .symbol = "h_e",
+        .meaning =
+            "distance between evaluation points on all axes. It replaces `per_axis` and suits long, narrow domains"},
+       {.name = "tolerance",
+        .type = Type::number,
+        .fallback = "1e-08",
+        .range = {1e-14, 1, false, true},
+        .meaning = "error allowed in the Gauss transform, relative to the largest density at that output"},
+       {.name = "method",
+        .type = Type::choice,
+        .fallback = "auto",
+        .choices = summation_methods(),
+        .meaning = "algorithm that sums the Gauss transform. `auto` takes the cheapest"},
+       {.name = "most_seconds",
+        .type = Type::number,
+        .range = {0, infinity, true},
+        .unit = "s",
+        .meaning = "most seconds that one density may be predicted to take; a case that takes longer is refused before "
+                   "its first step. Without this key 300 for a method that is named, and no limit for `auto`"}}};
+}
 
 namespace {
 
@@ -78,6 +127,17 @@ void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
   if (const auto tolerance = in.number("evaluate", "tolerance")) evaluate.tolerance = tolerance->number;
   evaluate.method = in.choice("evaluate", "method");
   if (const auto most = in.number("evaluate", "most_seconds")) evaluate.most_seconds = most->number;
+}
+
+void write_evaluate(Writer& out, const EvaluateSpec& evaluate) {
+  out.table("evaluate");
+  if (evaluate.spacing > 0)
+    out.entry("spacing", written(evaluate.spacing));
+  else
+    out.entry("per_axis", fmt::format("{}", evaluate.per_axis));
+  out.entry("tolerance", written(evaluate.tolerance));
+  out.entry("method", written(evaluate.method));
+  if (evaluate.most_seconds > 0) out.entry("most_seconds", written(evaluate.most_seconds));
 }
 
 }  // namespace gaussdrift::input

@@ -7,8 +7,46 @@
 #include "field/gridded/grid_data.hpp"
 #include "input/tables/tables.hpp"
 #include "read/grid_file.hpp"
+#include "read/missing_data.hpp"
 
 namespace gaussdrift::input {
+
+std::vector<Key> grid_file_keys(std::string_view outside, const std::string& missing) {
+  return {
+      {.name = "array",
+       .meaning = "name of the array in the file. It may be left out if the file has only one",
+       .with = "file"},
+      {.name = "interpolation",
+       .type = Type::choice,
+       .fallback = "linear",
+       .choices = {interpolation_names.begin(), interpolation_names.end()},
+       .meaning = "between grid points: `linear`, or `cubic` with continuous derivatives",
+       .with = "file"},
+      {.name = "outside",
+       .type = Type::choice,
+       .fallback = outside,
+       .choices = {outside_names.begin(), outside_names.end()},
+       .meaning = "what holds outside the grid: `error` stops the run there, `clamp` takes the value at the nearest "
+                  "point of the surface of the grid, `zero` takes 0",
+       .with = "file"},
+      {.name = "missing",
+       .type = Type::choice,
+       .fallback = "error",
+       .choices = {read::missing_names.begin(), read::missing_names.end()},
+       .meaning = missing,
+       .with = "file"},
+      {.name = "missing_value",
+       .type = Type::number,
+       .meaning = "a number that marks missing data. The usual marks are recognised without it",
+       .with = "file"}};
+}
+
+Key arrays_key() {
+  return {.name = "arrays",
+          .type = Type::texts,
+          .meaning = "names of arrays with one component each, such as `[\"u\", \"v\"]`. They replace `array`",
+          .with = "file"};
+}
 
 using Kind = Value::Kind;
 
@@ -108,5 +146,19 @@ void check_times_of_files(Reader& in) {
                            "shorten time.end, or let the data cover the run");
   }
 }
+
+template <class FileSpec>
+void write_grid_file(Writer& out, const FileSpec& spec) {
+  out.entry("file", out.data_file(spec.file));
+  if (spec.arrays.size() == 1) out.entry("array", written(spec.arrays[0]));
+  if (spec.arrays.size() > 1) out.entry("arrays", written(spec.arrays));
+  out.entry("interpolation", written(spec.interpolation));
+  out.entry("outside", written(spec.outside));
+  out.entry("missing", written(spec.missing));
+  if (spec.missing_value) out.entry("missing_value", written(*spec.missing_value));
+}
+
+template void write_grid_file(Writer&, const FileVelocity&);
+template void write_grid_file(Writer&, const FileDensity&);
 
 }  // namespace gaussdrift::input

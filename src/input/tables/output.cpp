@@ -5,11 +5,82 @@
 #include <cmath>
 #include <functional>
 
+#include "base/catalogue.hpp"
 #include "input/tables/tables.hpp"
 #include "render/styles.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::input {
+
+namespace {
+
+std::string joined(const std::vector<std::string_view>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+template <class Thing>
+std::vector<std::string_view> default_names(const std::vector<Thing>& all) {
+  std::vector<std::string_view> names;
+  for (const Thing& one : all)
+    if (one.about.by_default) names.push_back(one.about.name);
+  return names;
+}
+
+/// "`surface`, `contour` and `heatmap`".
+std::string in_words(const std::vector<std::string_view>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}`{}`", i == 0 ? "" : i + 1 < names.size() ? ", " : " and ", names[i]);
+  return text;
+}
+
+std::string meaning_of_images() {
+  std::vector<std::string_view> flat, solid, both, errors;
+  for (const render::Style& style : render::styles()) {
+    const PictureStyle& about = style.about;
+    auto& list = about.shows_error ? errors : !about.shows(3) ? flat : !about.shows(2) ? solid : both;
+    list.push_back(about.name);
+  }
+  const std::string in_both = both.empty() ? "" : in_words(both) + "; ";
+  return fmt::format(
+      "pictures that are drawn. In 2D {}; in 3D {}; in both {}{}, which needs a reference. The default is `{}` in 2D "
+      "and `{}` in 3D",
+      in_words(flat), in_words(solid), in_both, in_words(errors), render::default_style(2).about.name,
+      render::default_style(3).about.name);
+}
+
+}  // namespace
+
+Section output_section() {
+  return {
+      {.name = "output",
+       .required = false,
+       .meaning = "what is written, and when. The times are given by `times` or by `frames`"},
+      {{.name = "times",
+        .type = Type::numbers,
+        .range = {0, infinity},
+        .unit = "time",
+        .meaning = "times at which output is written, in ascending order between 0 and `time.end`"},
+       {.name = "frames",
+        .type = Type::whole,
+        .fallback = "5",
+        .range = {1, 1e6},
+        .meaning = "number of outputs, evenly spaced from 0 to `time.end`; 1 means the end alone. It replaces `times`"},
+       {.name = "vtk",
+        .type = Type::choices,
+        .fallback = kept(joined(default_names(write::output_files()))),
+        .choices = base::names_of(write::output_files()),
+        .meaning = "files that are written for ParaView"},
+       {.name = "images",
+        .type = Type::choices,
+        .fallback = kept(joined(default_names(render::styles()))),
+        .choices = base::names_of(render::styles()),
+        .meaning = meaning_of_images()},
+       {.name = "report",
+        .type = Type::choice,
+        .fallback = "html",
+        .choices = {"html", "none"},
+        .meaning = "the page about the run. `html` writes report.html and its numbers, report.json. With pictures and "
+                   "density files it also writes summary.png"}}};
+}
 
 using Kind = Value::Kind;
 
@@ -97,6 +168,19 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   for (const std::size_t k : in.choices("output", "images")) output.images.push_back(render::styles()[k].about);
   output.report = in.choice("output", "report") == "html";
   if (in.facts.dimension) check_images(in, output.images);
+}
+
+void write_output(Writer& out, const OutputSpec& output) {
+  const auto names = [](const auto& things) {
+    std::vector<std::string> list;
+    for (const auto& thing : things) list.emplace_back(thing.name);
+    return written(list);
+  };
+  out.table("output");
+  out.entry("times", written(output.times));
+  out.entry("vtk", names(output.files));
+  out.entry("images", names(output.images));
+  out.entry("report", written(std::string(output.report ? "html" : "none")));
 }
 
 }  // namespace gaussdrift::input

@@ -2,10 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
+#include "effect/catalogue.hpp"
+#include "expression/expression.hpp"
 #include "input/tables/tables.hpp"
 
 namespace gaussdrift::input {
+
+Section params_section() {
+  return {{.name = "params",
+           .required = false,
+           .meaning = "names for numbers, such as `R = 0.25`. A parameter may use those above it"},
+          {}};
+}
 
 namespace {
 
@@ -47,6 +57,46 @@ void warn_unused_params(Reader& in) {
     if (!parameter.used)
       in.diagnostics.warning(parameter.place, fmt::format("the parameter \"{}\" is not used", parameter.name),
                              "no expression of the case mentions it");
+}
+
+namespace {
+
+bool is_expression(const NamedParameter& parameter) {
+  return parameter.kind == NamedParameter::Kind::expression ||
+         parameter.kind == NamedParameter::Kind::expression_in_time;
+}
+
+// Numbers are written as values, so only the parameters that expressions of fields mention are still needed.
+Params params_in_use(const Case& spec) {
+  std::vector<std::string> texts;
+  for (const auto& part : spec.velocity)
+    if (const auto* velocity = std::get_if<ExpressionVelocity>(&part))
+      texts.insert(texts.end(), velocity->components.begin(), velocity->components.end());
+    else if (const auto* stream = std::get_if<StreamfunctionVelocity>(&part))
+      texts.push_back(stream->psi);
+  for (const auto& part : spec.density)
+    if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
+  if (spec.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(spec.reference.rho);
+  for (const auto& [effect, values] : effects_of(spec.effects))
+    for (const NamedParameter& parameter : effect->about.parameters)
+      if (is_expression(parameter) && values.has(parameter.name)) texts.push_back(values.text(parameter.name));
+  std::set<std::string> mentioned;
+  for (const std::string& text : texts) {
+    const Expression expression(text, {"x", "y", "z", "t"}, spec.params);
+    mentioned.insert(expression.used_names().begin(), expression.used_names().end());
+  }
+  Params params;
+  for (const auto& param : spec.params)
+    if (mentioned.count(param.first) > 0) params.push_back(param);
+  return params;
+}
+
+}  // namespace
+
+void write_params(Writer& out, const Case& spec) {
+  const Params params = params_in_use(spec);
+  if (!params.empty()) out.table("params");
+  for (const auto& [name, value] : params) out.entry(name, written(value));
 }
 
 }  // namespace gaussdrift::input

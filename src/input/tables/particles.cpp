@@ -13,6 +13,58 @@ namespace gaussdrift::input {
 
 namespace {
 
+std::string tables_that_grow_weights() {
+  std::vector<std::string> names;
+  for (const NamedEffect& effect : effects())
+    if (!effect.traits.grows_weights.words.empty()) names.push_back(fmt::format("`[{}]`", table_of(effect)));
+  return fmt::format("{}", fmt::join(names, " or "));
+}
+
+}  // namespace
+
+Section particles_section() {
+  std::vector<Key> keys{
+      {.name = "per_axis",
+       .type = Type::whole,
+       .required = true,
+       .range = {2, infinity},
+       .symbol = "n_g",
+       .meaning = "number of lattice points along the longest axis. The spacing h is the same on all axes"},
+      {.name = "overlap",
+       .type = Type::number,
+       .fallback = "2",
+       .range = {0.01, 100},
+       .symbol = "c",
+       .meaning =
+           "core radius of a blob in units of the spacing: eps = c h. It says how far neighbouring blobs overlap"},
+      {.name = "cutoff",
+       .type = Type::choice,
+       .fallback = cutoffs().front().name,
+       .choices = base::names_of(cutoffs()),
+       .symbol = "zeta",
+       .meaning = with_choices("shape of the blob. A higher order blurs less", cutoffs())}};
+  for (const NamedCutoff& cutoff : cutoffs())
+    for (const NamedParameter& parameter : cutoff.parameters) keys.push_back(key_of(parameter));
+  keys.push_back(
+      {.name = "threshold",
+       .type = Type::number,
+       .fallback = "1e-12",
+       .range = {0, 0.01},
+       .meaning = fmt::format(
+           "lattice points that carry less than this part of the largest weight, and of the largest charge, get no "
+           "particle. The run says how many they are and how much they would carry. With {}, which can raise small "
+           "weights, the default is 0: every point that carries anything gets a particle",
+           tables_that_grow_weights())});
+  return {
+      {.name = "particles",
+       .required = true,
+       .meaning = "the lattice on which particles start, and the blob that each of them carries. A blob is a smooth "
+                  "bump that spreads the weight of its particle"},
+      keys};
+}
+
+namespace {
+
 /// The density of equal blobs on a lattice ripples by 2 d zeta^(2 pi c), zeta^ the Fourier transform of the cutoff
 /// (Poisson's sum).
 void warn_small_overlap(Reader& in, const ParticleSpec& particles, const Number& overlap) {
@@ -73,6 +125,17 @@ void read_particles(Reader& in, ParticleSpec& particles, const Domain& domain) {
     particles.overlap = overlap->number;
     if (overlap->written && valid) warn_small_overlap(in, particles, *overlap);
   }
+}
+
+void write_particles(Writer& out, const ParticleSpec& particles) {
+  out.table("particles");
+  out.entry("per_axis", fmt::format("{}", particles.per_axis));
+  out.entry("overlap", written(particles.overlap));
+  out.entry("cutoff", written(particles.cutoff));
+  const Arguments cutoff_arguments =
+      complete(particles.cutoff, find_cutoff(particles.cutoff).parameters, particles.cutoff_arguments, {});
+  for (const auto& [name, values] : cutoff_arguments) out.entry(name, written(values.at(0)));
+  out.entry("threshold", written(particles.threshold));
 }
 
 }  // namespace gaussdrift::input

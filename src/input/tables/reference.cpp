@@ -8,17 +8,46 @@
 
 namespace gaussdrift::input {
 
+Section reference_section() {
+  return {
+      {.name = "reference",
+       .required = false,
+       .meaning = "the exact density with which every output is compared. It gives the norms of the error, and the "
+                  "arrays `rho_exact` and `error` in the files"},
+      {{.name = "kind",
+        .type = Type::choice,
+        .fallback = "characteristics",
+        .choices = {"characteristics", "exact", "none"},
+        .meaning = "where the exact density comes from. `characteristics` traces every grid point back to the start. "
+                   "`exact` takes a formula. `none` compares with nothing and costs nothing"},
+       {.name = "rho",
+        .type = Type::expression,
+        .symbol = "rho",
+        .meaning = "for `kind = \"exact\"`: the exact density, an expression in x, y, z, t and params"},
+       {.name = "points",
+        .type = Type::whole,
+        .range = {16, 1e9},
+        .meaning =
+            "largest number of grid points that are compared. If the grid has more points, a sample is compared: "
+            "half of it lies where there is density, and the largest values belong to it. The files then have no "
+            "`rho_exact` and `error`. Without this key the whole grid is compared if a picture shows the error, "
+            "or if there are density files and the comparison takes at most 15 % of the work of the run. "
+            "Otherwise a sample is compared that takes that much, 16 to 4096 points. It has at most 256 points "
+            "where velocity or reaction are not smooth (data on a grid, `abs`, ...). If 16 points are too many, "
+            "the error is not measured, unless a check or a target needs it"}}};
+}
+
 using Kind = Value::Kind;
 
-void read_reference(Reader& in, Case& scene) {
-  ReferenceSpec& reference = scene.reference;
+void read_reference(Reader& in, Case& spec) {
+  ReferenceSpec& reference = spec.reference;
   const Key& key = find_key("reference", "kind");
   const Entry *kind = in.find("reference", "kind"), *rho = in.find("reference", "rho");
   std::string chosen = in.choice("reference", "kind");
   // With these no path knows the density.
   std::string without;
-  for (const auto& [effect, spec] : effects_of(scene.effects))
-    if (without.empty() && !effect->keeps_paths()) without = spec.name;
+  for (const auto& [effect, values] : effects_of(spec.effects))
+    if (without.empty() && !effect->keeps_paths()) without = values.name;
   if (!without.empty() && kind && chosen == "characteristics")
     in.diagnostics.error(kind->value.place,
                          fmt::format("with [effects.{}] the exact density cannot be traced along paths", without),
@@ -50,6 +79,13 @@ void read_reference(Reader& in, Case& scene) {
           none ? "the picture \"error\" needs an exact density, but reference.kind is \"none\""
                : "the picture \"error\" needs the whole grid, but reference.points takes a sample",
           none ? "leave out reference.kind, or the picture" : "leave out reference.points, or the picture");
+}
+
+void write_reference(Writer& out, const ReferenceSpec& reference) {
+  out.table("reference");
+  out.entry("kind", written_choice(find_key("reference", "kind"), reference.kind));
+  if (reference.kind == ReferenceSpec::Kind::exact) out.entry("rho", written(reference.rho));
+  if (reference.points) out.entry("points", fmt::format("{}", *reference.points));
 }
 
 }  // namespace gaussdrift::input

@@ -6,6 +6,36 @@
 
 namespace gaussdrift::input {
 
+Section time_section() {
+  return {
+      {.name = "time", .required = true, .meaning = "how long the run lasts, and in which steps"},
+      {{.name = "end",
+        .type = Type::number,
+        .required = true,
+        .range = {0, infinity},
+        .unit = "time",
+        .symbol = "T",
+        .meaning = "time at which the run ends; it begins at 0"},
+       {.name = "step",
+        .type = Type::number,
+        .range = {0, infinity, true},
+        .unit = "time",
+        .symbol = "tau",
+        .meaning = "time step; the last one before an output is shortened to end there. A `method` that chooses its "
+                   "own steps needs no `step`; if there is one, no step is longer"},
+       {.name = "method",
+        .type = Type::choice,
+        .fallback = time::tableaux().front().name,
+        .choices = base::names_of(time::tableaux()),
+        .meaning = with_choices("Runge-Kutta method", time::tableaux())},
+       {.name = "tolerance",
+        .type = Type::number,
+        .fallback = "1e-08",
+        .range = {1e-13, 1, false, true},
+        .meaning = "for a `method` that chooses its own steps: the error of position that one step may make, relative "
+                   "to the longest side of the domain"}}};
+}
+
 constexpr double most_steps = 2147483648.0;
 
 void read_time(Reader& in, TimeSpec& time) {
@@ -27,6 +57,14 @@ void read_time(Reader& in, TimeSpec& time) {
                          fmt::format("time.end / time.step is {:.3g} steps; at most {} are possible",
                                      time.end / time.step, static_cast<long long>(most_steps)),
                          "raise time.step");
+}
+
+void write_time(Writer& out, const TimeSpec& time) {
+  out.table("time");
+  out.entry("end", written(time.end));
+  if (time.step > 0) out.entry("step", written(time.step));
+  out.entry("method", written(time.method));
+  if (time::is_adaptive(time::find_tableau(time.method))) out.entry("tolerance", written(time.tolerance));
 }
 
 }  // namespace gaussdrift::input

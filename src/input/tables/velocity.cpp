@@ -3,12 +3,99 @@
 
 #include <algorithm>
 
+#include "base/catalogue.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/named/named_fields.hpp"
 #include "input/gaussian_table.hpp"
 #include "input/tables/tables.hpp"
 
 namespace gaussdrift::input {
+
+namespace {
+
+std::vector<Key> gaussian_keys() {
+  return {
+      {.name = "gaussians",
+       .meaning = "a table (CSV) of scattered points. The field is a sum of divergence-free Gaussians at these points. "
+                  "The path is relative to the case file"},
+      {.name = "kind",
+       .type = Type::choice,
+       .fallback = "velocity",
+       .choices = {gaussian_kind_names.begin(), gaussian_kind_names.end()},
+       .meaning = "what the table has beside the coordinates `x,y[,z]`. `velocity`: samples `u,v[,w]`, to which the "
+                  "field is fitted. `vorticity`: samples `omega` (in 3D `omega_x,omega_y,omega_z`), to which the curl "
+                  "of the field is fitted. `coefficients`: the columns `gamma_x,gamma_y[,gamma_z]` of a field that is "
+                  "known already. `curl-coefficients`: those of a field that was fitted to a vorticity, in 2D `gamma`",
+       .with = "gaussians"},
+      {.name = "width",
+       .type = Type::number,
+       .fallback = "",
+       .range = positive,
+       .unit = "length",
+       .symbol = "1/sqrt(sigma)",
+       .meaning = "width of the Gaussians exp(-r^2/width^2). Without it, twice the average spacing of the points",
+       .with = "gaussians"},
+      {.name = "residual",
+       .type = Type::number,
+       .fallback = "1e-6",
+       .range = {1e-12, 1, false, true},
+       .meaning = "accuracy of the fit: the part of the samples that it may leave, in the Euclidean norm",
+       .with = "gaussians"},
+      {.name = "regularisation",
+       .type = Type::number,
+       .fallback = "",
+       .range = {0, infinity},
+       .meaning = "how much the fit smooths. The diagonal of its matrix is enlarged by this part. With 0 the field "
+                  "passes through all samples. Without this key it is 0. Where Gaussians can hardly be told apart, it "
+                  "is then the smallest of 1e-12, 1e-10, 1e-8 and 1e-6 with which the fit succeeds",
+       .with = "gaussians"},
+      {.name = "tolerance",
+       .type = Type::number,
+       .fallback = "1e-8",
+       .range = {1e-14, 1, false, true},
+       .meaning = "error allowed in the sum of the Gaussians, relative to the largest velocity at the points",
+       .with = "gaussians"}};
+}
+
+}  // namespace
+
+Section velocity_section() {
+  std::vector<Key> keys{
+      {.name = "u",
+       .type = Type::expressions,
+       .unit = "length / time",
+       .symbol = "u",
+       .meaning = "the velocity: one expression for each axis"},
+      {.name = "streamfunction",
+       .type = Type::expression,
+       .unit = "length^2 / time",
+       .symbol = "psi",
+       .meaning =
+           "in 2D: the function psi with u = (d psi/dy, -d psi/dx). Its derivatives are exact, so the divergence is 0"},
+      {.name = "field",
+       .type = Type::choice,
+       .choices = base::names_of(named_fields()),
+       .meaning = "name of a velocity field. Its parameters stand beside it"}};
+  add_parameters(keys, "field", named_fields());
+  keys.push_back(
+      {.name = "file",
+       .meaning = "a file of ParaView with the velocity on a grid: .vti, .vtr, or .pvd for several times. Between two "
+                  "times the velocity is linear. The path is relative to the case file"});
+  std::vector<Key> of_file = grid_file_keys(
+      "error",
+      "what to do where the file has no value. `error` refuses the file, `zero` makes a coast, `nearest` "
+      "takes the mean of the nearest points that have a value, `keep` takes every number as it is. A value "
+      "is missing if it is not finite, if `vtkGhostType` or `vtkValidPointMask` hides it, or if "
+      "`_FillValue` or `missing_value` of its array names it. Numbers that programs use as a mark, such as "
+      "1e20 or -9999, and numbers far outside the rest are missing too");
+  of_file.insert(of_file.begin() + 1, arrays_key());
+  for (const std::vector<Key>& more : {of_file, gaussian_keys()}) keys.insert(keys.end(), more.begin(), more.end());
+  return {{.name = "velocity",
+           .required = true,
+           .meaning = "the prescribed velocity u. Several `[[velocity]]` add up",
+           .kinds = {"u", "streamfunction", "field", "file", "gaussians"}},
+          keys};
+}
 
 using Kind = Value::Kind;
 
@@ -100,6 +187,37 @@ void read_velocity(Reader& in, std::vector<VelocitySpec>& velocity) {
       velocity.emplace_back(NamedVelocity{
           value.text, in.arguments(find_key("velocity", kind), find_named_field(value.text).about, value)});
   });
+}
+
+namespace {
+
+void write_part(Writer& out, const ExpressionVelocity& spec) { out.entry("u", written(spec.components)); }
+
+void write_part(Writer& out, const StreamfunctionVelocity& spec) { out.entry("streamfunction", written(spec.psi)); }
+
+void write_part(Writer& out, const FileVelocity& spec) { write_grid_file(out, spec); }
+
+void write_part(Writer& out, const GaussianVelocitySpec& spec) {
+  out.entry("gaussians", out.data_file(spec.file));
+  out.entry("kind", written(spec.kind));
+  out.entry("width", written(spec.model->width));
+  if (spec.residual > 0) out.entry("residual", written(spec.residual));
+  if (spec.residual > 0) out.entry("regularisation", written(spec.regularisation));
+  out.entry("tolerance", written(spec.tolerance));
+}
+
+void write_part(Writer& out, const NamedVelocity& spec) {
+  out.entry("field", written(spec.field));
+  out.arguments("velocity", spec.field, spec.arguments);
+}
+
+}  // namespace
+
+void write_velocity(Writer& out, const std::vector<VelocitySpec>& velocity) {
+  for (const VelocitySpec& part : velocity) {
+    out.part("velocity", velocity.size());
+    std::visit([&](const auto& spec) { write_part(out, spec); }, part);
+  }
 }
 
 }  // namespace gaussdrift::input
