@@ -80,11 +80,11 @@ ExitCode explain(const ExplainOptions& options) {
   } else if (options.schema) {
     say("{}", input::schema_json());
   } else if (options.word.empty()) {
-    say("{}", options.json ? input::keys_json() : input::overview_text());
+    say("{}", options.json ? input::keys_json() : input::overview_text(columns_of(stdout)));
   } else {
     const auto found = input::explain(options.word);
     if (found.empty()) throw CommandLineError(not_known(options.word));
-    say("{}", options.json ? input::to_json(options.word, found) : input::to_text(found));
+    say("{}", options.json ? input::to_json(options.word, found) : input::to_text(found, columns_of(stdout)));
   }
   return ExitCode::ok;
 }

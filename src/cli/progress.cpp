@@ -30,19 +30,10 @@ std::string_view environment(const char* name) {
   return value ? value : "";
 }
 
-/// Columns of the terminal that standard error is; 0: not known.
-std::size_t columns() {
-  if (const std::string_view told = environment("COLUMNS"); !told.empty())
-    return std::strtoul(told.data(), nullptr, 10);
-  winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
-}
-
 /// Can a line be taken back? A wrapped one cannot, and not every terminal knows how.
 bool rewrites_lines() {
   const std::string_view kind = environment("TERM");
-  return isatty(STDERR_FILENO) != 0 && environment("NO_COLOR").empty() && !kind.empty() && kind != "dumb" &&
-         columns() >= least_columns;
+  return environment("NO_COLOR").empty() && !kind.empty() && kind != "dumb" && columns_of(stderr) >= least_columns;
 }
 
 /// The beginning of a text that fits into this many columns, with whole UTF-8 characters.
@@ -83,7 +74,7 @@ void ProgressLine::show(const std::string& text) {
   terminal_ = terminal_ && rewrites_lines();  // a window may have been made narrow
   if (terminal_) {
     put(stderr, "\r\033[K");
-    note("{}", cut(base::printable(text), columns() - 1));
+    note("{}", cut(base::printable(text), columns_of(stderr) - 1));
     visible_ = true;
   } else {
     note("{}\n", text);

@@ -2,10 +2,12 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 
 namespace gaussdrift::cli {
 
@@ -21,6 +23,14 @@ void prepare_streams() {
 }
 
 void put(std::FILE* stream, std::string_view text) { std::fwrite(text.data(), 1, text.size(), stream); }
+
+std::size_t columns_of(std::FILE* stream) {
+  const int number = ::fileno(stream);
+  if (::isatty(number) == 0) return 0;
+  if (const char* told = std::getenv("COLUMNS"); told && *told) return std::strtoul(told, nullptr, 10);
+  winsize size{};
+  return ::ioctl(number, TIOCGWINSZ, &size) == 0 ? size.ws_col : 0;
+}
 
 Delivery delivery() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return Delivery::all;

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -31,6 +32,9 @@ template <class... Values>
 void note(fmt::format_string<Values...> format, Values&&... values) {
   put(stderr, base::printable_lines(fmt::format(format, std::forward<Values>(values)...)));
 }
+
+/// Columns of the terminal that the stream is; 0 if it is none, or does not tell.
+std::size_t columns_of(std::FILE* stream);
 
 /// Call it at the end: true if standard output has taken all text.
 enum class Delivery { all, lost, reader_gone };

@@ -199,39 +199,6 @@ std::vector<Explanation> explain(std::string_view word) {
 
 std::optional<std::string> suggest_word(std::string_view word) { return base::suggest(word, known_words()); }
 
-std::string overview_text() {
-  std::string text = "The keys of a case file, table by table. gaussdrift explain KEY tells more about one of them.\n";
-  const auto line = [&](const Key& key) {
-    text += fmt::format("  {:<14} {:<6} {}\n", key.name, key.symbol, first_sentence(key.meaning));
-  };
-  text += "\n";
-  for (const Key& key : keys())
-    if (key.table.empty()) line(key);
-  for (const Table& table : tables()) {
-    text += fmt::format("\n[{}]  {}\n", table.name, first_sentence(table.meaning));
-    for (const Key& key : keys())
-      if (key.table == table.name && key.value.empty()) line(key);
-  }
-  std::vector<std::string_view> symbols;
-  for (const Quantity& quantity : quantities()) symbols.push_back(quantity.symbol);
-  text +=
-      fmt::format("\nIt also explains tables, effects, named fields and shapes, functions, and these symbols: {}.\n",
-                  fmt::join(symbols, ", "));
-  return text;
-}
-
-std::string to_text(const std::vector<Explanation>& explanations) {
-  std::string text;
-  for (const Explanation& one : explanations) {
-    if (!text.empty()) text += "\n";
-    text += fmt::format("{}\n  {}\n", one.name, one.title);
-    std::size_t width = 9;
-    for (const Fact& fact : one.facts) width = std::max(width, fact.label.size());
-    for (const Fact& fact : one.facts) text += fmt::format("  {:<{}}  {}\n", fact.label, width, fact.value);
-  }
-  return text;
-}
-
 std::string to_json(std::string_view word, const std::vector<Explanation>& explanations) {
   nlohmann::ordered_json document = {{"word", word}, {"meanings", nlohmann::ordered_json::array()}};
   for (const Explanation& one : explanations) {

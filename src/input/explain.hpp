@@ -2,6 +2,7 @@
 // of the thesis. All of it is told from the registry.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,9 +28,10 @@ std::vector<Explanation> explain(std::string_view word);
 /// The known word that is nearest to an unknown one.
 std::optional<std::string> suggest_word(std::string_view word);
 
-/// Every table with its keys, a line each.
-std::string overview_text();
-std::string to_text(const std::vector<Explanation>& explanations);
+/// Every table with its keys. Texts stand beside their labels in lines of at most `columns` characters, where there is
+/// room for that; 0: each in one line.
+std::string overview_text(std::size_t columns = 0);
+std::string to_text(const std::vector<Explanation>& explanations, std::size_t columns = 0);
 std::string to_json(std::string_view word, const std::vector<Explanation>& explanations);
 
 /// A JSON schema (draft 2020-12) of the case format, for editors that complete and check TOML. What the schema accepts

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,6 +65,57 @@ TEST(Explain, KnowsEveryKeyTableAndChoice) {
   for (const std::string& table : table_names()) EXPECT_FALSE(explain("[" + table + "]").empty()) << table;
   EXPECT_TRUE(explain("overlapp").empty());
   EXPECT_TRUE(explain("").empty());
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string without_breaks(const std::string& text) {
+  std::istringstream in(text);
+  std::string joined;
+  for (std::string word; in >> word;) joined += word + " ";
+  return joined;
+}
+
+TEST(Explain, BreaksLinesAtTheWidthAndGoesOnBelowTheText) {
+  for (const std::size_t columns : {60, 80}) {
+    const std::string told = to_text(explain("velocity"), columns), all = overview_text(columns);
+    for (const std::string& text : {told, all})
+      for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), columns) << line;
+    EXPECT_EQ(without_breaks(told), without_breaks(to_text(explain("velocity"))));
+    EXPECT_EQ(without_breaks(all), without_breaks(overview_text()));
+    const std::vector<std::string> lines = lines_of(told);
+    const auto file =
+        std::find_if(lines.begin(), lines.end(), [](const auto& line) { return line.starts_with("  file "); });
+    ASSERT_LT(file, lines.end() - 1);
+    EXPECT_EQ((file + 1)->find_first_not_of(' '), file->find("a file of ParaView")) << *(file + 1);
+  }
+  EXPECT_EQ(to_text(explain("velocity"), 20), to_text(explain("velocity"))) << "no room beside the labels";
+}
+
+TEST(Explain, BeginsAllMeaningsOfATableInOneColumnApartFromTheSymbols) {
+  const std::vector<std::string> lines = lines_of(overview_text());
+  for (const Table& table : tables()) {
+    std::set<std::size_t> columns;
+    auto line = std::find_if(lines.begin(), lines.end(),
+                             [&](const auto& one) { return one.starts_with("[" + table.name + "]"); });
+    ASSERT_LT(line, lines.end()) << table.name;
+    for (const Key& key : keys()) {
+      if (key.table != table.name || !key.value.empty()) continue;
+      ASSERT_LT(++line, lines.end());
+      const std::size_t meaning = line->find("  " + std::string(first_sentence(key.meaning)));
+      EXPECT_NE(meaning, std::string::npos) << *line;
+      columns.insert(meaning);
+      if (!key.symbol.empty()) {
+        EXPECT_NE(line->find("  " + std::string(key.symbol) + "  "), std::string::npos) << *line;
+      }
+    }
+    EXPECT_LE(columns.size(), 1u) << table.name;
+  }
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "program/program.hpp"
@@ -187,6 +189,21 @@ TEST(Progress, IsPlainWhereALineCannotBeTakenBack) {
   }
   const std::string empty = said_on(120, "export NO_COLOR=;");  // set to nothing, it asks for nothing
   EXPECT_TRUE(empty == "no pseudo terminal" || empty.find('\033') != std::string::npos) << empty;
+}
+
+TEST(Explain, BreaksLinesAtTheWidthOfTheTerminalAlone) {
+  const ScratchFolder folder;
+  const auto longest = [](const std::string& text) {
+    std::istringstream in(text);
+    std::size_t length = 0;
+    for (std::string line; std::getline(in, line);) length = std::max(length, line.size());
+    return length;
+  };
+  PseudoTerminal terminal(60);
+  if (terminal.name().empty()) GTEST_SKIP() << "no pseudo terminal";
+  EXPECT_EQ(gaussdrift_in(folder, "explain >" + terminal.name(), "unset COLUMNS;").exit_code, 0);
+  EXPECT_LE(longest(terminal.text()), 61u) << "60, and the carriage return that a terminal adds";
+  EXPECT_GT(longest(gaussdrift_in(folder, "explain", "export COLUMNS=60;").out), 100u) << "for grep, in a pipe";
 }
 
 }  // namespace
