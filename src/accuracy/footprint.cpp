@@ -129,7 +129,7 @@ void refuse_what_does_not_fit(const Case& spec, int threads) {
   try {
     extent.particles = make_trial(spec, trial_particles, threads).carried;
   } catch (const InputError&) {
-    return;  // a density that a sample does not meet has few particles
+    extent.particles = 0;  // a density that a sample does not meet has few; the grid may be large all the same
   }
   const double needed = before + memory_of_run(spec, extent);
   if (needed < there) return;

@@ -176,6 +176,20 @@ TEST(Check, OfAnAbsurdCaseTakesMegabytesAndTheRunIsRefusedBeforeItBegins) {
   }
 }
 
+TEST(Run, IsRefusedForALargeGridThoughNoSampleMeetsItsParticles) {
+  // Two spacings wide, between the nodes of the closest look, of which every tenth is seen.
+  const ScratchFolder folder;
+  write_file(folder / "c.toml", plain);
+  const Outcome refused = gaussdrift_in(folder,
+                                        "run c.toml --set particles.per_axis=20001 --set density.radius=1e-4 --set "
+                                        "density.center=[0.50025,0.50025] --set evaluate.per_axis=30000",
+                                        sanitized ? "ulimit -d 3000000;" : "ulimit -v 3000000;");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("the run would take about"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("lower evaluate.per_axis"), std::string::npos) << refused.err;
+  EXPECT_FALSE(fs::exists(folder / "output"));
+}
+
 TEST(Inputs, ThatAreNoFilesOfTextAreRefusedWithoutReadingThem) {
   const ScratchFolder folder;
   for (const std::string verb : {"check /dev/zero", "run /dev/zero", "study /dev/zero", "check .",
