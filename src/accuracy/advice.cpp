@@ -102,7 +102,8 @@ void advise_quadrature(const Case& spec, int threads, Budget& budget) {
   if (runs(spec, threads, [&](Case& changed) { changed.particles.overlap = wider; }))
     remedies = fmt::format("particles.overlap = {:g}", wider);
   const NamedEffect* restorer = overlap_restorer();
-  if (restorer && runs(spec, threads, [&](Case& changed) { changed.effects.set(complete_effect(*restorer, {})); }))
+  if (restorer && !spec.effects.find(restorer->about.name) &&
+      runs(spec, threads, [&](Case& changed) { changed.effects.set(complete_effect(*restorer, {})); }))
     remedies += std::string(remedies.empty() ? "" : ", or ") + restorers_table() + " where it strains";
   if (!remedies.empty()) budget.advice.push_back("blobs overlap too little for this flow: " + remedies);
 }

@@ -53,7 +53,7 @@ std::string why_refused(const Case& spec, int threads) {
 
 std::string table_against_gaps(Case spec) {
   const NamedEffect* restorer = overlap_restorer();
-  if (!restorer) return "";
+  if (!restorer || spec.effects.find(restorer->about.name)) return "";
   spec.effects.set(complete_effect(*restorer, {}));
   return why_not_read(spec).empty() ? restorers_table() : "";
 }

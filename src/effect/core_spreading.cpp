@@ -12,8 +12,9 @@
 
 namespace gaussdrift {
 
-CoreSpreading::CoreSpreading(double coefficient, const VelocityField& velocity, double end, double distance)
-    : coefficient_(coefficient), end_(end), distance_(distance), velocity_(velocity) {
+CoreSpreading::CoreSpreading(double coefficient, const VelocityField& velocity, double end, double distance,
+                             bool renewed)
+    : coefficient_(coefficient), end_(end), distance_(distance), renewed_(renewed), velocity_(velocity) {
   if (!std::isfinite(4 * coefficient * end))
     throw InputError(
         fmt::format("with effects.diffusion.D = {:g} the blobs become too wide for a number until time.end = {:g}. "
@@ -44,9 +45,23 @@ void CoreSpreading::begin(Particles& particles, double time) {
   }
 }
 
+void CoreSpreading::land(Particles& particles, double time) {
+  longest_ = std::max(longest_, time - since_);
+  particles.spread = 4 * coefficient_ * (time - since_);
+}
+
 std::string CoreSpreading::warning() const {
   constexpr double noticed = 0.1;
-  if (strain_ * end_ <= noticed) return "";
+  const double length = renewed_ ? longest_ : end_;
+  if (strain_ * length <= noticed) return "";
+  if (renewed_)
+    return fmt::format(
+        "this flow strains at the rate {:.3g} and stretches lengths by up to exp({:.3g}) while blobs spread until they "
+        "are renewed, for up to {:.3g}. Core spreading keeps blobs round, so the flow does not stretch what has "
+        "diffused "
+        "in that time. Renew them more often by {}, or choose method = \"particle-exchange\" (docs/method.md, section "
+        "8.2).",
+        strain_, strain_ * length, length, restorers_table());
   return fmt::format(
       "this flow strains at the rate {:.3g} and stretches lengths by up to exp({:.3g}) over the run. Core spreading "
       "keeps blobs round, so the flow does not stretch what has diffused. {} with small intervals cures "

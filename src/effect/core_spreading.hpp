@@ -13,7 +13,8 @@ class CoreSpreading : public Effect {
  public:
   /// D > 0. The velocity, whose strain is sampled by differences over `distance` at times from 0 to `end`, must outlive
   /// the effect. Throws InputError if 4 D end is too large for a number.
-  CoreSpreading(double coefficient, const VelocityField& velocity, double end, double distance);
+  /// `renewed`: another effect of the case replaces the blobs from time to time.
+  CoreSpreading(double coefficient, const VelocityField& velocity, double end, double distance, bool renewed = false);
 
   std::string name() const override { return "diffusion"; }
   std::string describe() const override;
@@ -21,16 +22,18 @@ class CoreSpreading : public Effect {
   std::string conserves() const override { return "every weight"; }
 
   void begin(Particles& particles, double time) override;
-  void land(Particles& particles, double time) override { particles.spread = 4 * coefficient_ * (time - since_); }
+  void land(Particles& particles, double time) override;
 
-  /// Tells a strain that stretches fluid by more than a tenth over the run.
+  /// Tells a strain that stretches fluid by more than a tenth over the run, or while blobs spread before they are renewed.
   std::string warning() const override;
   Numbers numbers() const override;
   void pass_state(base::StateBytes& bytes, const Particles& /*particles*/) override { bytes(since_); }
 
  private:
   double coefficient_, end_, distance_;
-  double since_ = 0;  // blobs had the widths of the case at this time
+  bool renewed_;
+  double longest_ = 0;  // that blobs have spread before they were renewed
+  double since_ = 0;    // blobs had the widths of the case at this time
   const VelocityField& velocity_;
   double strain_ = 0;  // the largest rate at which lengths change, of those sampled
 };

@@ -54,10 +54,18 @@ EffectMemory memory(const EffectSpec& effect, int dimension) {
 /// D / eps^2 stays.
 void coarsen(EffectSpec& effect, double times) { effect.set("D", effect.number("D") * times * times); }
 
+/// Another effect of the case puts what has spread into the weights of new blobs.
+bool blobs_are_renewed(const Case& spec) {
+  for (const auto& [effect, written] : effects_of(spec.effects))
+    if (effect->traits.restores_overlap) return true;
+  return false;
+}
+
 std::unique_ptr<Effect> make(const EffectSpec& effect, const EffectScene& scene) {
   const double coefficient = effect.number("D");
   if (!exchanges(effect, scene.spec.domain.dimension))
-    return std::make_unique<CoreSpreading>(coefficient, scene.velocity, scene.spec.time.end, scene.distance);
+    return std::make_unique<CoreSpreading>(coefficient, scene.velocity, scene.spec.time.end, scene.distance,
+                                           blobs_are_renewed(scene.spec));
   return std::make_unique<ParticleExchange>(
       scene.seeding, scene.core_radius, scene.velocity, scene.follow,
       ParticleExchange::Options{

@@ -94,7 +94,7 @@ void ParticleExchange::settle(Particles& particles, const double* integral, doub
     if (!std::isfinite(particles.volume[j]))
       throw NumericalError(
           fmt::format("the volume of particle {} is too large for a number at t = {:.6g}, because the velocity has "
-                      "diverged for so long. Shorten time.end, or add {}.",
+                      "diverged for so long. Shorten time.end, or let {} renew the particles often.",
                       particles.id[j], time, restorers_table()));
   }
 }
@@ -203,7 +203,7 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   if (length * rate > 2 * (1 + 1e-6))  // 1e-6: the tolerance of largest_rate()
     throw NumericalError(
         fmt::format("diffusion by particle exchange is unstable at t = {:.6g}, because particles have come close "
-                    "together. Use time.step <= {:.3g}, or add {}.",
+                    "together. Use time.step <= {:.3g}, or let {} renew the particles often.",
                     time, 2 / rate, restorers_table()));
   // L applied to weights w whose sum K w is known. What one particle gives another receives; the tolerance of the sums
   // breaks that, and what is too much or too little is spread over all exchanges, so that the mass stays.

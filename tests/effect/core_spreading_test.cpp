@@ -74,6 +74,21 @@ TEST(CoreSpreading, DoesNotWarnWhereNothingStrains) {
   }
 }
 
+TEST(CoreSpreading, WarnsOfTheStrainBetweenTwoRemeshings) {
+  // The shear strains at the rate 0.5: by 0.05 in an interval of 0.1, by 0.5 in one of 1; a tenth is told.
+  const auto warning = [](const char* every) {
+    return Simulation(scene_of({"velocity.u=[\"y\", \"0\"]", "effects.diffusion.D=0.01", "time.end=1", "time.step=0.1",
+                                "output.times=[1]", std::string("effects.remesh.every=") + every}))
+        .run()
+        .effects.at(1)
+        .warning;
+  };
+  EXPECT_EQ(warning("1"), "");
+  const std::string rare = warning("10");
+  EXPECT_NE(rare.find("exp(0.5)"), std::string::npos) << rare;
+  EXPECT_NE(rare.find("more often by [effects.remesh]"), std::string::npos) << rare;
+}
+
 TEST(CoreSpreading, GoesTogetherWithReaction) {
   const std::string rho = "exp(-2*t)*0.04/" + width + "*exp(-(x^2+y^2)/" + width + ")";
   EXPECT_LT(largest_error({"effects.reaction.rate=2"}, rho), 2.5e-11);  // as at rest
