@@ -182,12 +182,12 @@ void report(fgtd::Method method, const Record& record) {
 
 /// Geometric mean of requested over achieved, in one-hot columns, worst over targets. The bounds are at most 3 times
 /// what is measured for any method: 1.5 to 3.9 in 1D, 4.4 to 7.7 in 2D, 6 to 14 in 3D. Bounds on errors have a factor
-/// for every dimension. In 3D the bound
-/// of hermite is the loosest, and it wastes 23 times.
+/// for every dimension. That of hermite is the loosest: about 3 an axis, measured 2.4, 7.7 and 23 in 1, 2 and 3D. What
+/// is allowed in 3D is a third more than measured.
 void expect_little_waste(fgtd::Method method, const Record& record, int dimension) {
   EXPECT_EQ(record.served, record.plans);  // a method that gives way to another would pass everything
   if (method == fgtd::Method::direct) return;
-  const double most = dimension == 1 ? 4.4 : dimension == 2 ? 13 : method == fgtd::Method::hermite ? 50 : 17;
+  const double most = dimension == 1 ? 4.4 : dimension == 2 ? 13 : method == fgtd::Method::hermite ? 30 : 17;
   EXPECT_LE(record.waste(), most) << fgtd::to_string(method);
 }
 
