@@ -38,17 +38,17 @@ double mean_square_radius(const Particles& particles) {
   return sum / mass;
 }
 
-Particles at_start(const Case& scene) { return seed_scene(make_scene(scene), 0); }
+Particles at_start(const Case& spec) { return seed_scene(make_scene(spec), 0); }
 
 // rho = rho_0 / (1 + t/tau), tau = 1/(2 pi mu rho_0), R^2 = R_0^2 (1 + t/tau). docs/method.md, section 8.4.
 TEST(Charge, AnEvenDiscStaysEvenAndGrows) {
   const double mu = 0.3, growth = 1 + 2 * pi * mu;
-  const Case scene = disc({"effects.charge.mobility=0.3"});
-  Simulation simulation(scene);
+  const Case spec = disc({"effects.charge.mobility=0.3"});
+  Simulation simulation(spec);
   const RunSummary summary = simulation.run();
   // Blobs do not see the part (eps/R)^2 = 1.6 % of the charge that is nearer than eps: less than 1 % of the growth
   // by 1.9.
-  EXPECT_NEAR(mean_square_radius(simulation.particles()) / mean_square_radius(at_start(scene)), growth, 1e-2 * growth);
+  EXPECT_NEAR(mean_square_radius(simulation.particles()) / mean_square_radius(at_start(spec)), growth, 1e-2 * growth);
   EXPECT_NEAR(summary.frames.back().second.maximum, 1 / growth, 0.05 / growth);  // ripples at the edge
 }
 
@@ -76,20 +76,20 @@ images = []
 [effects.charge]
 mobility = 0.1
 )";
-  const Case scene = scene_of({}, text);
-  Simulation simulation(scene);
+  const Case spec = scene_of({}, text);
+  Simulation simulation(spec);
   simulation.run();
   const double growth = std::pow(1 + 4 * pi * 0.1, 2.0 / 3);
   // 1 %: a ball of 2000 points on a lattice is not quite round
-  EXPECT_NEAR(mean_square_radius(simulation.particles()) / mean_square_radius(at_start(scene)), growth, 1e-2 * growth);
+  EXPECT_NEAR(mean_square_radius(simulation.particles()) / mean_square_radius(at_start(spec)), growth, 1e-2 * growth);
 }
 
 // r^2 = r_0^2 + 2 mu Q(<r_0) t for every radius: shells do not cross. docs/method.md, section 8.4.
 TEST(Charge, ShellsOfARoundCloudMoveWithTheChargeInside) {
   const double mu = 0.3, mass = 0.04 * pi;  // of exp(-r^2/0.04)
-  const Case scene =
+  const Case spec =
       scene_of({"particles.per_axis=81", "time.end=1", "output.times=[1]", "effects.charge.mobility=0.3"});
-  const Particles start = at_start(scene), end = particles_at_end(scene);
+  const Particles start = at_start(spec), end = particles_at_end(spec);
   double worst = 0;
   for (std::size_t j = 0; j < end.size(); ++j) {
     const double before = std::hypot(start.position[0][j], start.position[1][j]);
@@ -106,9 +106,9 @@ TEST(Charge, ErrorFallsWithTheSquareOfTheCoreRadius) {
   const double mu = 0.3;
   std::vector<double> errors;
   for (const int per_axis : {41, 81, 161}) {
-    const Case scene = scene_of({"particles.per_axis=" + std::to_string(per_axis), "time.end=0.5", "time.step=0.1",
-                                 "output.times=[0.5]", "effects.charge.mobility=0.3"});
-    const Particles start = at_start(scene), end = particles_at_end(scene);
+    const Case spec = scene_of({"particles.per_axis=" + std::to_string(per_axis), "time.end=0.5", "time.step=0.1",
+                                "output.times=[0.5]", "effects.charge.mobility=0.3"});
+    const Particles start = at_start(spec), end = particles_at_end(spec);
     double worst = 0;
     for (std::size_t j = 0; j < end.size(); ++j) {
       const double before = std::hypot(start.position[0][j], start.position[1][j]);
@@ -148,10 +148,10 @@ std::string with_density(const std::string& expression) {
 // matter.
 TEST(Charge, IsCarriedWhereThereIsNoDensity) {
   const auto centre = [](const std::string& beyond) {
-    const Case scene =
+    const Case spec =
         scene_of({"particles.per_axis=21", "effects.charge.mobility=0.1", "effects.charge.density=x > 0.5 ? 1 : 0"},
                  with_density("x^2 + y^2 < 0.04 ? 1 : " + beyond));
-    const Particles particles = particles_at_end(scene);
+    const Particles particles = particles_at_end(spec);
     double moved = 0, mass = 0;
     for (std::size_t j = 0; j < particles.size(); ++j) {
       if (particles.alpha[j] < 1e-6 * 0.01) continue;  // of the disc alone: h^2 = 0.01
@@ -166,10 +166,10 @@ TEST(Charge, IsCarriedWhereThereIsNoDensity) {
 }
 
 TEST(Charge, ThatIsNotFiniteIsRefusedWithItsPlace) {
-  const Case scene =
+  const Case spec =
       scene_of({"effects.charge.mobility=0.1", "effects.charge.density=1/x^2"}, with_density("x > 0.5 ? 1 : 0"));
   try {
-    at_start(scene);
+    at_start(spec);
     FAIL() << "an infinite charge where there is no density was not noticed";
   } catch (const NumericalError& error) {
     EXPECT_NE(std::string(error.what()).find("effects.charge.density is inf at (0, "), std::string::npos)
@@ -245,14 +245,14 @@ vtk    = []
 images = []
 [effects.vortex]
 )";
-  const Case scene = scene_of({}, text);
+  const Case spec = scene_of({}, text);
   const auto axes = [](const Particles& particles) {
     const Moments m = moments_of(particles);
     const Eigen::Matrix2d covariance{{m.xx, m.xy}, {m.xy, m.yy}};
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance);
   };
-  const Particles end = particles_at_end(scene);
-  const auto before = axes(at_start(scene)), after = axes(end);
+  const Particles end = particles_at_end(spec);
+  const auto before = axes(at_start(spec)), after = axes(end);
   const auto direction = after.eigenvectors().col(1);
   const double angle = std::atan(direction[1] / direction[0]);
   EXPECT_NEAR(angle, rate, 0.01 * rate);  // blobs round the edge off: a part of (eps/b)^2 = 0.025
@@ -263,8 +263,8 @@ images = []
 // diffusion widening it alike.
 TEST(Vortex, AGaussianOneTurnsItselfAndSpreads) {
   const double gamma = 0.04 * pi, eps = 0.1, D = 0.01, end = 0.5;
-  const Case scene = scene_of({"effects.vortex.tolerance=1e-9", "effects.diffusion.D=0.01", "time.step=0.05"});
-  const Particles start = at_start(scene), found = particles_at_end(scene);
+  const Case spec = scene_of({"effects.vortex.tolerance=1e-9", "effects.diffusion.D=0.01", "time.step=0.05"});
+  const Particles start = at_start(spec), found = particles_at_end(spec);
   for (std::size_t j = 0; j < found.size(); ++j) {
     const double r = std::hypot(start.position[0][j], start.position[1][j]);
     if (r == 0 || r > 0.5) continue;

@@ -26,14 +26,14 @@ Moments covariance(const Particles& particles) {
 
 // Largest |rho - exact| on the grid at the end, relative to the largest exact value.
 template <class Exact>
-double density_error(const Case& scene, const Particles& end, const Exact& exact) {
-  const Scene parts = make_scene(scene);
+double density_error(const Case& spec, const Particles& end, const Exact& exact) {
+  const Scene scene = make_scene(spec);
   const DensityGrid density =
-      evaluate_density(end, spread_cutoff(parts.cutoff, end.dimension, end.spread), parts.evaluation, {});
+      evaluate_density(end, spread_cutoff(scene.cutoff, end.dimension, end.spread), scene.evaluation, {});
   double error = 0, largest = 0;
   for (std::size_t i = 0; i < density.rho.size(); ++i) {
-    const double value = exact(parts.evaluation.coordinate(0, i % parts.evaluation.points[0]),
-                               parts.evaluation.coordinate(1, i / parts.evaluation.points[0]));
+    const double value = exact(scene.evaluation.coordinate(0, i % scene.evaluation.points[0]),
+                               scene.evaluation.coordinate(1, i / scene.evaluation.points[0]));
     error = std::max(error, std::abs(density.rho[i] - value));
     largest = std::max(largest, std::abs(value));
   }
@@ -141,10 +141,10 @@ TEST(ParticleExchange, LetsItsHaloGrow) {
 
 TEST(ParticleExchange, HaloFollowsTheFlow) {
   // Particles added late stand where the flow has carried their nodes: on a rotation, at the node turned.
-  const Case scene = scene_of(
+  const Case spec = scene_of(
       {"velocity.u=[\"-y\", \"x\"]", "effects.diffusion.D=0.02", exchange, "time.step=0.05", "density.shape=disk"});
-  const Particles end = particles_at_end(scene);
-  const Nodes nodes(make_scene(scene).seeding);
+  const Particles end = particles_at_end(spec);
+  const Nodes nodes(make_scene(spec).seeding);
   for (std::size_t j = 0; j < end.size(); ++j) {
     const Vector x = nodes.position(nodes.index(end.id[j]));
     const double c = std::cos(0.5), s = std::sin(0.5);
@@ -201,19 +201,19 @@ TEST(ParticleExchange, RefusesAHaloThatFitsNowhereBeforeMakingIt) {
                              "velocity.u=[\"0\",\"0\",\"0\"]", "density.center=[0,0,0]", "effects.diffusion.D=0.01"})),
                InputError);
   // One particle's halo fits, those of all do not.
-  const Case scene = scene_of({exchange, "effects.diffusion.D=0.01"});
-  const Scene parts = make_scene(scene);
-  Particles particles = seed_scene(parts, 1);
-  ParticleExchange effect(parts.seeding, parts.core_radius, *parts.velocity, [](Particles&) {},
+  const Case spec = scene_of({exchange, "effects.diffusion.D=0.01"});
+  const Scene scene = make_scene(spec);
+  Particles particles = seed_scene(scene, 1);
+  ParticleExchange effect(scene.seeding, scene.core_radius, *scene.velocity, [](Particles&) {},
                           {.coefficient = 0.01, .most_particles = particles.size() + 10});
   EXPECT_THROW(effect.begin(particles, 0), NumericalError);
   EXPECT_LE(particles.size(), 41u * 41u);  // nothing was added
 }
 
 TEST(ParticleExchange, GivesTheSameBitsForAnyThreads) {
-  const Case scene = scene_of({"velocity.u=[\"-y\", \"0.5*x\"]", "effects.diffusion.D=0.02", exchange,
-                               "effects.reaction.rate=x", "effects.remesh.every=4"});
-  const Particles one = particles_at_end(scene, 1), two = particles_at_end(scene, 2);
+  const Case spec = scene_of({"velocity.u=[\"-y\", \"0.5*x\"]", "effects.diffusion.D=0.02", exchange,
+                              "effects.reaction.rate=x", "effects.remesh.every=4"});
+  const Particles one = particles_at_end(spec, 1), two = particles_at_end(spec, 2);
   EXPECT_EQ(one.id, two.id);
   EXPECT_EQ(one.position, two.position);
   EXPECT_EQ(one.alpha, two.alpha);
@@ -260,9 +260,9 @@ tolerance = 1e-4
 TEST(DivergentFlow, CarriesMassAndDensityFollows) {
   // u = 0.6 (x, y): rho(x, t) = rho_0(x e^{-0.6 t}) e^{-1.2 t}; remeshing changes nothing of it.
   for (const auto& remesh : {std::string("case.title=none"), std::string("effects.remesh.every=3")}) {
-    const Case scene = scene_of({"velocity.u=[\"0.6*x\", \"0.6*y\"]", "particles.cutoff=gauss6",
-                                 "particles.per_axis=81", "time.step=0.05", remesh});
-    const double error = density_error(scene, particles_at_end(scene), [](double x, double y) {
+    const Case spec = scene_of({"velocity.u=[\"0.6*x\", \"0.6*y\"]", "particles.cutoff=gauss6", "particles.per_axis=81",
+                                "time.step=0.05", remesh});
+    const double error = density_error(spec, particles_at_end(spec), [](double x, double y) {
       const double shrink = std::exp(-0.6 * 0.5);
       return std::exp(-(x * x + y * y) * shrink * shrink / 0.04) * shrink * shrink;
     });

@@ -38,8 +38,8 @@ inline Case scene_of(const std::vector<std::string>& overrides, const std::strin
 }
 
 /// The particles at the end.
-inline Particles particles_at_end(const Case& scene, int threads = 0) {
-  Simulation simulation(scene, threads);
+inline Particles particles_at_end(const Case& spec, int threads = 0) {
+  Simulation simulation(spec, threads);
   simulation.run();
   return simulation.particles();
 }
