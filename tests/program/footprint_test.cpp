@@ -177,12 +177,12 @@ TEST(Check, OfAnAbsurdCaseTakesMegabytesAndTheRunIsRefusedBeforeItBegins) {
 }
 
 TEST(Run, IsRefusedForALargeGridThoughNoSampleMeetsItsParticles) {
-  // Two spacings wide, between the nodes of the closest look, of which every tenth is seen.
+  // Two spacings wide, around node 10007 of each axis: looks take every 41st, 21st and 11th node.
   const ScratchFolder folder;
   write_file(folder / "c.toml", plain);
   const Outcome refused = gaussdrift_in(folder,
                                         "run c.toml --set particles.per_axis=20001 --set density.radius=1e-4 --set "
-                                        "density.center=[0.50025,0.50025] --set evaluate.per_axis=30000",
+                                        "density.center=[0.50035,0.50035] --set evaluate.per_axis=30000",
                                         sanitized ? "ulimit -d 3000000;" : "ulimit -v 3000000;");
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("the run would take about"), std::string::npos) << refused.err;
