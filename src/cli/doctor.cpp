@@ -15,6 +15,7 @@
 #include "read/grid_file.hpp"
 #include "render/styles.hpp"
 #include "write/vtk_files.hpp"
+#include "write/vtk_library.hpp"
 
 namespace gaussdrift::cli {
 
@@ -74,7 +75,7 @@ ExitCode doctor(const DoctorOptions& options) {
   findings.push_back({"version", fmt::format("gaussdrift {}, {}", GAUSSDRIFT_VERSION, GAUSSDRIFT_COMPILER)});
   findings.push_back({"libraries", fmt::format("Eigen {}.{}.{}, fmt {}.{}.{}, VTK {}", EIGEN_WORLD_VERSION,
                                                EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, FMT_VERSION / 10000,
-                                               FMT_VERSION / 100 % 100, FMT_VERSION % 100, read::vtk_version())});
+                                               FMT_VERSION / 100 % 100, FMT_VERSION % 100, write::vtk_version())});
   findings.push_back({"threads", std::to_string(base::resolve_threads(0))});
   const core::InstructionSet& vectors = core::fastest_instruction_set();
   findings.push_back(

@@ -13,7 +13,7 @@
 #include "cli/verbs.hpp"
 #include "cli/wrong_words.hpp"
 #include "gaussdrift/read_case.hpp"
-#include "read/grid_file.hpp"
+#include "write/vtk_library.hpp"
 
 namespace gaussdrift::cli {
 
@@ -77,7 +77,7 @@ ExitCode dispatch(int argc, char** argv) {
 }  // namespace
 
 int main_verbs(int argc, char** argv) {
-  read::silence_vtk();
+  write::silence_vtk();
   try {
     const ExitCode code = dispatch(argc, argv);
     const Delivery delivered = delivery();

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "read/vtk_description.hpp"
-#include "read/vtk_grid.hpp"
+#include "read/file_bytes.hpp"
+#include "read/stored_grid.hpp"
 
 namespace gaussdrift::read {
 
@@ -17,7 +17,7 @@ namespace {
 
 std::string name_of(const std::filesystem::path& file) { return file.filename().string(); }
 
-VtkGrid open_grid(const std::filesystem::path& file) {
+StoredGrid open_grid(const std::filesystem::path& file) {
   check_readable(file);
   if (const std::string kind = file.extension().string(); kind != ".vti" && kind != ".vtr") {
     const std::string way = way_to_read(file);
@@ -28,7 +28,7 @@ VtkGrid open_grid(const std::filesystem::path& file) {
         fmt::format("{}known files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of these)",
                     way.empty() ? "" : way + "; "));
   }
-  return VtkGrid(file);
+  return StoredGrid(file);
 }
 
 std::string with_components(const ArrayInfo& array) {
@@ -72,10 +72,12 @@ std::string array_remedy(const std::vector<ArrayInfo>& arrays, const GridRequest
 }
 
 /// The arrays that are asked for. Throws if they do not exist or do not fit.
-std::vector<ArrayInfo> chosen(const VtkGrid& grid, const std::filesystem::path& file, const GridRequest& request) {
+std::vector<ArrayInfo> chosen(const StoredGrid& grid, const std::filesystem::path& file, const GridRequest& request) {
   const std::vector<ArrayInfo>& arrays = grid.arrays();
+  constexpr std::size_t most_shown = 20;
   std::vector<std::string> shown;
-  for (const ArrayInfo& array : arrays) shown.push_back(with_components(array));
+  for (std::size_t i = 0; i < std::min(arrays.size(), most_shown); ++i) shown.push_back(with_components(arrays[i]));
+  if (arrays.size() > most_shown) shown.push_back(fmt::format("and {} more", arrays.size() - most_shown));
   const std::string list =
       shown.empty() ? "it has no arrays with names" : fmt::format("it has {}", fmt::join(shown, ", "));
   if (request.arrays.empty()) {
@@ -124,7 +126,7 @@ std::vector<ArrayInfo> chosen(const VtkGrid& grid, const std::filesystem::path& 
   return found;
 }
 
-void check_shape(const VtkGrid& grid, const std::filesystem::path& file, int dimension) {
+void check_shape(const StoredGrid& grid, const std::filesystem::path& file, int dimension) {
   const auto& points = grid.points();
   const bool flat = points[2] == 1;
   std::string thin;
@@ -158,7 +160,7 @@ struct Layout {
   }
 };
 
-Layout layout_of(const VtkGrid& grid, int dimension, bool cells) {
+Layout layout_of(const StoredGrid& grid, int dimension, bool cells) {
   Layout layout;
   for (int k = 0; k < dimension; ++k) {
     std::vector<double> x = grid.axis(static_cast<std::size_t>(k));
@@ -225,7 +227,7 @@ std::string way_to_read(const std::filesystem::path& file) {
 }
 
 GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array) {
-  VtkGrid grid = open_grid(file);
+  StoredGrid grid = open_grid(file);
   const std::vector<ArrayInfo> arrays = chosen(grid, file, {.arrays = {array}});
   grid.load(arrays);
   GridSnapshot result;
@@ -255,7 +257,7 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
       throw GridFileError(fmt::format("there is no file {}, which line {} of {} names for t = {}", entry.file.string(),
                                       entry.line, name_of(file), entry.time),
                           "paths in a series are relative to its folder");
-    VtkGrid grid = open_grid(entry.file);
+    StoredGrid grid = open_grid(entry.file);
     check_shape(grid, entry.file, dimension);
     const std::vector<ArrayInfo> arrays = chosen(grid, entry.file, request);
     std::size_t components = 0;

@@ -1,4 +1,4 @@
-// Data on grids from ParaView files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of them). vtk_grid.hpp
+// Data on grids from ParaView files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of them). stored_grid.hpp
 // reads the files; here their contents become numbers on ascending axes.
 #pragma once
 
@@ -52,11 +52,5 @@ GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string&
 
 /// What can be done with a file that has this ending ("nc", ".png"); empty where nothing is known.
 std::string way_to_read(const std::filesystem::path& file);
-
-/// The version of the library that runs: "9.1.0".
-std::string vtk_version();
-
-/// Silences VTK's own log: what is wrong is told by exceptions.
-void silence_vtk();
 
 }  // namespace gaussdrift::read

@@ -1,57 +1,52 @@
 // A .pvd: the files of a series, one a time.
 #include <fmt/format.h>
-#include <vtkSmartPointer.h>
-#include <vtkXMLDataElement.h>
-#include <vtkXMLUtilities.h>
 
 #include <cmath>
-#include <string_view>
+#include <string>
 
 #include "base/number.hpp"
+#include "base/printable.hpp"
 #include "read/grid_file.hpp"
-#include "read/vtk_description.hpp"
+#include "read/xml_tree.hpp"
 
 namespace gaussdrift::read {
 
 std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
-  check_readable(file);
-  const std::string name = file.filename().string();
-  const auto root =
-      vtkSmartPointer<vtkXMLDataElement>::Take(vtkXMLUtilities::ReadElementFromFile(file.string().c_str()));
-  vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  FileBytes bytes(file);
+  const std::string name = bytes.name();
+  const XmlFile xml = read_xml(bytes);
+  const Element* collection = xml.root.child("Collection");
   if (!collection)
     throw GridFileError(fmt::format("{} is not a ParaView series: it has no <Collection>", name),
                         "a .pvd lists one file a time: <DataSet timestep=\"0\" file=\"a.vti\"/>");
   std::vector<SeriesEntry> entries;
-  LineCounter lines(file);
   bool timeless = false;
-  for (int k = 0; k < collection->GetNumberOfNestedElements(); ++k) {
-    vtkXMLDataElement* item = collection->GetNestedElement(k);
-    if (std::string_view(item->GetName()) != "DataSet") continue;
-    const std::size_t line = lines.line(item);
-    const std::string place = fmt::format("{}:{}", name, line);
-    const char* data = item->GetAttribute("file");
-    const char* stamp = item->GetAttribute("timestep");
-    if (!data || !*data) throw GridFileError(fmt::format("{}: this <DataSet> has no file", place));
+  for (const Element& item : collection->children) {
+    if (item.name != "DataSet") continue;
+    const std::size_t line = item.line;
+    const std::string place = line_of(bytes, item);
+    const std::string* data = item.attribute("file");
+    const std::string* stamp = item.attribute("timestep");
+    if (!data || data->empty()) throw GridFileError(fmt::format("{}: this <DataSet> has no file", place));
     SeriesEntry entry;
-    entry.file = file.parent_path() / data;
+    entry.file = file.parent_path() / *data;
     entry.line = line;
     if (stamp) {
-      const auto time = base::read_number<double>(stamp);
+      const auto time = base::read_number<double>(*stamp);
       if (!time || !std::isfinite(*time))
         throw GridFileError(
-            fmt::format("{}: timestep = \"{}\" of {} is not a number", place, stamp, data),
-            std::string_view(stamp).find(',') != std::string_view::npos ? "write a point, not a comma: 1.5" : "");
+            fmt::format("{}: timestep = {} of {} is not a number", place, base::in_quotes(*stamp, 60), *data),
+            stamp->find(',') != std::string::npos ? "write a point, not a comma: 1.5" : "");
       entry.time = *time;
     }
     if (!entries.empty() && (!stamp || timeless))
       throw GridFileError(fmt::format("{}:{}: {} has no timestep", name, stamp ? entries.back().line : line,
-                                      stamp ? entries.back().file.filename().string() : data),
+                                      stamp ? entries.back().file.filename().string() : *data),
                           "every file of a series of several has its own: timestep=\"0.5\"");
     timeless = !stamp;
     if (!entries.empty() && entry.time == entries.back().time)
       throw GridFileError(
-          fmt::format("{}: {} and {} of line {} are both for t = {}", place, data,
+          fmt::format("{}: {} and {} of line {} are both for t = {}", place, *data,
                       entries.back().file.filename().string(), entries.back().line, entry.time),
           "one file a time is read, because parts may overlap and disagree. Parts of one grid are put together in "
           "ParaView: open the series, apply the filter Resample To Image, save the data as .vti with all times");

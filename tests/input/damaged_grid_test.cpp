@@ -103,14 +103,14 @@ TEST_F(DamagedGrid, NumbersInTextAreReadWholeAndAreAsManyAsTheExtentNeeds) {
     write_image("image.vti", 2, 2, data(array("rho", 1, values, type)));
     expect_refusal("image.vti", fmt::format("in the array \"rho\" is no number of its type {}", type));
   }
-  write_image("image.vti", 2, 2, data(array("rho", 1, "1 2 3 nan")));  // VTK wants a blank after it
+  write_image("image.vti", 2, 2, data(array("rho", 1, "1 2 3 nan")));
   expect_refusal("image.vti", "nan is there");
   write_vtr("grid.vtr", "0 1 2,5", "0 1", data(array("rho", 1, "1 2 3 4 5 6")));
   expect_refusal("grid.vtr", "\"2,5\" is not a number: value 3 of the array \"axis\"");
   // In base64: eight bytes of length, 40 of numbers, where the extent needs four numbers or six.
   const std::string five = "KAAAAAAAAAAAAAAAAADwPwAAAAAAAABAAAAAAAAACEAAAAAAAAAQQAAAAAAAABRA";
-  for (const auto& [nx, message] :
-       {std::pair{2, "has more numbers than the 4 that the extent needs"}, {3, "is damaged"}}) {
+  for (const auto& [nx, message] : {std::pair{2, "has more numbers than the 4 that the extent needs"},
+                                    {3, "has fewer numbers than the 6 that the extent needs"}}) {
     const std::string extent = fmt::format("0 {} 0 1 0 0", nx - 1);
     std::ofstream(folder_ / "binary.vti")
         << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"><ImageData "

@@ -1,5 +1,5 @@
-// One .vti or .vtr as it stands: its points, its arrays. vtk_grid.cpp is the one place that reads grids with VTK. VTK
-// believes what a file says of itself, so everything is checked before: attributes, extents, pieces, lengths.
+// One .vti or .vtr as it stands: its points, its arrays. A file is not believed: attributes, extents, pieces, lengths and
+// sizes are checked before memory is taken for what they claim.
 #pragma once
 
 #include <array>
@@ -25,11 +25,11 @@ struct ArrayValues {
   std::vector<double> fill_values;  // that the file names as marks of missing data in this array
 };
 
-class VtkGrid {
+class StoredGrid {
  public:
   /// Reads what the file says of itself. Throws GridFileError.
-  explicit VtkGrid(const std::filesystem::path& file);
-  ~VtkGrid();
+  explicit StoredGrid(const std::filesystem::path& file);
+  ~StoredGrid();
 
   const std::array<std::size_t, 3>& points() const;  // an axis
   const std::vector<ArrayInfo>& arrays() const;

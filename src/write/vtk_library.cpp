@@ -1,13 +1,12 @@
-// The VTK that runs: its version, its log.
+#include "write/vtk_library.hpp"
+
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkVersion.h>
 
-#include "read/grid_file.hpp"
-
-namespace gaussdrift::read {
+namespace gaussdrift::write {
 
 namespace {
 
@@ -27,4 +26,4 @@ void silence_vtk() {
   vtkOutputWindow::SetInstance(window);
 }
 
-}  // namespace gaussdrift::read
+}  // namespace gaussdrift::write
