@@ -69,7 +69,6 @@ const render::Style& style_called(const std::string& name) {
 
 ExitCode render(const RenderOptions& options) {
   check_folder_name(options.out, "pictures are written into a folder, as surface_0000.png and so on");
-  if (const std::string reason = render::unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
   const std::vector<std::string> fields{"rho", "rho_exact", "error"};
   if (std::find(fields.begin(), fields.end(), options.field) == fields.end()) {
     const auto near = base::suggest(options.field, fields);
@@ -82,6 +81,7 @@ ExitCode render(const RenderOptions& options) {
   std::set<std::size_t> wanted;
   for (const double time : options.times) wanted.insert(output_at(time, outputs, options.folder));
   for (std::size_t i = 0; options.times.empty() && i < outputs.size(); ++i) wanted.insert(i);
+  if (const std::string reason = render::unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
   // Read twice, for the range and for the picture: all of a run at once need not fit into memory.
   double low = 0, high = 0;
   int dimension = 2;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "accuracy/target.hpp"
+#include "case_text.hpp"
 #include "field/velocity/expression_field.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
@@ -152,10 +153,13 @@ TEST(PointsCompared, AreAllWhereThatIsCheapOrAskedFor) {
 // which paths stick, a wind with a kink at every cell, a rate that no step likes.
 TEST(PointsCompared, TakeNoMoreWorkThanIsAllowed) {
   const auto spec_of = [](const std::string& velocity, const std::string& more = "") {
-    return parse_case("gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
-                          "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
-                          "per_axis = 101\n[time]\nend = 0.2\nstep = 0.002\n[output]\nframes = 3\nimages = []\n"
-                          "[evaluate]\nper_axis = 64\n" +
+    return parse_case(case_text({.domain = unit_square,
+                                 .velocity = velocity,
+                                 .density = shape_of("wendland", "0.5, 0.5", "0.2"),
+                                 .particles = "per_axis = 101",
+                                 .time = "end = 0.2\nstep = 0.002",
+                                 .evaluate = "per_axis = 64",
+                                 .output = "frames = 3\nimages = []"}) +
                           more,
                       "stiff.toml")
         .spec;
@@ -283,15 +287,18 @@ TEST(Budget, NamesTheThresholdWhereItDominates) {
 // reach: a square root with its branch point at the edge, and a velocity that is no number beyond it.
 TEST(Budget, KnowsNothingOutsideTheDomain) {
   const auto edge = [](const std::string& velocity, const std::string& density) {
-    return gaussdrift::parse_case("gaussdrift = 1\n[domain]\nmin = [0, -1]\nmax = [2, 1]\n" + velocity +
-                                      "\n[density]\nexpression = \"" + density +
-                                      "\"\n[particles]\nper_axis = 60\n[time]\nend = 0.2\nstep = 0.05\n[output]\n"
-                                      "times = [0.2]\nimages = []\n[evaluate]\nper_axis = 61\n",
+    return gaussdrift::parse_case(case_text({.domain = "min = [0, -1]\nmax = [2, 1]",
+                                             .velocity = velocity,
+                                             .density = "expression = \"" + density + "\"",
+                                             .particles = "per_axis = 60",
+                                             .time = "end = 0.2\nstep = 0.05",
+                                             .evaluate = "per_axis = 61",
+                                             .output = "times = [0.2]\nimages = []"}),
                                   "edge.toml")
         .spec;
   };
-  const Case root = edge("[velocity]\nfield = \"rotation\"\nrate = 0.1", "sqrt(x)*exp(-8*((x-0.3)^2+y^2))");
-  const Case inflow = edge("[velocity]\nu = [\"0.1*sqrt(x)*(2-x)\", \"0\"]", "exp(-4*((x-1)^2+y^2))+0.1");
+  const Case root = edge("field = \"rotation\"\nrate = 0.1", "sqrt(x)*exp(-8*((x-0.3)^2+y^2))");
+  const Case inflow = edge("u = [\"0.1*sqrt(x)*(2-x)\", \"0\"]", "exp(-4*((x-1)^2+y^2))+0.1");
   for (const Case& spec : {root, inflow}) {
     const Ran ran = measured(spec);
     for (const Budget& budget : {predicted(spec), ran.budget}) {

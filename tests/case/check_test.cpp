@@ -13,6 +13,7 @@
 #include "accuracy/picture_seconds.hpp"
 #include "accuracy/target.hpp"
 #include "accuracy/trial.hpp"
+#include "case_text.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "render/styles.hpp"
@@ -23,14 +24,13 @@ namespace {
 /// A bump of radius 0.2 that is carried once to the right, in 2D or 3D.
 std::string text_of(int dimension) {
   const bool space = dimension == 3;
-  const auto point = [&](const std::string& number) {
-    return "[" + number + ", " + number + (space ? ", " + number + "]" : "]");
-  };
-  return "gaussdrift = 1\n[domain]\nmin = " + point("0") + "\nmax = " + point("1") +
-         "\n[velocity]\nu = [\"0.1\", \"0\"" + (space ? ", \"0\"" : "") +
-         "]\n[density]\nshape = \"wendland\"\ncenter = " + point("0.5") +
-         "\nradius = 0.2\n[particles]\nper_axis = 21\n[time]\nend = 1\nstep = 0.5\n[evaluate]\nper_axis = 20\n"
-         "[output]\nframes = 2\nimages = []\nreport = \"none\"\n[reference]\nkind = \"none\"\n";
+  return case_text({.domain = space ? unit_cube : unit_square,
+                    .velocity = space ? velocity_of({"0.1", "0", "0"}) : velocity_of({"0.1", "0"}),
+                    .density = shape_of("wendland", space ? "0.5, 0.5, 0.5" : "0.5, 0.5", "0.2"),
+                    .time = "end = 1\nstep = 0.5",
+                    .evaluate = "per_axis = 20",
+                    .reference = not_compared,
+                    .output = "frames = 2\nimages = []\nreport = \"none\""});
 }
 
 Case bump(std::vector<std::string> overrides, int dimension = 2) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "case_text.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
 
@@ -14,10 +15,6 @@ namespace {
 using std::numbers::pi;
 
 Case spec_of(const std::string& text) { return parse_case(text, "scene.toml").spec; }
-
-const std::string rest =
-    "[evaluate]\nper_axis = 5\n[output]\ntimes = [\"T\"]\nvtk = []\nimages = []\nreport = \"none\"\n[reference]\nkind "
-    "= \"none\"\n";
 
 /// Largest distance of the particles at the end from where the closed form has them.
 template <class Flow>
@@ -37,12 +34,14 @@ double largest_error(const Case& spec, const Flow& flow) {
 
 /// Eddies of Fabbroni in units of 100 km and of 1/f: u0 = 0.3 m/s, u_g = 0.04 m/s, f = 1e-4/s, and six hours.
 std::string eddy(const std::string& u, const std::string& v) {
-  return "gaussdrift = 1\n[params]\nu0 = 0.03\nug = 0.004\ng = 0.04\ngg = 0.004\nT = 2.16\n[domain]\nmin = [0, 0]\nmax "
-         "= [1, 1]\n[velocity]\nu = [\"" +
-         u + "\", \"" + v +
-         "\"]\n[density]\nshape = \"disk\"\ncenter = [0.5, 0.5]\nradius = 0.3\n[particles]\nper_axis = 21\n[time]\nend "
-         "= \"T\"\nstep = 0.01\n" +
-         rest;
+  return case_text({.params = "u0 = 0.03\nug = 0.004\ng = 0.04\ngg = 0.004\nT = 2.16",
+                    .domain = unit_square,
+                    .velocity = velocity_of({u.c_str(), v.c_str()}),
+                    .density = shape_of("disk", "0.5, 0.5", "0.3"),
+                    .time = "end = \"T\"\nstep = 0.01",
+                    .evaluate = "per_axis = 5",
+                    .reference = not_compared,
+                    .output = output_at("\"T\"")});
 }
 
 TEST(FabbroniEddies, AreFollowedToTwelveDigits) {
@@ -73,12 +72,16 @@ TEST(ViscousTaylorGreenCells, AreTheSamePathsAtAnotherPace) {
   // With u = (sin x cos y, -cos x sin y) e^{-2 nu t} a path is that of the steady cells at s = (1 - e^{-2 nu t}) / (2
   // nu).
   const auto particles_of = [](const std::string& factor, double end) {
-    const Case spec = spec_of("gaussdrift = 1\n[params]\nT = " + std::to_string(end) +
-                              "\n[domain]\nmin = [0, 0]\nmax = [3, 3]\n[velocity]\nu = [\"sin(x)*cos(y)*" + factor +
-                              "\", \"-cos(x)*sin(y)*" + factor +
-                              "\"]\n[density]\nshape = \"disk\"\ncenter = [1, 1.2]\nradius = "
-                              "0.6\n[particles]\nper_axis = 31\n[time]\nend = \"T\"\nstep = 0.005\n" +
-                              rest);
+    const Case spec =
+        spec_of(case_text({.params = "T = " + std::to_string(end),
+                           .domain = "min = [0, 0]\nmax = [3, 3]",
+                           .velocity = "u = [\"sin(x)*cos(y)*" + factor + "\", \"-cos(x)*sin(y)*" + factor + "\"]",
+                           .density = shape_of("disk", "1, 1.2", "0.6"),
+                           .particles = "per_axis = 31",
+                           .time = "end = \"T\"\nstep = 0.005",
+                           .evaluate = "per_axis = 5",
+                           .reference = not_compared,
+                           .output = output_at("\"T\"")}));
     Simulation simulation(spec);
     simulation.run();
     return simulation.particles();
@@ -93,16 +96,16 @@ TEST(ViscousTaylorGreenCells, AreTheSamePathsAtAnotherPace) {
 TEST(Puff, DriftsSpreadsAndDecaysAsItsFormulaSays) {
   // rho = R^2/w exp(-|x - U t|^2/w - k t), w = R^2 + 4 D t: core spreading is exact in a uniform flow, and the decay
   // is.
-  const Case spec = spec_of(
-      "gaussdrift = 1\n[params]\nD = 0.004\nk = 0.7\n[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[velocity]\nfield = "
-      "\"translation\"\nvelocity = [0.3, "
-      "-0.2]\n[density]\nshape = \"gaussian\"\ncenter = [-0.2, 0.1]\nradius = 0.15\n[particles]\nper_axis = "
-      "161\noverlap = 2\ncutoff = "
-      "\"gauss8\"\n[time]\nend = 1\nstep = 0.25\n[evaluate]\nper_axis = 61\ntolerance = 1e-10\n[output]\ntimes = [0, "
-      "0.5, 1]\nvtk = []\nimages = []\n"
-      "report = \"none\"\n[effects.diffusion]\nD = \"D\"\n[effects.reaction]\nrate = \"k\"\n[reference]\nkind = "
-      "\"exact\"\nrho = "
-      "\"0.0225/(0.0225 + 4*D*t)*exp(-((x + 0.2 - 0.3*t)^2 + (y - 0.1 + 0.2*t)^2)/(0.0225 + 4*D*t) - k*t)\"\n");
+  const Case spec = spec_of(case_text({.params = "D = 0.004\nk = 0.7",
+                                       .velocity = "field = \"translation\"\nvelocity = [0.3, -0.2]",
+                                       .density = shape_of("gaussian", "-0.2, 0.1", "0.15"),
+                                       .particles = "per_axis = 161\noverlap = 2\ncutoff = \"gauss8\"",
+                                       .time = "end = 1\nstep = 0.25",
+                                       .evaluate = "per_axis = 61\ntolerance = 1e-10",
+                                       .reference = R"text(kind = "exact"
+rho = "0.0225/(0.0225 + 4*D*t)*exp(-((x + 0.2 - 0.3*t)^2 + (y - 0.1 + 0.2*t)^2)/(0.0225 + 4*D*t) - k*t)")text",
+                                       .output = output_at("0, 0.5, 1")}) +
+                            "[effects.diffusion]\nD = \"D\"\n[effects.reaction]\nrate = \"k\"\n");
   Simulation simulation(spec);
   const RunSummary summary = simulation.run();
   for (const auto& [time, numbers] : summary.frames) {
@@ -113,12 +116,13 @@ TEST(Puff, DriftsSpreadsAndDecaysAsItsFormulaSays) {
 
 TEST(MolenkampCrowley, ComesBackAfterATurn) {
   // Their Gaussian 0.01^{4 r^2} about (-1/2, 0), one turn with u = 2 pi (-y, x).
-  const Case spec = spec_of(
-      "gaussdrift = 1\n[domain]\nmin = [-1.5, -1.5]\nmax = [1.5, 1.5]\n[velocity]\nu = [\"-2*pi*y\", "
-      "\"2*pi*x\"]\n[density]\nexpression = "
-      "\"0.01^(4*((x + 0.5)^2 + y^2))\"\n[particles]\nper_axis = 201\ncutoff = \"gauss6\"\n[time]\nend = 1\nstep = "
-      "0.005\n[evaluate]\nper_axis = "
-      "61\n[output]\ntimes = [0, 1]\nvtk = []\nimages = []\nreport = \"none\"\n");
+  const Case spec = spec_of(case_text({.domain = "min = [-1.5, -1.5]\nmax = [1.5, 1.5]",
+                                       .velocity = velocity_of({"-2*pi*y", "2*pi*x"}),
+                                       .density = "expression = \"0.01^(4*((x + 0.5)^2 + y^2))\"",
+                                       .particles = "per_axis = 201\ncutoff = \"gauss6\"",
+                                       .time = "end = 1\nstep = 0.005",
+                                       .evaluate = "per_axis = 61",
+                                       .output = output_at("0, 1")}));
   Simulation simulation(spec);
   const auto frames = simulation.run().frames;
   EXPECT_NEAR(frames.back().second.error->linf, frames.front().second.error->linf,

@@ -5,15 +5,16 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::reproduce {
 namespace {
 
 TEST(ReproduceLogkernel, WritesItsTablesAndPlots) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "logkernel";
+  const ScratchFolder folder;
   const LogKernelReproduction result = reproduce_logkernel(
-      {.folder = folder, .largest_storage = 7, .largest_error = 7, .largest_product = 10, .largest_dense = 10});
+      {.folder = folder.path(), .largest_storage = 7, .largest_error = 7, .largest_product = 10, .largest_dense = 10});
   ASSERT_EQ(result.storage.size(), 6u * 6u);
   EXPECT_EQ(result.storage.front().doubles, 16u);  // 4 points: all single entries
   for (const LogKernelStorage& row : result.storage) {

@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "case_text.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::study {
 namespace {
@@ -98,13 +99,15 @@ TEST(Study, VariesKeysAndKeepsWhatCannotRun) {
 
 // A cone that has been blown out of the domain at the end: no lattice and no target changes that.
 TEST(Study, ConcludesNothingFromRunsWithNothingLeft) {
-  const Case blown =
-      gaussdrift::parse_case(
-          "gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\nu = [\"1\", \"0\"]\n"
-          "[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\nper_axis = 20\n"
-          "[time]\nend = 2\nstep = 0.1\n[evaluate]\nper_axis = 11\n[output]\ntimes = [2]\nimages = []\n",
-          "blown.toml", {})
-          .spec;
+  const Case blown = gaussdrift::parse_case(case_text({.domain = unit_square,
+                                                       .velocity = velocity_of({"1", "0"}),
+                                                       .density = shape_of("wendland", "0.5, 0.5", "0.2"),
+                                                       .particles = "per_axis = 20",
+                                                       .time = "end = 2\nstep = 0.1",
+                                                       .evaluate = "per_axis = 11",
+                                                       .output = "times = [2]\nimages = []"}),
+                                            "blown.toml")
+                         .spec;
   StudyOptions options;
   options.repeats = 0;
   for (const Experiment& experiment : {study_lattice(blown, options, 0.1), study_whole(blown, options, 0.1)}) {
@@ -121,28 +124,9 @@ TEST(Study, RefusesWhatItCannotVary) {
   EXPECT_THROW(run_study(options), CommandLineError);
   options.vary = {parse_variation("time.step=0.1"), parse_variation("time.step=0.2")};
   EXPECT_THROW(run_study(options), CommandLineError);
-  const std::filesystem::path alone = std::filesystem::path(testing::TempDir()) / "nothing_to_compare.toml";
-  std::ofstream(alone) << R"(
-gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [1, 1]
-[velocity]
-field = "rotation"
-[density]
-shape = "gaussian"
-center = [0, 0]
-radius = 0.2
-[particles]
-per_axis = 20
-[time]
-end = 1
-step = 0.1
-[output]
-times = [1]
-[reference]
-kind = "none"
-)";
+  const ScratchFolder folder;
+  const std::filesystem::path alone = folder / "nothing_to_compare.toml";
+  write_file(alone, case_text({.reference = not_compared}));
   options.file = alone;
   options.overrides = {};
   options.vary = {parse_variation("time.step=0.1")};

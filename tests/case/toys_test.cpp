@@ -13,6 +13,7 @@
 #include "accuracy/budget.hpp"
 #include "accuracy/forecast.hpp"
 #include "base/catalogue.hpp"
+#include "case_text.hpp"
 #include "effect/catalogue.hpp"
 #include "effect/remesh_kernel.hpp"
 #include "gaussdrift/error.hpp"
@@ -21,6 +22,7 @@
 #include "input/effect_rules.hpp"
 #include "input/explain.hpp"
 #include "input/markdown.hpp"
+#include "message_of.hpp"
 #include "particle/cutoff.hpp"
 #include "time/tableau.hpp"
 
@@ -28,29 +30,10 @@ namespace gaussdrift {
 namespace {
 
 /// exp(-|x|^2 / 0.3^2) turns around the origin, once in 2 pi.
-const std::string turning = R"(gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [ 1,  1]
-[velocity]
-u = ["-y", "x"]
-[density]
-shape  = "gaussian"
-center = [0, 0]
-radius = 0.3
-[particles]
-per_axis = 41
-[time]
-end  = 0.5
-step = 0.1
-[evaluate]
-per_axis = 41
-[output]
-times  = [0, 0.5]
-vtk    = []
-images = []
-report = "none"
-)";
+const std::string turning = case_text({.density = shape_of("gaussian", "0, 0", "0.3"),
+                                       .particles = "per_axis = 41",
+                                       .time = "end = 0.5\nstep = 0.1",
+                                       .evaluate = "per_axis = 41"});
 
 Case read(const std::string& more, const std::vector<std::string>& overrides = {}) {
   return gaussdrift::parse_case(turning + more, "toy.toml", overrides).spec;
@@ -58,12 +41,7 @@ Case read(const std::string& more, const std::vector<std::string>& overrides = {
 
 /// The errors of a case that is refused.
 std::string refusal(const std::string& more, const std::vector<std::string>& overrides = {}) {
-  try {
-    read(more, overrides);
-  } catch (const gaussdrift::CaseError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<CaseError>([&] { read(more, overrides); });
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

@@ -8,44 +8,25 @@
 
 #include "accuracy/forecast.hpp"
 #include "base/catalogue.hpp"
+#include "case_text.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/explain.hpp"
 #include "input/markdown.hpp"
 #include "input/registry.hpp"
+#include "pictures.hpp"
 #include "render/canvas.hpp"
 #include "render/styles.hpp"
-#include "write/files.hpp"
+#include "scratch_folder.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift {
 namespace {
 
-const std::string small_case = R"(gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [1, 1]
-[velocity]
-field = "rotation"
-[density]
-shape = "wendland"
-center = [0.3, 0]
-radius = 0.4
-[particles]
-per_axis = 20
-[time]
-end = 0.1
-step = 0.05
-[evaluate]
-per_axis = 20
-[output]
-frames = 2
+const std::string small_case = case_text({.reference = not_compared, .output = R"(frames = 2
 vtk = ["density", "toy"]
 images = []
-report = "none"
-[reference]
-kind = "none"
-)";
+report = "none")"});
 
 constexpr double toy_bytes = 1e9;
 
@@ -109,17 +90,17 @@ TEST(OutputFile, OfACatalogueIsKnownToAll) {
 }
 
 TEST(OutputFile, OfACatalogueIsWrittenByARunAndRemovedByTheNext) {
-  const Folder folder;
-  std::ofstream(folder / "small.toml") << small_case;
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
   const std::vector<std::string> run{"run", folder / "small.toml", "--out", folder / "out", "--force"};
   {
     write::FileKind toy = toy_file();
     toy.memory = [](const write::Extent&) { return 0.0; };
     const base::Added<write::FileKind> added(toy);
     said(run);
-    EXPECT_TRUE(has(text_of(folder / "out/toy/toy_0001.txt"), " particles move\n"));
-    EXPECT_TRUE(has(text_of(folder / "out/toy.pvd"), "toy/toy_0000.txt"));
-    EXPECT_TRUE(has(text_of(folder / "out/view.py"), "toy = PVDReader(registrationName='toy'"));
+    EXPECT_TRUE(has(read_file(folder / "out/toy/toy_0001.txt"), " particles move\n"));
+    EXPECT_TRUE(has(read_file(folder / "out/toy.pvd"), "toy/toy_0000.txt"));
+    EXPECT_TRUE(has(read_file(folder / "out/view.py"), "toy = PVDReader(registrationName='toy'"));
     std::vector<std::string> again = run;
     again.insert(again.end(), {"--set", "output.vtk=[\"density\"]"});
     said(again);
@@ -148,10 +129,10 @@ TEST(PictureStyle, OfACatalogueIsKnownToAll) {
 }
 
 TEST(PictureStyle, OfACatalogueIsDrawnByARunAndLater) {
-  if (!render::unavailable_reason().empty()) GTEST_SKIP() << render::unavailable_reason();
+  if (!draws_pictures) GTEST_SKIP() << without_pictures;
   const base::Added<render::Style> added(toy_style());
-  const Folder folder;
-  std::ofstream(folder / "small.toml") << small_case;
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
   said({"run", folder / "small.toml", "--out", folder / "out", "--set", "output.images=[\"toy_picture\"]", "--set",
         "output.vtk=[\"density\"]"});
   EXPECT_TRUE(std::filesystem::exists(folder / "out/images/toy_picture_0001.png"));

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "case_text.hpp"
 #include "fgtd/catalogue.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
@@ -133,27 +134,7 @@ TEST(ToyMethod, IsAValueOfACaseFile) {
 }
 
 TEST(ToyMethod, SumsTheDensityOfARun) {
-  const Case spec = gaussdrift::parse_case(R"(gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [1, 1]
-[velocity]
-field = "rotation"
-[density]
-shape = "wendland"
-center = [0.3, 0]
-radius = 0.4
-[particles]
-per_axis = 20
-[time]
-end = 0.1
-step = 0.05
-[evaluate]
-per_axis = 20
-method = "toy"
-)",
-                                           "toy.toml")
-                        .spec;
+  const Case spec = gaussdrift::parse_case(case_text({.evaluate = "per_axis = 20\nmethod = \"toy\""}), "toy.toml").spec;
   Simulation simulation(spec, 1);
   const RunSummary summary = simulation.run();
   EXPECT_EQ(summary.transform_choice.rfind("toy: ", 0), 0u) << summary.transform_choice;

@@ -54,28 +54,13 @@ TEST(Charge, AnEvenDiscStaysEvenAndGrows) {
 
 // R^3 = R_0^3 (1 + t/tau), tau = 1/(4 pi mu rho_0). docs/method.md, section 8.4.
 TEST(Charge, AnEvenBallStaysEvenAndGrows) {
-  const std::string text = R"(gaussdrift = 1
-[domain]
-min = [-1, -1, -1]
-max = [ 1,  1,  1]
-[velocity]
-u = ["0", "0", "0"]
-[density]
-expression = "x^2 + y^2 + z^2 < 0.16 ? 1 : 0"
-[particles]
-per_axis = 41
-[time]
-end  = 1
-step = 0.1
-[evaluate]
-per_axis = 21
-[output]
-times  = [1]
-vtk    = []
-images = []
-[effects.charge]
-mobility = 0.1
-)";
+  const std::string text = case_text({.domain = cube,
+                                      .velocity = velocity_of({"0", "0", "0"}),
+                                      .density = "expression = \"x^2 + y^2 + z^2 < 0.16 ? 1 : 0\"",
+                                      .particles = "per_axis = 41",
+                                      .time = "end = 1\nstep = 0.1",
+                                      .output = output_at("1")}) +
+                           "[effects.charge]\nmobility = 0.1\n";
   const Case spec = scene_of({}, text);
   Simulation simulation(spec);
   simulation.run();
@@ -139,9 +124,9 @@ TEST(Charge, OfItsOwnDensityActsOnThatAlone) {
 
 /// The resting scene with another density.
 std::string with_density(const std::string& expression) {
-  std::string text = resting_gaussian;
-  const std::size_t from = text.find("shape"), to = text.find("[particles]");
-  return text.replace(from, to - from, "expression = \"" + expression + "\"\n");
+  CaseTables tables = resting;
+  tables.density = "expression = \"" + expression + "\"";
+  return case_text(tables);
 }
 
 // Charge in x > 0.5 pushes the disc, which has none: whether it sits on a trace of density or on nothing must not
@@ -224,27 +209,13 @@ TEST(Vortex, TwoOppositeOnesMoveStraight) {
 // Omega = omega a b / (a + b)^2, and the shape is kept. [Lam32, 159]
 TEST(Vortex, KirchhoffsEllipseTurnsAsABody) {
   const double a = 0.5, b = 0.25, omega = 4, rate = omega * a * b / ((a + b) * (a + b));
-  const std::string text = R"(gaussdrift = 1
-[domain]
-min = [-0.8, -0.8]
-max = [ 0.8,  0.8]
-[velocity]
-u = ["0", "0"]
-[density]
-expression = "(x/0.5)^2 + (y/0.25)^2 < 1 ? 4 : 0"
-[particles]
-per_axis = 81
-[time]
-end  = 1
-step = 0.1
-[evaluate]
-per_axis = 21
-[output]
-times  = [1]
-vtk    = []
-images = []
-[effects.vortex]
-)";
+  const std::string text = case_text({.domain = "min = [-0.8, -0.8]\nmax = [0.8, 0.8]",
+                                      .velocity = at_rest,
+                                      .density = "expression = \"(x/0.5)^2 + (y/0.25)^2 < 1 ? 4 : 0\"",
+                                      .particles = "per_axis = 81",
+                                      .time = "end = 1\nstep = 0.1",
+                                      .output = output_at("1")}) +
+                           "[effects.vortex]\n";
   const Case spec = scene_of({}, text);
   const auto axes = [](const Particles& particles) {
     const Moments m = moments_of(particles);

@@ -220,34 +220,20 @@ TEST(ParticleExchange, GivesTheSameBitsForAnyThreads) {
 }
 
 TEST(ParticleExchange, WorksIn3D) {
-  const std::string cube = R"(gaussdrift = 1
-[domain]
-min = [-1, -1, -1]
-max = [ 1,  1,  1]
-[velocity]
-u = ["0.2", "0", "0"]
-[density]
-shape  = "gaussian"
-center = [0, 0, 0]
-radius = 0.3
-[particles]
-per_axis = 17
-[time]
-end  = 0.3
-step = 0.1
-[evaluate]
-per_axis = 5
-[output]
-times  = [0.3]
-vtk    = []
-images = []
-[effects.diffusion]
+  const std::string text = case_text({.domain = cube,
+                                      .velocity = velocity_of({"0.2", "0", "0"}),
+                                      .density = shape_of("gaussian", "0, 0, 0", "0.3"),
+                                      .particles = "per_axis = 17",
+                                      .time = "end = 0.3\nstep = 0.1",
+                                      .evaluate = "per_axis = 5",
+                                      .output = output_at("0.3")}) +
+                           R"([effects.diffusion]
 D = 0.02
 method = "particle-exchange"
 tolerance = 1e-4
 )";
-  const Particles end = particles_at_end(scene_of({}, cube));
-  Case still = scene_of({}, cube);
+  const Particles end = particles_at_end(scene_of({}, text));
+  Case still = scene_of({}, text);
   still.effects = {};
   const Moments before = moments_of(particles_at_end(still)), after = moments_of(end);
   EXPECT_NEAR(after.mass, before.mass, 2.3e-14 * before.mass);

@@ -4,34 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "case_text.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
 
 namespace gaussdrift {
 
 /// A Gaussian of radius 0.2 (variance 0.02 an axis) at the origin of [-1, 1]^2, at rest.
-inline const std::string resting_gaussian = R"(gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [ 1,  1]
-[velocity]
-u = ["0", "0"]
-[density]
-shape  = "gaussian"
-center = [0, 0]
-radius = 0.2
-[particles]
-per_axis = 41
-[time]
-end  = 0.5
-step = 0.1
-[evaluate]
-per_axis = 33
-[output]
-times  = [0, 0.5]
-vtk    = []
-images = []
-)";
+inline const CaseTables resting{.velocity = at_rest,
+                                .density = shape_of("gaussian", "0, 0", "0.2"),
+                                .particles = "per_axis = 41",
+                                .time = "end = 0.5\nstep = 0.1",
+                                .evaluate = "per_axis = 33"};
+inline const std::string resting_gaussian = case_text(resting);
 
 inline Case scene_of(const std::vector<std::string>& overrides, const std::string& text = resting_gaussian) {
   return gaussdrift::parse_case(text, "scene.toml", overrides).spec;

@@ -15,13 +15,13 @@ using std::numbers::pi;
 
 /// A cone in a vortex about the middle of [origin, origin + size]^2, all lengths in units of `size`.
 std::string vortex(const std::string& size, const std::string& origin = "0") {
-  const std::string o = "(" + origin + ")", s = "(" + size + ")";
-  return "gaussdrift = 1\n[params]\ns = \"" + s + "\"\no = \"" + o +
-         "\"\n[domain]\nmin = [\"o\", \"o\"]\nmax = [\"o + s\", \"o + s\"]\n[velocity]\n"
-         "u = [\"-(y - o - s/2)\", \"x - o - s/2\"]\n[density]\nshape = \"wendland\"\ncenter = [\"o + 0.75*s\", \"o + "
-         "s/2\"]\n"
-         "radius = \"0.2*s\"\n[particles]\nper_axis = 65\n[time]\nend = 1\nstep = 0.05\n[evaluate]\nper_axis = 33\n"
-         "[output]\ntimes = [0, 1]\nvtk = []\nimages = []\n";
+  return case_text({.params = "s = \"(" + size + ")\"\no = \"(" + origin + ")\"",
+                    .domain = "min = [\"o\", \"o\"]\nmax = [\"o + s\", \"o + s\"]",
+                    .velocity = velocity_of({"-(y - o - s/2)", "x - o - s/2"}),
+                    .density = shape_of("wendland", "\"o + 0.75*s\", \"o + s/2\"", "\"0.2*s\""),
+                    .particles = "per_axis = 65",
+                    .time = "end = 1\nstep = 0.05",
+                    .evaluate = "per_axis = 33"});
 }
 
 TEST(Scale, ByPowersOfTwoChangesNoBit) {
@@ -110,10 +110,11 @@ TEST(Points, AMillionOnOnePlaceAreOneHeavyOne) {
 
 TEST(Points, ThatAFlowDrivesTogetherKeepTheirMass) {
   // u = -20 x over t = 1: 5000 particles within 2e-9 of the origin, which is one blob.
-  const Ran ran = run(written(
-      "gaussdrift = 1\n[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[velocity]\nu = [\"-20*x\", \"-20*y\"]\n"
-      "[density]\nshape = \"disk\"\ncenter = [0, 0]\nradius = 0.8\n[particles]\nper_axis = 100\n[time]\nend = 1\n"
-      "step = 0.01\n[evaluate]\nper_axis = 41\n[output]\ntimes = [0, 1]\nvtk = []\nimages = []\n"));
+  const Ran ran = run(written(case_text({.velocity = velocity_of({"-20*x", "-20*y"}),
+                                         .density = shape_of("disk", "0, 0", "0.8"),
+                                         .particles = "per_axis = 100",
+                                         .time = "end = 1\nstep = 0.01",
+                                         .evaluate = "per_axis = 41"})));
   const double eps = 2 * 2. / 99;
   EXPECT_EQ(ran.last().mass, ran.summary.frames.front().second.mass);
   EXPECT_NEAR(ran.last().maximum, ran.last().mass / (pi * eps * eps),
@@ -130,11 +131,12 @@ TEST(Times, ThatDoubleCannotHoldAreLandedOn) {
 
 /// u = -k (x, y): rk4 is stable up to k tau = 2.785.
 Case decaying_flow(double step) {
-  return written(
-      "gaussdrift = 1\n[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[velocity]\nu = [\"-10*x\", \"-10*y\"]\n[density]\n"
-      "shape = \"gaussian\"\ncenter = [0, 0]\nradius = 0.3\n[particles]\nper_axis = 41\n[time]\nend = 20\nstep = " +
-      std::to_string(step) +
-      "\n[evaluate]\nper_axis = 21\n[output]\ntimes = [20]\nvtk = []\nimages = []\n[reference]\nkind = \"none\"\n");
+  return written(case_text({.velocity = velocity_of({"-10*x", "-10*y"}),
+                            .density = shape_of("gaussian", "0, 0", "0.3"),
+                            .particles = "per_axis = 41",
+                            .time = "end = 20\nstep = " + std::to_string(step),
+                            .reference = not_compared,
+                            .output = output_at("20")}));
 }
 
 TEST(Step, JustBelowItsLimitStaysBoundedAndJustAboveIsRefused) {
@@ -167,10 +169,10 @@ TEST(Threads, ChangeNoBitOfTheHardCases) {
 
 TEST(Stretch, TellsWhereTheOverlapIsLost) {
   // A shear by gamma t = 3 moves neighbours along y to sqrt(1 + 9) spacings.
-  const Ran ran = run(written(
-      "gaussdrift = 1\n[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[velocity]\nu = [\"3*y\", \"0\"]\n[density]\n"
-      "shape = \"disk\"\ncenter = [0, 0]\nradius = 0.5\n[particles]\nper_axis = 41\n[time]\nend = 1\nstep = 0.1\n"
-      "[evaluate]\nper_axis = 21\n[output]\ntimes = [0, 1]\nvtk = []\nimages = []\n"));
+  const Ran ran = run(written(case_text({.velocity = velocity_of({"3*y", "0"}),
+                                         .density = shape_of("disk", "0, 0", "0.5"),
+                                         .particles = "per_axis = 41",
+                                         .time = "end = 1\nstep = 0.1"})));
   EXPECT_NEAR(ran.summary.frames[0].second.stretch, 1, 2.7e-15);
   EXPECT_NEAR(ran.summary.frames[1].second.stretch, std::sqrt(10.), 6.4e-14);
 }

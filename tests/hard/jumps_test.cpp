@@ -5,27 +5,27 @@
 
 #include "field/gridded/grid_data.hpp"
 #include "gaussdrift/error.hpp"
+#include "message_of.hpp"
 #include "scenes.hpp"
 
 namespace gaussdrift {
 namespace {
 
 Case plane(const std::string& velocity, const std::vector<std::string>& overrides = {}, const std::string& more = "") {
-  return written("gaussdrift = 1\n[domain]\nmin = [0, 0]\nmax = [1, 1]\n[velocity]\n" + velocity +
-                     "\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5]\nradius = 0.2\n[particles]\n"
-                     "per_axis = 201\n[time]\nend = 0.5\nstep = 0.01\n[evaluate]\nper_axis = 11\n[output]\n"
-                     "times = [0.5]\nvtk = []\nimages = []\n[reference]\nkind = \"none\"\n" +
+  return written(case_text({.domain = unit_square,
+                            .velocity = velocity,
+                            .density = shape_of("wendland", "0.5, 0.5", "0.2"),
+                            .particles = "per_axis = 201",
+                            .time = "end = 0.5\nstep = 0.01",
+                            .evaluate = "per_axis = 11",
+                            .reference = not_compared,
+                            .output = output_at("0.5")}) +
                      more,
                  overrides);
 }
 
 std::string refusal(const Case& scene) {
-  try {
-    Simulation(scene).prepare();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<InputError>([&] { Simulation(scene).prepare(); });
 }
 
 TEST(Jump, OfAVelocityDoesNotLimitTheStep) {
@@ -50,10 +50,13 @@ TEST(Jump, OfEveryKindRuns) {
                                "streamfunction = \"max(x, 0.6)*0.5\""})
     for (const char* method : {"euler", "rk4"})
       EXPECT_EQ(refusal(plane(velocity, {std::string("time.method=") + method})), "") << velocity;
-  const Case space = written(
-      "gaussdrift = 1\n[domain]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n[velocity]\nu = [\"0\", \"0\", \"z<0.6 ? 1 : "
-      "0\"]\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5, 0.5]\nradius = 0.2\n[particles]\nper_axis = 51\n"
-      "[time]\nend = 0.2\nstep = 0.01\n[evaluate]\nper_axis = 5\n[output]\ntimes = [0.2]\nimages = []\n");
+  const Case space = written(case_text({.domain = unit_cube,
+                                        .velocity = velocity_of({"0", "0", "z<0.6 ? 1 : 0"}),
+                                        .density = shape_of("wendland", "0.5, 0.5, 0.5", "0.2"),
+                                        .particles = "per_axis = 51",
+                                        .time = "end = 0.2\nstep = 0.01",
+                                        .evaluate = "per_axis = 5",
+                                        .output = output_at("0.2")}));
   EXPECT_EQ(refusal(space), "");
   EXPECT_EQ(refusal(plane("u = [\"1\", \"0\"]", {}, "[effects.reaction]\nrate = \"x<0.62 ? 0 : 1000\"\n")), "");
   // Nor is it strain that round blobs could not follow.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "case_text.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "sim/scene.hpp"

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "case_text.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "input/explain.hpp"
@@ -29,12 +30,13 @@ bool go_together(const Effects& e) {
 }
 
 std::string case_of(const Effects& e) {
-  std::string text = fmt::format(
-      "gaussdrift = 1\n[domain]\nmin = [{0}]\nmax = [{1}]\n[velocity]\nu = [{2}]\n[density]\nshape = \"gaussian\"\n"
-      "center = [{0}]\nradius = 0.3\n[particles]\nper_axis = 6\n[time]\nend = 0.02\nstep = 0.01\n[evaluate]\nper_axis "
-      "= 5\n"
-      "[reference]\nkind = \"none\"\n[output]\nframes = 2\nvtk = []\nimages = []\nreport = \"none\"\n",
-      e.space ? "0, 0, 0" : "0, 0", e.space ? "1, 1, 1" : "1, 1", e.space ? "0.1, 0, 0" : "0.1, 0");
+  std::string text = case_text({.domain = e.space ? unit_cube : unit_square,
+                                .velocity = e.space ? velocity_of({"0.1", "0", "0"}) : velocity_of({"0.1", "0"}),
+                                .density = shape_of("gaussian", e.space ? "0, 0, 0" : "0, 0", "0.3"),
+                                .particles = "per_axis = 6",
+                                .time = "end = 0.02\nstep = 0.01",
+                                .evaluate = "per_axis = 5",
+                                .reference = not_compared});
   if (e.reaction) text += "[effects.reaction]\nrate = 1\n";
   if (e.diffusion)
     text += fmt::format("[effects.diffusion]\nD = 0.001\nmethod = \"{}\"\n",

@@ -2,7 +2,6 @@
 #include "input/gaussian_table.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include <variant>
 
 #include "cases.hpp"
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -20,12 +20,6 @@ namespace fs = std::filesystem;
 
 class GaussianTables : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("gaussdrift_gaussians_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
   /// A rotation at the points of a 5 x 5 lattice on [-1, 1]^2, in a table of these columns.
   void write_rotation(const std::string& name, const std::string& header = "x,y,u,v") {
@@ -53,7 +47,7 @@ class GaussianTables : public ::testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 const GaussianVelocitySpec& spec_of(const Case& scene) { return std::get<GaussianVelocitySpec>(scene.velocity.at(0)); }
@@ -177,7 +171,7 @@ TEST_F(GaussianTables, GetThePromisedMessages) {
   struct Wrong {
     std::string velocity, message;
   };
-  const std::string place = folder_.string() + "/";
+  const std::string place = folder_.path().string() + "/";
   for (const auto& [velocity, expected] : std::vector<Wrong>{
            {"gaussians = \"none.csv\"", "cannot read " + place + "none.csv: No such file or directory"},
            {"gaussians = 3", "velocity.gaussians must be the name of a file in a string"},

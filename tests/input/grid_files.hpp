@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "cases.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "read/grid_file.hpp"
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::input {
 
@@ -21,12 +21,6 @@ namespace fs = std::filesystem;
 
 class GridFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("gaussdrift_grid_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// nx x ny (x nz) points on [-1, 1]^d with one array, values as text.
   void write_vti(const std::string& name, int nx, int ny, int nz, const std::string& array, int components,
                  const std::string& values, const std::string& kind = "PointData") const {
@@ -122,7 +116,7 @@ class GridFile : public ::testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 }  // namespace gaussdrift::input

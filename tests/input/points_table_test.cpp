@@ -1,16 +1,14 @@
 // Tables of points: what is read, and where each wrong one is refused.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <clocale>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "gaussdrift/error.hpp"
 #include "input/points_table.hpp"
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -256,20 +254,17 @@ TEST(PointsTable, RefusesSizesBeforeItAllocates) {
 }
 
 TEST(PointsTable, ReadsAndRefusesFiles) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("gaussdrift-points-" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  const fs::path file = folder / "S.csv";
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "S.csv";
   std::string text = "x,weight\n";
   for (int i = 0; i < 300000; ++i) text += std::to_string(i) + ",1\n";  // more than one block of the reader
-  std::ofstream(file, std::ios::binary) << text;
+  write_file(file, text);
   const PointsTable table = read_points_table(file, PointsRole::sources, plenty);
   EXPECT_EQ(table.size(), 300000u);
   EXPECT_EQ(table.positions.back(), 299999);
   EXPECT_THROW(read_points_table(file, PointsRole::sources, 1000), InputError);
   EXPECT_THROW(read_points_table(folder / "none.csv", PointsRole::sources, plenty), FileError);
-  EXPECT_THROW(read_points_table(folder, PointsRole::sources, plenty), FileError);
-  fs::remove_all(folder);
+  EXPECT_THROW(read_points_table(folder.path(), PointsRole::sources, plenty), FileError);
 }
 
 }  // namespace

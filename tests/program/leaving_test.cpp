@@ -15,11 +15,13 @@ nlohmann::json summary_of(const ScratchFolder& folder) {
 /// A cone in a wind that blows it out of the domain by t = 0.7.
 std::string blown(int dimension) {
   const bool space = dimension == 3;
-  return "gaussdrift = 1\n[domain]\nmin = [0, 0" + std::string(space ? ", 0" : "") + "]\nmax = [1, 1" +
-         (space ? ", 1" : "") + "]\n[velocity]\nu = [\"1\", \"0\"" + (space ? ", \"0\"" : "") +
-         "]\n[density]\nshape = \"wendland\"\ncenter = [0.5, 0.5" + (space ? ", 0.5" : "") +
-         "]\nradius = 0.2\n[particles]\nper_axis = 25\n[time]\nend = 2\nstep = 0.1\n[evaluate]\nper_axis = 15\n"
-         "[output]\ntimes = [0, 1, 2]\nimages = []\nvtk = []\n";
+  return case_text({.domain = space ? unit_cube : unit_square,
+                    .velocity = space ? velocity_of({"1", "0", "0"}) : velocity_of({"1", "0"}),
+                    .density = shape_of("wendland", space ? "0.5, 0.5, 0.5" : "0.5, 0.5", "0.2"),
+                    .particles = "per_axis = 25",
+                    .time = "end = 2\nstep = 0.1",
+                    .evaluate = "per_axis = 15",
+                    .output = "times = [0, 1, 2]\nimages = []\nvtk = []"});
 }
 
 TEST(Leaving, IsToldWithItsTimeWhereAllOfItHasLeft) {

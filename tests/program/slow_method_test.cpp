@@ -31,28 +31,13 @@ TEST(SlowMethod, IsRefusedByCheckWithTheWayOut) {
 }
 
 /// Narrow blobs in space, for which `spread` gives way to all pairs.
-const std::string narrow_blobs = R"text(gaussdrift = 1
-[domain]
-min = [-1, -1, -1]
-max = [ 1,  1,  1]
-[velocity]
-u = ["-y", "x", "0"]
-[density]
-expression = "exp(-(x^2 + y^2 + z^2)/0.06)"
-[particles]
-per_axis = 300
-overlap = 0.3
-[time]
-end = 1
-step = 0.5
-[evaluate]
-per_axis = 400
-tolerance = 1e-12
-method = "spread"
-[output]
-times = [0]
-images = []
-)text";
+const std::string narrow_blobs = case_text({.domain = cube,
+                                            .velocity = velocity_of({"-y", "x", "0"}),
+                                            .density = "expression = \"exp(-(x^2 + y^2 + z^2)/0.06)\"",
+                                            .particles = "per_axis = 300\noverlap = 0.3",
+                                            .time = "end = 1\nstep = 0.5",
+                                            .evaluate = "per_axis = 400\ntolerance = 1e-12\nmethod = \"spread\"",
+                                            .output = "times = [0]\nimages = []"});
 
 TEST(SlowMethod, IsNotTriedByCheck) {
   const ScratchFolder folder;

@@ -32,6 +32,8 @@ class EveryVerb : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     if (!fs::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+    const std::string verb = GetParam();
+    if (!draws_pictures && (verb.starts_with("render") || verb.starts_with("doctor"))) GTEST_SKIP() << without_pictures;
     write_file(folder_ / "small.toml", bare_case);
     write_file(folder_ / "s.csv", "x,weight\n0,1\n1,2\n");
     ASSERT_EQ(gaussdrift_in(folder_, "run small.toml --out done").exit_code, 0);

@@ -8,13 +8,14 @@
 #include <limits>
 
 #include "gaussdrift/error.hpp"
-#include "write/files.hpp"
-#ifdef GAUSSDRIFT_PICTURES
+#include "pictures.hpp"
 #include "render/read_png.hpp"
-#endif
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::render {
 namespace {
+
+using DrawnChart = Drawn;
 
 Chart power_law() {
   ChartSeries series{.name = "error"};
@@ -25,18 +26,15 @@ Chart power_law() {
           .series = {series}};
 }
 
-#ifndef GAUSSDRIFT_PICTURES
-
-TEST(Chart, SaysWhyItCannotBeDrawn) {
-  const Folder folder;
+TEST(WithoutPictures, AChartSaysWhyItCannotBeDrawn) {
+  if (draws_pictures) GTEST_SKIP() << "built with pictures";
+  const ScratchFolder folder;
   EXPECT_THROW(draw_chart(power_law(), folder / "c.png"), Error);
   EXPECT_EQ(folder.count(), 0u);
 }
 
-#else
-
 Image drawn(const Chart& chart) {
-  const Folder folder;
+  const ScratchFolder folder;
   draw_chart(chart, folder / "c.png");
   return read_png(folder / "c.png");
 }
@@ -51,7 +49,7 @@ std::vector<int> rows_of(const Image& image, int x) {
   return rows;
 }
 
-TEST(Chart, ShowsAPowerLawAsAStraightLine) {
+TEST_F(DrawnChart, ShowsAPowerLawAsAStraightLine) {
   Chart chart = power_law();
   chart.series[0].look = ChartSeries::Look::line;
   chart.series[0].name.clear();
@@ -67,7 +65,7 @@ TEST(Chart, ShowsAPowerLawAsAStraightLine) {
   EXPECT_LT(heights[1], heights[0]);
 }
 
-TEST(Chart, LeavesOutWhatHasNoPlaceOnItsAxes) {
+TEST_F(DrawnChart, LeavesOutWhatHasNoPlaceOnItsAxes) {
   Chart chart = power_law();
   const Image whole = drawn(chart);
   auto& points = chart.series[0].points;
@@ -77,7 +75,7 @@ TEST(Chart, LeavesOutWhatHasNoPlaceOnItsAxes) {
   EXPECT_EQ(drawn(chart).pixels, whole.pixels);
 }
 
-TEST(Chart, OfNothingHasAxesAndNoCurve) {
+TEST_F(DrawnChart, OfNothingHasAxesAndNoCurve) {
   Chart chart = power_law();
   chart.series[0].points.clear();
   chart.series[0].name.clear();
@@ -86,7 +84,7 @@ TEST(Chart, OfNothingHasAxesAndNoCurve) {
   EXPECT_GT(std::count(image.pixels.begin(), image.pixels.end(), ink), 1000);
 }
 
-TEST(Chart, OfOnePointIsDrawn) {
+TEST_F(DrawnChart, OfOnePointIsDrawn) {
   Chart chart = power_law();
   chart.series[0].points.resize(1);
   chart.series[0].name.clear();
@@ -94,7 +92,7 @@ TEST(Chart, OfOnePointIsDrawn) {
   EXPECT_GT(std::count(image.pixels.begin(), image.pixels.end(), first), 20);
 }
 
-TEST(Chart, BreaksALongConclusionIntoLinesThatStayInside) {
+TEST_F(DrawnChart, BreaksALongConclusionIntoLinesThatStayInside) {
   Chart chart = power_law();
   for (int k = 0; k < 60; ++k) chart.conclusion += "a word and ";
   const Image image = drawn(chart);
@@ -103,8 +101,6 @@ TEST(Chart, BreaksALongConclusionIntoLinesThatStayInside) {
     EXPECT_EQ(image.at(2, y), white);
   }
 }
-
-#endif
 
 }  // namespace
 }  // namespace gaussdrift::render

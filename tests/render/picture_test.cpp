@@ -16,25 +16,30 @@
 #include <vector>
 
 #include "gaussdrift/error.hpp"
-#include "render/styles.hpp"
-#include "write/disk.hpp"
-#include "write/files.hpp"
-#ifdef GAUSSDRIFT_PICTURES
+#include "message_of.hpp"
+#include "pictures.hpp"
 #include "render/axes.hpp"
 #include "render/contour_lines.hpp"
 #include "render/read_png.hpp"
-#endif
+#include "render/styles.hpp"
+#include "scratch_folder.hpp"
+#include "write/disk.hpp"
 
 namespace gaussdrift::render {
 namespace {
 
-[[maybe_unused]] std::vector<Style> flat_styles() {
+using Picture = Drawn;
+using Heatmap = Drawn;
+using Surface = Drawn;
+using ContourPicture = Drawn;
+
+std::vector<Style> flat_styles() {
   std::vector<Style> flat;
   for (const Style& style : styles())
     if (style.about.shows(2) && !style.about.shows_error) flat.push_back(style);
   return flat;
 }
-[[maybe_unused]] constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 DensityGrid sampled(const Vector& min, const Vector& max, int per_axis,
                     const std::function<double(double, double)>& rho) {
@@ -53,19 +58,16 @@ DensityGrid cone(double x, double y, double height = 1, double radius = 0.25) {
                  [=](double p, double q) { return height * wendland(std::hypot(p - x, q - y) / radius); });
 }
 
-#ifndef GAUSSDRIFT_PICTURES
-
-TEST(Picture, SaysWhyItCannotBeDrawn) {
+TEST(WithoutPictures, APictureSaysWhyItCannotBeDrawn) {
+  if (draws_pictures) GTEST_SKIP() << "built with pictures";
   EXPECT_NE(unavailable_reason().find("no pictures"), std::string::npos);
-  const Folder folder;
+  const ScratchFolder folder;
   EXPECT_THROW(draw(find_style("surface"), cone(0, 0), {}, folder / "p.png"), Error);
   EXPECT_EQ(folder.count(), 0u);
 }
 
-#else
-
 Image drawn(const Style& style, const DensityGrid& density, const PictureOptions& options = {}) {
-  const Folder folder;
+  const ScratchFolder folder;
   draw(style, density, options, folder / "p.png");
   EXPECT_EQ(folder.count(), 1u);
   return read_png(folder / "p.png");
@@ -95,9 +97,9 @@ Found heatmap_panel(DensityGrid density) {
   return found;
 }
 
-TEST(Picture, IsAvailable) { EXPECT_EQ(unavailable_reason(), ""); }
+TEST_F(Picture, IsAvailable) { EXPECT_EQ(unavailable_reason(), ""); }
 
-TEST(Picture, HasTheSizeAskedForAndIsNotBlank) {
+TEST_F(Picture, HasTheSizeAskedForAndIsNotBlank) {
   for (const Style& style : flat_styles()) {
     const Image image = drawn(style, cone(0.5, 0), {.title = "Rotating cone", .time = 1.5});
     EXPECT_EQ(image.width, 1280);
@@ -112,7 +114,7 @@ TEST(Picture, HasTheSizeAskedForAndIsNotBlank) {
   }
 }
 
-TEST(Picture, LeavesItsMarginsWhite) {
+TEST_F(Picture, LeavesItsMarginsWhite) {
   const auto far =
       sampled({1e6, -3e6, 0}, {1e6 + 1, -3e6 + 0.6, 0}, 60, [](double x, double) { return 1e-7 * (x - 1e6); });
   for (const Style& style : flat_styles())
@@ -128,7 +130,7 @@ TEST(Picture, LeavesItsMarginsWhite) {
     }
 }
 
-TEST(Picture, OfTheSameInputIsIdentical) {
+TEST_F(Picture, OfTheSameInputIsIdentical) {
   for (const Style& style : flat_styles()) {
     const Image first = drawn(style, cone(0.5, 0), {.title = "Rotating cone"});
     drawn(find_style("surface"), cone(-0.5, 0.5), {.title = "between", .width = 640, .height = 480});
@@ -136,7 +138,7 @@ TEST(Picture, OfTheSameInputIsIdentical) {
   }
 }
 
-TEST(Picture, OfAnotherInputDiffers) {
+TEST_F(Picture, OfAnotherInputDiffers) {
   for (const Style& style : flat_styles()) {
     const Image first = drawn(style, cone(0.5, 0));
     EXPECT_NE(drawn(style, cone(0.3, 0)).pixels, first.pixels);
@@ -146,7 +148,7 @@ TEST(Picture, OfAnotherInputDiffers) {
   }
 }
 
-TEST(Heatmap, IsBrightestWhereTheDensityIsLargest) {
+TEST_F(Heatmap, IsBrightestWhereTheDensityIsLargest) {
   for (const auto& [x, y] : {std::pair{0.5, 0.}, {-0.5, 0.6}, {0., -0.7}}) {
     const auto density = cone(x, y);
     const Found panel = heatmap_panel(density);
@@ -164,7 +166,7 @@ TEST(Heatmap, IsBrightestWhereTheDensityIsLargest) {
   }
 }
 
-TEST(Heatmap, GivesAValueTheSameColourInEveryFrame) {
+TEST_F(Heatmap, GivesAValueTheSameColourInEveryFrame) {
   // Half of the domain has 0.5; the other half something else in each frame.
   const auto density = [](double other) {
     return sampled({-1, -1, 0}, {1, 1, 0}, 51, [=](double x, double) { return x < 0 ? 0.5 : other; });
@@ -180,7 +182,7 @@ TEST(Heatmap, GivesAValueTheSameColourInEveryFrame) {
   EXPECT_EQ(drawn(find_style("heatmap"), density(1), {.range_max = 2}).at(x, y), viridis(0.25));
 }
 
-TEST(Heatmap, KeepsTheShapeOfTheDomain) {
+TEST_F(Heatmap, KeepsTheShapeOfTheDomain) {
   const auto zero = [](double, double) { return 0.; };
   const Found wide = heatmap_panel(sampled({0, 0, 0}, {2, 1, 0}, 101, zero));
   EXPECT_NEAR((wide.right - wide.left) / static_cast<double>(wide.top - wide.bottom), 2,
@@ -189,7 +191,7 @@ TEST(Heatmap, KeepsTheShapeOfTheDomain) {
   EXPECT_NEAR((tall.top - tall.bottom) / static_cast<double>(tall.right - tall.left), 3, 0.04);
 }
 
-TEST(Surface, RaisesTheTopWithTheDensity) {
+TEST_F(Surface, RaisesTheTopWithTheDensity) {
   const auto top_of = [](double height) {
     const Image image = drawn(find_style("surface"), cone(0.5, 0, height), {.range_max = 1});
     // The highest pixel of the colours of the cone, left of the colour bar.
@@ -220,7 +222,7 @@ TEST(Axis, NumbersOnlyTicksWhoseNumbersDoNotTouch) {
 }
 
 // At 100 : 1 there is room for one number at the short side.
-TEST(Surface, OfANarrowDomainHasNumbersThatDoNotOverlap) {
+TEST_F(Surface, OfANarrowDomainHasNumbersThatDoNotOverlap) {
   const auto zero = [](double, double) { return 0.; };
   const Image image = drawn(find_style("surface"), sampled({0, 0, 0}, {100, 1, 0}, 101, zero));
   int low = image.height, high = 0;  // of what is written beside the right corner, right of the box and of its ticks
@@ -264,7 +266,7 @@ TEST(Contour, LevelsAreRoundInsideTheRangeAndNeverZero) {
   }
 }
 
-TEST(Contour, OfAConeFallsWithinItsPanelFromAboveAndAtItsHeightsFromTheSide) {
+TEST_F(ContourPicture, OfAConeFallsWithinItsPanelFromAboveAndAtItsHeightsFromTheSide) {
   const Image image = drawn(find_style("contour"), cone(0.5, 0));
   // The line of 0.5 in both halves, well above the colour bar. A ring on the left, one level line on the right.
   const Colour colour = viridis(0.5);
@@ -281,7 +283,7 @@ TEST(Contour, OfAConeFallsWithinItsPanelFromAboveAndAtItsHeightsFromTheSide) {
   EXPECT_GT(right_low, left_low) << "at half the height";
 }
 
-TEST(Picture, OfUnusualDomainsIsDrawn) {
+TEST_F(Picture, OfUnusualDomainsIsDrawn) {
   const auto bump = [](double cx, double cy, double radius) {
     return [=](double x, double y) { return wendland(std::hypot(x - cx, y - cy) / radius); };
   };
@@ -300,7 +302,7 @@ TEST(Picture, OfUnusualDomainsIsDrawn) {
       EXPECT_GT(colours_of(drawn(style, domains[i], {.width = 640, .height = 480})), 50u) << "domain " << i;
 }
 
-TEST(Picture, OfUnusualDensitiesIsDrawn) {
+TEST_F(Picture, OfUnusualDensitiesIsDrawn) {
   const double infinity = std::numeric_limits<double>::infinity();
   const auto filled = [](double a, double b) {
     return sampled({-1, -1, 0}, {1, 1, 0}, 30, [=](double x, double y) { return x * x + y * y < 0.25 ? a : b; });
@@ -319,15 +321,15 @@ TEST(Picture, OfUnusualDensitiesIsDrawn) {
   }
 }
 
-TEST(Picture, TakesAnyTitle) {
+TEST_F(Picture, TakesAnyTitle) {
   for (const char* title :
        {"", " ", "line\nbreak", "\xFF\xC3 broken UTF-8", "\u03B5 = 2h, \u222B\u03C1 dx", "$x^2$ $y$", "50 % <b>&</b>"})
     EXPECT_GT(colours_of(drawn(find_style("heatmap"), cone(0, 0), {.title = title, .width = 320, .height = 240})), 30u)
         << title;
 }
 
-TEST(Picture, RefusesWhatItCannotShow) {
-  const Folder folder;
+TEST_F(Picture, RefusesWhatItCannotShow) {
+  const ScratchFolder folder;
   auto density = cone(0, 0);
   density.rho.pop_back();
   EXPECT_THROW(draw(find_style("heatmap"), density, {}, folder / "p.png"), Error);
@@ -338,21 +340,21 @@ TEST(Picture, RefusesWhatItCannotShow) {
   EXPECT_GT(colours_of(drawn(find_style("surface"), cone(0, 0))), 100u) << "and the next picture is none the worse";
 }
 
-TEST(Picture, KeepsTheOldFileOnAFullDisk) {
-  const Folder folder;
+TEST_F(Picture, KeepsTheOldFileOnAFullDisk) {
+  const ScratchFolder folder;
   draw(find_style("heatmap"), cone(0, 0), {}, folder / "p.png");
-  const std::string old = text_of(folder / "p.png");
+  const std::string old = read_file(folder / "p.png");
   std::string text;
   {
     const FileSizeLimit limit(1000);
     text = message_of<FileError>([&] { draw(find_style("heatmap"), cone(0.5, 0), {}, folder / "p.png"); });
   }
   EXPECT_NE(text.find("p.png: File too large"), std::string::npos) << text;
-  EXPECT_EQ(text_of(folder / "p.png"), old);
+  EXPECT_EQ(read_file(folder / "p.png"), old);
   EXPECT_EQ(folder.count(), 1u);
 }
 
-TEST(Picture, MayBeDrawnByAnotherThread) {
+TEST_F(Picture, MayBeDrawnByAnotherThread) {
   const Image here = drawn(find_style("surface"), cone(0.5, 0));
   Image there;
   std::thread([&] { there = drawn(find_style("surface"), cone(0.5, 0)); }).join();
@@ -361,7 +363,7 @@ TEST(Picture, MayBeDrawnByAnotherThread) {
 }
 
 /// This program once more, with next to no environment: no DISPLAY, and a home that cannot be written or created.
-TEST(Picture, NeedsNeitherDisplayNorHome) {
+TEST_F(Picture, NeedsNeitherDisplayNorHome) {
   const pid_t child = fork();
   if (child == 0) {
     const char* program = "/proc/self/exe";
@@ -377,8 +379,6 @@ TEST(Picture, NeedsNeitherDisplayNorHome) {
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
 }
-
-#endif
 
 }  // namespace
 }  // namespace gaussdrift::render

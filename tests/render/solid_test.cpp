@@ -12,14 +12,20 @@
 #include <vector>
 
 #include "gaussdrift/error.hpp"
-#include "render/styles.hpp"
-#include "write/files.hpp"
-#ifdef GAUSSDRIFT_PICTURES
+#include "pictures.hpp"
 #include "render/read_png.hpp"
-#endif
+#include "render/styles.hpp"
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::render {
 namespace {
+
+using SlicesAndProjection = Drawn;
+using Projection = Drawn;
+using Slices = Drawn;
+using ErrorPicture = Drawn;
+using Isosurface = Drawn;
+using SolidPicture = Drawn;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -88,8 +94,6 @@ TEST(Style, KnowsTheDimensionsItShows) {
   EXPECT_TRUE(find_style("error").about.shows(2) && find_style("error").about.shows(3));
 }
 
-#ifdef GAUSSDRIFT_PICTURES
-
 std::vector<Style> solid_styles() {
   std::vector<Style> solid;
   for (const Style& style : styles())
@@ -98,7 +102,7 @@ std::vector<Style> solid_styles() {
 }
 
 Image drawn(const Style& style, const DensityGrid& density, const PictureOptions& options = {}) {
-  const Folder folder;
+  const ScratchFolder folder;
   draw(style, density, options, folder / "p.png");
   return read_png(folder / "p.png");
 }
@@ -146,7 +150,7 @@ std::array<double, 2> brightest(const Image& image, const Found& panel) {
   return {(sum_x / count - panel.left) / panel.width(), (sum_y / count - panel.bottom) / panel.height()};
 }
 
-TEST(SlicesAndProjection, AreBrightestWhereTheDensityIsLargest) {
+TEST_F(SlicesAndProjection, AreBrightestWhereTheDensityIsLargest) {
   const std::array<double, 3> at{0.25, 0.625, 0.75};  // a lattice point
   const auto density = ball(at[0], at[1], at[2]);
   const auto panels = panels_of(density);
@@ -164,7 +168,7 @@ TEST(SlicesAndProjection, AreBrightestWhereTheDensityIsLargest) {
   }
 }
 
-TEST(Projection, ShowsWhatTheSlicesMiss) {
+TEST_F(Projection, ShowsWhatTheSlicesMiss) {
   auto density = ball(0.25, 0.25, 0.25);
   const auto second = ball(0.75, 0.75, 0.75, 0.8);
   for (std::size_t i = 0; i < density.rho.size(); ++i) density.rho[i] += second.rho[i];
@@ -179,7 +183,7 @@ TEST(Projection, ShowsWhatTheSlicesMiss) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], expected[k], 4) << "half a pixel beside the top";
 }
 
-TEST(Slices, KeepTheShapeOfTheBox) {
+TEST_F(Slices, KeepTheShapeOfTheBox) {
   const auto panels = panels_of(sampled({0, 0, 0}, {2, 1, 0.5}, 81, [](double, double, double) { return 0.; }));
   // Sides are whole pixels.
   const double pixels = panels[0].width() / 2.;
@@ -190,7 +194,7 @@ TEST(Slices, KeepTheShapeOfTheBox) {
   EXPECT_NEAR(panels[2].height(), pixels, 1);
 }
 
-TEST(Slices, GiveAValueTheSameColourInEveryFrame) {
+TEST_F(Slices, GiveAValueTheSameColourInEveryFrame) {
   const auto density = [](double other) {
     return sampled({0, 0, 0}, {1, 1, 1}, 17, [=](double x, double, double) { return x < 0.5 ? 0.5 : other; });
   };
@@ -203,7 +207,7 @@ TEST(Slices, GiveAValueTheSameColourInEveryFrame) {
   }
 }
 
-TEST(ErrorPicture, IsBlueBelowWhiteAtAndRedAboveZero) {
+TEST_F(ErrorPicture, IsBlueBelowWhiteAtAndRedAboveZero) {
   const auto error = sampled({0, 0, 0}, {1, 1, 1}, 31, [](double x, double, double) {
     return x < 0.3 ? -1e-3 : x > 0.7 ? 1e-3 : 0.;
   });
@@ -231,7 +235,7 @@ Found solid_surface(const Image& image) {
   return found;
 }
 
-TEST(Isosurface, OfABallIsRoundAndMovesWithIt) {
+TEST_F(Isosurface, OfABallIsRoundAndMovesWithIt) {
   const Found low = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.3)));
   const Found high = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.7)));
   ASSERT_GT(low.width(), 20);
@@ -240,7 +244,7 @@ TEST(Isosurface, OfABallIsRoundAndMovesWithIt) {
   EXPECT_NEAR(high.left, low.left, 1);
 }
 
-TEST(Isosurface, LetsTheSolidOneShineThrough) {
+TEST_F(Isosurface, LetsTheSolidOneShineThrough) {
   const Image image = drawn(find_style("isosurface"), ball(0.5, 0.5, 0.5));
   const Found solid = solid_surface(image);
   // Around it the clear ones tint the white background without hiding it.
@@ -252,7 +256,7 @@ TEST(Isosurface, LetsTheSolidOneShineThrough) {
   EXPECT_GT(tinted, 20u);
 }
 
-TEST(SolidPicture, HasItsSizeWhiteMarginsAndNoChange) {
+TEST_F(SolidPicture, HasItsSizeWhiteMarginsAndNoChange) {
   for (const Style& style : solid_styles()) {
     const PictureOptions options{.title = "Ball", .time = 1.5};
     const Image image = drawn(style, ball(0.5, 0.4, 0.3), options);
@@ -269,7 +273,7 @@ TEST(SolidPicture, HasItsSizeWhiteMarginsAndNoChange) {
   }
 }
 
-TEST(SolidPicture, OfUnusualBoxesAndDensitiesIsDrawn) {
+TEST_F(SolidPicture, OfUnusualBoxesAndDensitiesIsDrawn) {
   const auto slope = [](double x, double, double) { return x; };
   std::vector<DensityGrid> densities{
       sampled({0, 0, 0}, {1, 1, 1}, 2, slope),
@@ -289,8 +293,8 @@ TEST(SolidPicture, OfUnusualBoxesAndDensitiesIsDrawn) {
           << "density " << i << ", " << style;
 }
 
-TEST(SolidPicture, OfTheWrongDimensionIsRefused) {
-  const Folder folder;
+TEST_F(SolidPicture, OfTheWrongDimensionIsRefused) {
+  const ScratchFolder folder;
   const DensityGrid flat{make_lattice(2, {0, 0, 0}, {1, 1, 0}, 3), std::vector<double>(9)};
   for (const char* style : {"slices", "projection", "isosurface"})
     EXPECT_THROW(draw(find_style(style), flat, {}, folder / "p.png"), Error);
@@ -301,8 +305,6 @@ TEST(SolidPicture, OfTheWrongDimensionIsRefused) {
   for (const Style& style : solid_styles()) EXPECT_THROW(draw(style, short_one, {}, folder / "p.png"), Error);
   EXPECT_EQ(folder.count(), 0u);
 }
-
-#endif
 
 }  // namespace
 }  // namespace gaussdrift::render

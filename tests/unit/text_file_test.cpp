@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "base/text_file.hpp"
 #include "gaussdrift/error.hpp"
+#include "scratch_folder.hpp"
 
 namespace gaussdrift::base {
 namespace {
@@ -18,16 +18,8 @@ namespace fs = std::filesystem;
 
 class TextFile : public testing::Test {
  protected:
-  TextFile() {
-    std::string pattern = (fs::temp_directory_path() / "gaussdrift-text.XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~TextFile() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
   fs::path file(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
+    write_file(folder_ / name, text);
     return folder_ / name;
   }
   /// The refusal, with the folder left out.
@@ -35,12 +27,12 @@ class TextFile : public testing::Test {
     try {
       read_text_file(path, "a table", most);
     } catch (const Error& error) {
-      const std::string text = error.what(), prefix = folder_.string() + "/";
+      const std::string text = error.what(), prefix = folder_.path().string() + "/";
       return text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text;
     }
     return "";
   }
-  fs::path folder_;
+  ScratchFolder folder_;
 };
 
 TEST_F(TextFile, IsReadWholeUpToTheLimitAndRefusedBeyond) {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "gaussdrift/error.hpp"
+#include "scratch_folder.hpp"
 #include "write/disk.hpp"
-#include "write/files.hpp"
 
 namespace gaussdrift::write {
 namespace {
@@ -53,7 +53,7 @@ class TwoCheckpoints : public testing::Test {
     refused.clear();
     return read_checkpoint(folder.path(), past, refused);
   }
-  const Folder folder;
+  const ScratchFolder folder;
   const Particles older = some_particles(5, 0), newer = some_particles(3, 7);
   std::vector<std::string> refused;
 };
@@ -78,7 +78,7 @@ TEST_F(TwoCheckpoints, AThirdTakesThePlaceOfTheOlder) {
 
 TEST_F(TwoCheckpoints, WhatIsDamagedIsRefusedAndTheOlderTaken) {
   for (const char* file : {"state/1/particles_0000.raw", "state/1/run.raw"}) {
-    const std::string whole = text_of(folder / file);
+    const std::string whole = read_file(folder / file);
     for (std::size_t at = 0; at < whole.size(); ++at) {
       std::string damaged = whole;
       damaged[at] = static_cast<char>(damaged[at] ^ 1);
@@ -103,7 +103,7 @@ TEST_F(TwoCheckpoints, WhatIsDamagedIsRefusedAndTheOlderTaken) {
 
 TEST_F(TwoCheckpoints, AManifestWithAnyOneByteWrongIsNeverACrash) {
   const fs::path file = folder / "state/1/manifest.json";
-  const std::string whole = text_of(file);
+  const std::string whole = read_file(file);
   for (std::size_t at = 0; at < whole.size(); ++at)
     for (const char wrong : {'9', '"', '-', '}', '\0'}) {
       std::string damaged = whole;
@@ -127,7 +127,7 @@ TEST_F(TwoCheckpoints, AnotherCaseAndANewerFormatAreRefusedByTheirReason) {
   ASSERT_EQ(refused.size(), 2u);
   EXPECT_NE(refused[0].find("a case with other settings or data"), std::string::npos) << refused[0];
   const fs::path file = folder / "state/1/manifest.json";
-  std::string text = text_of(file);
+  std::string text = read_file(file);
   text.replace(text.find("\"version\": 1"), 12, "\"version\": 2");
   std::ofstream(file, std::ios::binary) << text;
   EXPECT_EQ(read()->facts.time, 1);
@@ -136,7 +136,7 @@ TEST_F(TwoCheckpoints, AnotherCaseAndANewerFormatAreRefusedByTheirReason) {
 
 TEST_F(TwoCheckpoints, AManifestThatNamesAFileElsewhereIsRefused) {
   const fs::path file = folder / "state/1/manifest.json";
-  std::string text = text_of(file);
+  std::string text = read_file(file);
   text.replace(text.find("run.raw"), 7, "../0/run.raw");
   nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(text);  // by somebody who knows the check sum
   manifest.erase("crc32");
@@ -149,14 +149,14 @@ TEST_F(TwoCheckpoints, AManifestThatNamesAFileElsewhereIsRefused) {
 }
 
 TEST(Checkpoint, WhereThereIsNoneNothingIsRefused) {
-  const Folder folder;
+  const ScratchFolder folder;
   std::vector<std::string> refused;
   EXPECT_FALSE(read_checkpoint(folder.path(), "hash", refused));
   EXPECT_TRUE(refused.empty());
 }
 
 TEST(Checkpoint, AFullDiskLeavesTheOneBefore) {
-  const Folder folder;
+  const ScratchFolder folder;
   write_checkpoint(folder.path(), "hash", 1, 10, some_particles(5, 0), "first");
   {
     const FileSizeLimit limit(100);

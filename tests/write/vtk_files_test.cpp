@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "gaussdrift/error.hpp"
+#include "message_of.hpp"
+#include "scratch_folder.hpp"
 #include "write/disk.hpp"
-#include "write/files.hpp"
 
 namespace gaussdrift::write {
 namespace {
@@ -85,7 +86,7 @@ std::vector<double> some_velocity(const Particles& particles) {
 TEST(DensityFile, IsReadByParaViewsReaderDigitByDigit) {
   const std::string python = python_with_vtk();
   if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
-  const Folder folder;
+  const ScratchFolder folder;
   // A lattice that is not square, far from the origin, with spacing 1/3.
   const auto density = some_density(2, {1e6 + 1 / 7., -2, 0}, {1e6 + 1 / 7. + 2, -1, 0}, 7);
   Collection series(folder / "density.pvd");
@@ -111,7 +112,7 @@ TEST(DensityFile, IsReadByParaViewsReaderDigitByDigit) {
 TEST(DensityFile, OfThreeDimensionsIsReadBack) {
   const std::string python = python_with_vtk();
   if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
-  const Folder folder;
+  const ScratchFolder folder;
   const auto density = some_density(3, {0, 0, 0}, {1, 0.5, 0.75}, 5);
   write_density(folder / "rho.vti", density, -1.5);
   Collection(folder / "rho.pvd").add(-1.5, folder / "rho.vti");
@@ -123,7 +124,7 @@ TEST(DensityFile, OfThreeDimensionsIsReadBack) {
 TEST(DensityFile, HasTheExactDensityAndTheErrorBesideIt) {
   const std::string python = python_with_vtk();
   if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
-  const Folder folder;
+  const ScratchFolder folder;
   const auto density = some_density(2, {0, 0, 0}, {1, 0.5, 0}, 5);
   std::vector<double> exact, error;
   for (const double value : density.rho) {
@@ -145,7 +146,7 @@ TEST(ParticleFile, IsReadByParaViewsReaderDigitByDigit) {
   const std::string python = python_with_vtk();
   if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
   for (const int dimension : {2, 3}) {
-    const Folder folder;
+    const ScratchFolder folder;
     const auto particles = some_particles(dimension, 11);
     const auto velocity = some_velocity(particles);
     write_particles(folder / "particles_0000.vtp", particles, velocity, 0.1);
@@ -168,14 +169,14 @@ TEST(ParticleFile, IsReadByParaViewsReaderDigitByDigit) {
                         type_of_id + " 1" + numbers(particles.id) + "\narray alpha double 1" +
                         numbers(particles.alpha) + "\narray u double 3" + numbers(u) + "\nfield TimeValue double 1" +
                         numbers<double>({0.1}) + "\n");
-    EXPECT_NE(text_of(folder / "particles_0000.vtp").find("type=\"Int64\" Name=\"id\""), std::string::npos);
+    EXPECT_NE(read_file(folder / "particles_0000.vtp").find("type=\"Int64\" Name=\"id\""), std::string::npos);
   }
 }
 
 TEST(ParticleFile, WithoutParticlesIsStillAFile) {
   const std::string python = python_with_vtk();
   if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
-  const Folder folder;
+  const ScratchFolder folder;
   write_particles(folder / "none.vtp", Particles{}, {}, 1);
   Collection(folder / "none.pvd").add(1, folder / "none.vtp");
   const std::string text = read_series(python, folder / "none.pvd");
@@ -185,9 +186,9 @@ TEST(ParticleFile, WithoutParticlesIsStillAFile) {
 
 TEST(VtkFiles, AreWellFormedXmlThroughout) {
   // Readers whose parser looks behind <AppendedData> stumble over what follows there: nothing must.
-  const Folder folder;
+  const ScratchFolder folder;
   write_density(folder / "rho.vti", some_density(2, {0, 0, 0}, {1, 1, 0}, 20), 0);
-  const std::string text = text_of(folder / "rho.vti");
+  const std::string text = read_file(folder / "rho.vti");
   for (const char* part : {"format=\"binary\"", "header_type=\"UInt64\"", "type=\"Float64\" Name=\"rho\"", "TimeValue"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(text.find("AppendedData"), std::string::npos);
@@ -197,7 +198,7 @@ TEST(VtkFiles, AreWellFormedXmlThroughout) {
 }
 
 TEST(VtkFiles, RefuseArraysOfTheWrongLength) {
-  const Folder folder;
+  const ScratchFolder folder;
   auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, 5);
   density.rho.pop_back();
   EXPECT_THROW(write_density(folder / "rho.vti", density, 0), Error);
@@ -208,10 +209,10 @@ TEST(VtkFiles, RefuseArraysOfTheWrongLength) {
 /// Sizes below and above the buffer of a stream, where a failure shows at different calls.
 TEST(VtkFiles, KeepTheOldFileWhenTheLimitOfFileSizesIsMet) {
   for (const int per_axis : {5, 20, 300}) {
-    const Folder folder;
+    const ScratchFolder folder;
     const auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, per_axis);
     write_density(folder / "rho.vti", density, 0);
-    const std::string old = text_of(folder / "rho.vti");
+    const std::string old = read_file(folder / "rho.vti");
     for (const std::size_t missing : {old.size() - 200, old.size() / 2, std::size_t{1}}) {
       std::string text;
       {
@@ -221,19 +222,19 @@ TEST(VtkFiles, KeepTheOldFileWhenTheLimitOfFileSizesIsMet) {
       EXPECT_NE(text.find("cannot write " + (folder / "rho.vti").string() + ": "), std::string::npos)
           << per_axis << " " << missing << text;
       EXPECT_NE(text.find("free some space"), std::string::npos) << text;
-      EXPECT_EQ(text_of(folder / "rho.vti"), old);
+      EXPECT_EQ(read_file(folder / "rho.vti"), old);
       EXPECT_EQ(folder.count(), 1u) << "something was left beside it";
     }
   }
 }
 
 TEST(VtkFiles, NameFileReasonAndRemedyOnAFullDisk) {
-  const Folder folder;
+  const ScratchFolder folder;
   const SmallDisk disk(folder.path());
   if (!disk.mounted()) GTEST_SKIP() << "this user may not mount a small file system";
   const auto small = some_density(2, {0, 0, 0}, {1, 1, 0}, 5), large = some_density(2, {0, 0, 0}, {1, 1, 0}, 200);
   write_density(folder / "density_0002.vti", small, 0);
-  const std::string old = text_of(folder / "density_0002.vti");
+  const std::string old = read_file(folder / "density_0002.vti");
   for (const char* name : {"density_0002.vti", "density_0003.vti"}) {
     const auto text = message_of<FileError>([&] { write_density(folder / name, large, 1); });
     EXPECT_EQ(text, "cannot write " + (folder / name).string() +
@@ -242,12 +243,12 @@ TEST(VtkFiles, NameFileReasonAndRemedyOnAFullDisk) {
   }
   const auto particles = some_particles(2, 5000);
   EXPECT_THROW(write_particles(folder / "particles_0003.vtp", particles, some_velocity(particles), 1), FileError);
-  EXPECT_EQ(text_of(folder / "density_0002.vti"), old);
+  EXPECT_EQ(read_file(folder / "density_0002.vti"), old);
   EXPECT_EQ(folder.count(), 1u);
 }
 
 TEST(VtkFiles, SayNothingOnTheTerminalWhenTheyFail) {
-  const Folder folder;
+  const ScratchFolder folder;
   const auto density = some_density(2, {0, 0, 0}, {1, 1, 0}, 300);
   testing::internal::CaptureStderr();
   {
@@ -258,11 +259,11 @@ TEST(VtkFiles, SayNothingOnTheTerminalWhenTheyFail) {
 }
 
 TEST(Collection, WritesPathsRelativeToItselfAndEscapesThem) {
-  const Folder folder;
+  const ScratchFolder folder;
   Collection series(folder / "run/density.pvd");
   series.add(1. / 3, folder / "run/density/a<b & \"c\".vti");
   series.add(2, folder / "elsewhere/b.vti");
-  const std::string text = text_of(folder / "run/density.pvd");
+  const std::string text = read_file(folder / "run/density.pvd");
   EXPECT_NE(text.find("timestep=\"0.33333333333333331\" part=\"0\" file=\"density/a&lt;b &amp; &quot;c&quot;.vti\""),
             std::string::npos)
       << text;
@@ -270,29 +271,29 @@ TEST(Collection, WritesPathsRelativeToItselfAndEscapesThem) {
 }
 
 TEST(Collection, TakesPathsRelativeToTheWorkingFolder) {
-  const Folder folder;
+  const ScratchFolder folder;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
   Collection("density.pvd").add(0, "density/density_0000.vti");
   Collection("out/density.pvd").add(0, "out/density/density_0000.vti");
   std::filesystem::current_path(before);
   for (const char* name : {"density.pvd", "out/density.pvd"})
-    EXPECT_NE(text_of(folder / name).find("file=\"density/density_0000.vti\""), std::string::npos)
-        << text_of(folder / name);
+    EXPECT_NE(read_file(folder / name).find("file=\"density/density_0000.vti\""), std::string::npos)
+        << read_file(folder / name);
 }
 
 TEST(Collection, IsWholeAfterAFailedAdd) {
-  const Folder folder;
+  const ScratchFolder folder;
   Collection series(folder / "density.pvd");
   series.add(0, folder / "a.vti");
-  const std::string old = text_of(folder / "density.pvd");
+  const std::string old = read_file(folder / "density.pvd");
   {
     const FileSizeLimit limit(50);
     EXPECT_THROW(series.add(1, folder / "b.vti"), FileError);
   }
-  EXPECT_EQ(text_of(folder / "density.pvd"), old);
+  EXPECT_EQ(read_file(folder / "density.pvd"), old);
   series.add(2, folder / "c.vti");
-  const std::string text = text_of(folder / "density.pvd");
+  const std::string text = read_file(folder / "density.pvd");
   EXPECT_EQ(text.find("b.vti"), std::string::npos) << "the frame that failed is listed";
   EXPECT_NE(text.find("c.vti"), std::string::npos);
 }

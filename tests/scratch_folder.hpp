@@ -1,34 +1,35 @@
-// A folder that goes away with the test, and what is in files.
+// A folder of its own for one test, and what is in files.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 namespace gaussdrift {
 
-class Folder {
+/// Removed with all that is in it when the test ends.
+class ScratchFolder {
  public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "gaussdrift_test_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
+  ScratchFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "gaussdrift-test.XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw std::runtime_error("no scratch folder");
+    path_ = pattern;
   }
-  ~Folder() {
+  ~ScratchFolder() {
     std::error_code ignored;
     std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
     std::filesystem::remove_all(path_, ignored);
   }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
-  /// Names of everything below, to see that nothing else was left.
+  /// How many files and folders are in it, at any depth.
   std::size_t count() const {
     return static_cast<std::size_t>(std::distance(std::filesystem::recursive_directory_iterator(path_), {}));
   }
@@ -37,20 +38,13 @@ class Folder {
   std::filesystem::path path_;
 };
 
-inline std::string text_of(const std::filesystem::path& file) {
+inline std::string read_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What a call threw, or "".
-template <class Kind, class Call>
-std::string message_of(const Call& call) {
-  try {
-    call();
-  } catch (const Kind& error) {
-    return error.what();
-  }
-  return "";
+inline void write_file(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
 }
 
 }  // namespace gaussdrift
