@@ -41,20 +41,20 @@ struct Domain {
 // --- velocity ---------------------------------------------------------------------------------------------------
 
 /// u = [...]: one expression a component in x, y, z, t and the params.
-struct ExpressionVelocity {
+struct ExpressionVelocitySpec {
   std::vector<std::string> components;  ///< one expression a dimension
 };
 /// streamfunction = "...": psi in x, y, t and the params; u = (d psi/dy, -d psi/dx), in 2D.
-struct StreamfunctionVelocity {
+struct StreamfunctionVelocitySpec {
   std::string psi;  ///< the expression
 };
 /// field = "...": a named field (docs/cases.md gives the formulas) with all of its parameters.
-struct NamedVelocity {
+struct NamedVelocitySpec {
   std::string field;    ///< its name
   Arguments arguments;  ///< all of its parameters
 };
 /// file = "...": data on a grid (docs/cases.md), already read.
-struct FileVelocity {
+struct FileVelocitySpec {
   std::filesystem::path file;            ///< absolute
   std::vector<std::string> arrays;       ///< as written: one, or one a component; empty: the only one
   std::string interpolation;             ///< linear | cubic
@@ -73,22 +73,22 @@ struct GaussianVelocitySpec {
   std::shared_ptr<const GaussianModel> model;  ///< the Gaussians
 };
 /// One `[[velocity]]`.
-using VelocitySpec =
-    std::variant<ExpressionVelocity, StreamfunctionVelocity, NamedVelocity, FileVelocity, GaussianVelocitySpec>;
+using VelocitySpec = std::variant<ExpressionVelocitySpec, StreamfunctionVelocitySpec, NamedVelocitySpec,
+                                  FileVelocitySpec, GaussianVelocitySpec>;
 
 // --- initial density --------------------------------------------------------------------------------------------
 
 /// expression = "...": rho_0 in x, y, z and the params.
-struct ExpressionDensity {
+struct ExpressionDensitySpec {
   std::string text;  ///< the expression
 };
 /// shape = "...": a named shape (docs/cases.md gives the formulas) with all of its parameters.
-struct ShapeDensity {
+struct ShapeDensitySpec {
   std::string shape;    ///< its name
   Arguments arguments;  ///< all of its parameters
 };
 /// file = "...": data on a grid, already read.
-struct FileDensity {
+struct FileDensitySpec {
   std::filesystem::path file;            ///< absolute
   std::vector<std::string> arrays;       ///< as written: one; empty: the only one
   std::string interpolation;             ///< linear | cubic
@@ -98,7 +98,7 @@ struct FileDensity {
   std::shared_ptr<const GridData> data;  ///< the numbers
 };
 /// One `[[density]]`.
-using DensitySpec = std::variant<ExpressionDensity, ShapeDensity, FileDensity>;
+using DensitySpec = std::variant<ExpressionDensitySpec, ShapeDensitySpec, FileDensitySpec>;
 
 // --- discretisation ---------------------------------------------------------------------------------------------
 

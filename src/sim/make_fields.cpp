@@ -23,15 +23,15 @@ namespace {
 
 Box box_of(const Domain& domain) { return {domain.dimension, domain.min, domain.max}; }
 
-std::unique_ptr<VelocityField> make_part(const ExpressionVelocity& part, const Case& spec, int /*threads*/) {
+std::unique_ptr<VelocityField> make_part(const ExpressionVelocitySpec& part, const Case& spec, int /*threads*/) {
   return std::make_unique<ExpressionField>(part.components, spec.params);
 }
 
-std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocity& part, const Case& spec, int /*threads*/) {
+std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocitySpec& part, const Case& spec, int /*threads*/) {
   return std::make_unique<StreamfunctionField>(part.psi, spec.params);
 }
 
-std::unique_ptr<VelocityField> make_part(const NamedVelocity& part, const Case& spec, int /*threads*/) {
+std::unique_ptr<VelocityField> make_part(const NamedVelocitySpec& part, const Case& spec, int /*threads*/) {
   return make_named_field(part.field, box_of(spec.domain), part.arguments);
 }
 
@@ -47,7 +47,7 @@ GridInterpolator interpolator(const FileSpec& part) {
           named_choice<Outside>(outside_names, part.outside)};
 }
 
-std::unique_ptr<VelocityField> make_part(const FileVelocity& part, const Case& /*spec*/, int /*threads*/) {
+std::unique_ptr<VelocityField> make_part(const FileVelocitySpec& part, const Case& /*spec*/, int /*threads*/) {
   return std::make_unique<GriddedVelocity>(interpolator(part));
 }
 
@@ -57,15 +57,15 @@ std::unique_ptr<VelocityField> make_part(const GaussianVelocitySpec& part, const
   return make_gaussian_velocity(*part.model, seeding.size(), threads);
 }
 
-std::unique_ptr<InitialDensity> make_part(const FileDensity& part, const Case& /*spec*/, int /*threads*/) {
+std::unique_ptr<InitialDensity> make_part(const FileDensitySpec& part, const Case& /*spec*/, int /*threads*/) {
   return std::make_unique<GriddedDensity>(interpolator(part));
 }
 
-std::unique_ptr<InitialDensity> make_part(const ExpressionDensity& part, const Case& spec, int /*threads*/) {
+std::unique_ptr<InitialDensity> make_part(const ExpressionDensitySpec& part, const Case& spec, int /*threads*/) {
   return std::make_unique<WrittenDensity>(part.text, spec.domain.dimension, spec.params);
 }
 
-std::unique_ptr<InitialDensity> make_part(const ShapeDensity& part, const Case& spec, int /*threads*/) {
+std::unique_ptr<InitialDensity> make_part(const ShapeDensitySpec& part, const Case& spec, int /*threads*/) {
   const NamedShape& shape = find_named_shape(part.shape);
   return shape.make(spec.domain.dimension, complete(shape.about, part.arguments, box_of(spec.domain)));
 }

@@ -220,7 +220,7 @@ TEST(PointsCompared, AreFollowedByHalfStepsThroughManyKinks) {
 
 TEST(PointsCompared, AreMeasuredWhereACheckAsksForThem) {
   Case spec = built_in("rotating_cone", {"particles.per_axis=41"});
-  spec.velocity = {ExpressionVelocity{{"sin(1e6*x*y)", "cos(1e6*x*y)"}}};  // no path that could be followed
+  spec.velocity = {ExpressionVelocitySpec{{"sin(1e6*x*y)", "cos(1e6*x*y)"}}};  // no path that could be followed
   const Scene scene = make_scene(spec);
   const auto plan = [&] { return plan_comparison(spec, scene, seed_scene(scene, 0).size(), 0); };
   spec.output.images.clear();

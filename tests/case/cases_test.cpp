@@ -173,7 +173,7 @@ TEST(Cases, ThatTurnBackAreCheckedWhereTheyTurn) {
   for (const std::string& name : all_cases()) {
     const Case spec = read_case(cases_folder + name + ".toml", {}).spec;
     for (const VelocitySpec& part : spec.velocity) {
-      const auto* named = std::get_if<NamedVelocity>(&part);
+      const auto* named = std::get_if<NamedVelocitySpec>(&part);
       if (!named || (named->field != "swirl" && named->field != "deformation")) continue;
       ++found;
       const double turn = spec.time.end / 2;
@@ -228,7 +228,7 @@ TEST(SwirlRemesh, KeepsTheFilamentWhole) {
 TEST(ScatteredSamples, AreAsGoodAsTheFormulaTheyAreTakenFrom) {
   const std::vector<std::string> size{"particles.per_axis=200", "evaluate.per_axis=61", "output.times=[\"2*pi\"]"};
   Case fitted = gaussdrift::read_case(cases_folder + "scattered_samples.toml", size).spec, exact = fitted;
-  exact.velocity = {ExpressionVelocity{{"-y*exp(-x^2 - y^2)", "x*exp(-x^2 - y^2)"}}};
+  exact.velocity = {ExpressionVelocitySpec{{"-y*exp(-x^2 - y^2)", "x*exp(-x^2 - y^2)"}}};
   const auto error = [](const Case& spec) { return Simulation(spec).run().frames.back().second.error->l1; };
   EXPECT_NEAR(error(fitted), error(exact), 8e-4 * error(exact));
 }

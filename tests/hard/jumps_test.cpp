@@ -74,7 +74,7 @@ TEST(Jump, OfAGriddedWindAtTheEdgeOfItsDataRuns) {
   data->times = {0};
   data->values = {{1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0}};
   Case scene = plane("u = [\"0\", \"0\"]");
-  FileVelocity wind;
+  FileVelocitySpec wind;
   wind.file = "wind.vti";
   wind.interpolation = "linear";
   wind.outside = "zero";

@@ -37,7 +37,7 @@ constexpr auto turning = [](double x, double y) { return std::pair(-y, x); };
 TEST_F(GridFile, IsReadAndSurvivesTheWayToAFileAndBack) {
   write_vti("wind.vti", 5, 5, 1, "u", 2, sampled(5, turning));
   const Case scene = parse_case(case_with("file = \"wind.vti\"\noutside = \"clamp\""), folder_ / "cone.toml").spec;
-  const auto& spec = std::get<FileVelocity>(scene.velocity.at(0));
+  const auto& spec = std::get<FileVelocitySpec>(scene.velocity.at(0));
   EXPECT_EQ(spec.outside, "clamp");
   EXPECT_EQ(spec.interpolation, "linear");
   ASSERT_TRUE(spec.data);
@@ -45,7 +45,7 @@ TEST_F(GridFile, IsReadAndSurvivesTheWayToAFileAndBack) {
   EXPECT_EQ(spec.data->values[0][0], 1);
   EXPECT_EQ(spec.data->values[0][1], -1);
   const Case again = parse_case(case_text(scene), "/elsewhere/run.toml").spec;  // the path is absolute
-  EXPECT_EQ(std::get<FileVelocity>(again.velocity.at(0)).data->values, spec.data->values);
+  EXPECT_EQ(std::get<FileVelocitySpec>(again.velocity.at(0)).data->values, spec.data->values);
 }
 
 TEST_F(GridFile, MayBeRectilinear) {
@@ -67,7 +67,7 @@ TEST_F(GridFile, MayBeRectilinear) {
       << u.str() << "</DataArray></PointData><Coordinates>" << axis("x", x_text.str()) << axis("y", y_text.str())
       << axis("z", "0") << "</Coordinates></Piece></RectilinearGrid></VTKFile>\n";
   const Case scene = parse_case(case_with("file = \"wind.vtr\""), folder_ / "cone.toml").spec;
-  const auto& data = std::get<FileVelocity>(scene.velocity.at(0)).data;
+  const auto& data = std::get<FileVelocitySpec>(scene.velocity.at(0)).data;
   EXPECT_EQ(data->axis[0], xs);
   EXPECT_EQ(data->axis[1], ys);
   const GriddedVelocity field(GridInterpolator(data, Interpolation::linear, Outside::error));

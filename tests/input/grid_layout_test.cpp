@@ -53,8 +53,8 @@ TEST_F(GridLayout, OfSeveralArraysIsInTheCaseAndInItsResolvedForm) {
   for (const char* line : {"arrays = [\"u\", \"v\"]", "missing = \"nearest\"", "missing_value = -7"})
     EXPECT_NE(resolved.find(line), std::string::npos) << line;
   const Case again = parse_case(resolved, "/elsewhere/run.toml").spec;
-  EXPECT_EQ(std::get<FileVelocity>(again.velocity.at(0)).data->values,
-            std::get<FileVelocity>(scene.velocity.at(0)).data->values);
+  EXPECT_EQ(std::get<FileVelocitySpec>(again.velocity.at(0)).data->values,
+            std::get<FileVelocitySpec>(scene.velocity.at(0)).data->values);
   EXPECT_NE(
       message("file = \"wind.vti\"\narray = \"u\"\narrays = [\"u\", \"v\"]").find("both \"array\" and \"arrays\""),
       std::string::npos);

@@ -35,23 +35,23 @@ void expect_same(const Case& a, const Case& b) {
   ASSERT_EQ(a.velocity.size(), b.velocity.size());
   for (std::size_t k = 0; k < a.velocity.size(); ++k) {
     ASSERT_EQ(a.velocity[k].index(), b.velocity[k].index());
-    if (const auto* u = std::get_if<ExpressionVelocity>(&a.velocity[k])) {
-      EXPECT_EQ(u->components, std::get<ExpressionVelocity>(b.velocity[k]).components);
+    if (const auto* u = std::get_if<ExpressionVelocitySpec>(&a.velocity[k])) {
+      EXPECT_EQ(u->components, std::get<ExpressionVelocitySpec>(b.velocity[k]).components);
     }
-    if (const auto* named = std::get_if<NamedVelocity>(&a.velocity[k])) {
-      EXPECT_EQ(named->field, std::get<NamedVelocity>(b.velocity[k]).field);
-      EXPECT_EQ(named->arguments, std::get<NamedVelocity>(b.velocity[k]).arguments);
+    if (const auto* named = std::get_if<NamedVelocitySpec>(&a.velocity[k])) {
+      EXPECT_EQ(named->field, std::get<NamedVelocitySpec>(b.velocity[k]).field);
+      EXPECT_EQ(named->arguments, std::get<NamedVelocitySpec>(b.velocity[k]).arguments);
     }
   }
   ASSERT_EQ(a.density.size(), b.density.size());
   for (std::size_t k = 0; k < a.density.size(); ++k) {
     ASSERT_EQ(a.density[k].index(), b.density[k].index());
-    if (const auto* expression = std::get_if<ExpressionDensity>(&a.density[k])) {
-      EXPECT_EQ(expression->text, std::get<ExpressionDensity>(b.density[k]).text);
+    if (const auto* expression = std::get_if<ExpressionDensitySpec>(&a.density[k])) {
+      EXPECT_EQ(expression->text, std::get<ExpressionDensitySpec>(b.density[k]).text);
     }
-    if (const auto* shape = std::get_if<ShapeDensity>(&a.density[k])) {
-      EXPECT_EQ(shape->shape, std::get<ShapeDensity>(b.density[k]).shape);
-      EXPECT_EQ(shape->arguments, std::get<ShapeDensity>(b.density[k]).arguments);
+    if (const auto* shape = std::get_if<ShapeDensitySpec>(&a.density[k])) {
+      EXPECT_EQ(shape->shape, std::get<ShapeDensitySpec>(b.density[k]).shape);
+      EXPECT_EQ(shape->arguments, std::get<ShapeDensitySpec>(b.density[k]).arguments);
     }
   }
   EXPECT_EQ(a.particles.per_axis, b.particles.per_axis);
@@ -92,8 +92,8 @@ TEST(Case, HasWhatTheFileSays) {
   EXPECT_EQ(scene.params, (Params{{"R", 0.25}, {"turn", turn}}));
   EXPECT_EQ(scene.domain.dimension, 2);
   EXPECT_EQ(scene.domain.min, (std::array<double, 3>{-1, -1, 0}));
-  EXPECT_EQ(std::get<ExpressionVelocity>(scene.velocity.at(0)).components, (std::vector<std::string>{"-y", "x"}));
-  const auto& shape = std::get<ShapeDensity>(scene.density.at(0));
+  EXPECT_EQ(std::get<ExpressionVelocitySpec>(scene.velocity.at(0)).components, (std::vector<std::string>{"-y", "x"}));
+  const auto& shape = std::get<ShapeDensitySpec>(scene.density.at(0));
   EXPECT_EQ(shape.shape, "wendland");
   EXPECT_EQ(shape.arguments, (Arguments{{"center", {0.5, 0}}, {"radius", {0.25}}, {"height", {1.5}}}));
   EXPECT_EQ(scene.time.end, turn);
@@ -165,10 +165,10 @@ TEST(Case, TakesItsDefaultsFromTheRegistryAndTheyAreValid) {
   const Case flat = parse(with(cone, "images = [\"surface\"]\n", ""));
   EXPECT_EQ(base::names_of(flat.output.images), std::vector<std::string_view>{"surface"});
   const auto rotation =
-      std::get<NamedVelocity>(parse(with(cone, "u = [\"-y\", \"x\"]", "field = \"rotation\"")).velocity.at(0));
+      std::get<NamedVelocitySpec>(parse(with(cone, "u = [\"-y\", \"x\"]", "field = \"rotation\"")).velocity.at(0));
   EXPECT_EQ(rotation.arguments, (Arguments{{"center", {0, 0}}, {"rate", {1}}}));
-  EXPECT_EQ(number(std::get<ShapeDensity>(parse(with(cone, "height = 1.5\n", "")).density.at(0)).arguments, "height"),
-            1);
+  EXPECT_EQ(
+      number(std::get<ShapeDensitySpec>(parse(with(cone, "height = 1.5\n", "")).density.at(0)).arguments, "height"), 1);
 }
 
 TEST(Case, TakesExpressionsWhereverANumberStands) {
@@ -180,14 +180,15 @@ TEST(Case, TakesExpressionsWhereverANumberStands) {
   EXPECT_EQ(scene.particles.per_axis, 300);
   EXPECT_EQ(scene.domain.max, (std::array<double, 3>{1, 1, 0}));
   EXPECT_DOUBLE_EQ(scene.evaluate.tolerance, 1e-6);
-  EXPECT_EQ(std::get<NamedVelocity>(scene.velocity.at(0)).arguments,
+  EXPECT_EQ(std::get<NamedVelocitySpec>(scene.velocity.at(0)).arguments,
             (Arguments{{"center", {0.125, 0}}, {"rate", {2 * std::numbers::pi}}}));
 }
 
 TEST(Case, TakesPlainNumbersAsVelocityAndDensity) {
   const Case scene = parse(with(with(least, "\"y\", \"z*t\", \"x\"", "1, 0.5, \"x\""), "\"exp(-x^2-y^2-z^2)\"", "1"));
-  EXPECT_EQ(std::get<ExpressionVelocity>(scene.velocity.at(0)).components, (std::vector<std::string>{"1", "0.5", "x"}));
-  EXPECT_EQ(std::get<ExpressionDensity>(scene.density.at(0)).text, "1");
+  EXPECT_EQ(std::get<ExpressionVelocitySpec>(scene.velocity.at(0)).components,
+            (std::vector<std::string>{"1", "0.5", "x"}));
+  EXPECT_EQ(std::get<ExpressionDensitySpec>(scene.density.at(0)).text, "1");
 }
 
 TEST(Case, AddsUpSeveralVelocitiesAndDensities) {
@@ -196,11 +197,11 @@ TEST(Case, AddsUpSeveralVelocitiesAndDensities) {
                                 "[density]", "[[density]]\nexpression = \"x\"\n[[density]]"),
                            {"velocity[2].rate=3", "density[2].height=4"});
   ASSERT_EQ(scene.velocity.size(), 2u);
-  EXPECT_EQ(std::get<ExpressionVelocity>(scene.velocity[0]).components, (std::vector<std::string>{"-y", "x"}));
-  EXPECT_EQ(number(std::get<NamedVelocity>(scene.velocity[1]).arguments, "rate"), 3);
+  EXPECT_EQ(std::get<ExpressionVelocitySpec>(scene.velocity[0]).components, (std::vector<std::string>{"-y", "x"}));
+  EXPECT_EQ(number(std::get<NamedVelocitySpec>(scene.velocity[1]).arguments, "rate"), 3);
   ASSERT_EQ(scene.density.size(), 2u);
-  EXPECT_EQ(std::get<ExpressionDensity>(scene.density[0]).text, "x");
-  EXPECT_EQ(number(std::get<ShapeDensity>(scene.density[1]).arguments, "height"), 4);
+  EXPECT_EQ(std::get<ExpressionDensitySpec>(scene.density[0]).text, "x");
+  EXPECT_EQ(number(std::get<ShapeDensitySpec>(scene.density[1]).arguments, "height"), 4);
   expect_same(parse(case_text(scene)), scene);
 }
 
@@ -242,7 +243,7 @@ TEST(Overrides, HaveTheTypesOfTheFile) {
   EXPECT_EQ(scene.time.end, std::numbers::pi);
   EXPECT_EQ(scene.output.times, (std::vector<double>{0, std::numbers::pi}));
   EXPECT_EQ(scene.title, "a = b");
-  EXPECT_EQ(number(std::get<ShapeDensity>(scene.density.at(0)).arguments, "radius"), 0.5)
+  EXPECT_EQ(number(std::get<ShapeDensitySpec>(scene.density.at(0)).arguments, "radius"), 0.5)
       << "expressions see the parameter that was set";
   EXPECT_EQ(scene.evaluate.method, "direct");
 }

@@ -31,20 +31,20 @@ void read_density(Reader& in, std::vector<DensitySpec>& density) {
   in.each_part("density", [&](std::string_view kind, const Value& value) {
     const Key& key = find_key("density", kind);
     if (kind == "expression")
-      density.emplace_back(ExpressionDensity{in.field_expression(value, in.label_of(key), false)});
-    if (kind == "file") density.emplace_back(grid_file<FileDensity>(in, "density", value, 1, 1));
+      density.emplace_back(ExpressionDensitySpec{in.field_expression(value, in.label_of(key), false)});
+    if (kind == "file") density.emplace_back(grid_file<FileDensitySpec>(in, "density", value, 1, 1));
     if (kind == "shape")
-      density.emplace_back(ShapeDensity{value.text, in.arguments(key, find_named_shape(value.text).about, value)});
+      density.emplace_back(ShapeDensitySpec{value.text, in.arguments(key, find_named_shape(value.text).about, value)});
   });
 }
 
 namespace {
 
-void write_part(Writer& out, const ExpressionDensity& spec) { out.entry("expression", written(spec.text)); }
+void write_part(Writer& out, const ExpressionDensitySpec& spec) { out.entry("expression", written(spec.text)); }
 
-void write_part(Writer& out, const FileDensity& spec) { write_grid_file(out, spec); }
+void write_part(Writer& out, const FileDensitySpec& spec) { write_grid_file(out, spec); }
 
-void write_part(Writer& out, const ShapeDensity& spec) {
+void write_part(Writer& out, const ShapeDensitySpec& spec) {
   out.entry("shape", written(spec.shape));
   out.arguments("density", spec.shape, spec.arguments);
 }

@@ -131,8 +131,8 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
   return spec;
 }
 
-template FileVelocity grid_file(Reader&, std::string_view, const Value&, int, int);
-template FileDensity grid_file(Reader&, std::string_view, const Value&, int, int);
+template FileVelocitySpec grid_file(Reader&, std::string_view, const Value&, int, int);
+template FileDensitySpec grid_file(Reader&, std::string_view, const Value&, int, int);
 
 /// Data at several times must cover the run.
 void check_times_of_files(Reader& in) {
@@ -158,7 +158,7 @@ void write_grid_file(Writer& out, const FileSpec& spec) {
   if (spec.missing_value) out.entry("missing_value", written(*spec.missing_value));
 }
 
-template void write_grid_file(Writer&, const FileVelocity&);
-template void write_grid_file(Writer&, const FileDensity&);
+template void write_grid_file(Writer&, const FileVelocitySpec&);
+template void write_grid_file(Writer&, const FileDensitySpec&);
 
 }  // namespace gaussdrift::input

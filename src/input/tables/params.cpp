@@ -70,12 +70,12 @@ bool is_expression(const NamedParameter& parameter) {
 Params params_in_use(const Case& spec) {
   std::vector<std::string> texts;
   for (const auto& part : spec.velocity)
-    if (const auto* velocity = std::get_if<ExpressionVelocity>(&part))
+    if (const auto* velocity = std::get_if<ExpressionVelocitySpec>(&part))
       texts.insert(texts.end(), velocity->components.begin(), velocity->components.end());
-    else if (const auto* stream = std::get_if<StreamfunctionVelocity>(&part))
+    else if (const auto* stream = std::get_if<StreamfunctionVelocitySpec>(&part))
       texts.push_back(stream->psi);
   for (const auto& part : spec.density)
-    if (const auto* density = std::get_if<ExpressionDensity>(&part)) texts.push_back(density->text);
+    if (const auto* density = std::get_if<ExpressionDensitySpec>(&part)) texts.push_back(density->text);
   if (spec.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(spec.reference.rho);
   for (const auto& [effect, values] : effects_of(spec.effects))
     for (const NamedParameter& parameter : effect->about.parameters)

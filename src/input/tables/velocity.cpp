@@ -143,7 +143,7 @@ GaussianVelocitySpec gaussians(Reader& in, const Value& value) {
   return spec;
 }
 
-StreamfunctionVelocity streamfunction(Reader& in, const Value& value) {
+StreamfunctionVelocitySpec streamfunction(Reader& in, const Value& value) {
   const std::string label = in.label_of(find_key("velocity", "streamfunction"));
   if (in.facts.dimension == 3)
     in.diagnostics.error(value.place, fmt::format("{} exists only in 2D; the domain has 3 dimensions", label),
@@ -161,10 +161,10 @@ StreamfunctionVelocity streamfunction(Reader& in, const Value& value) {
   return {psi};
 }
 
-ExpressionVelocity expression_velocity(Reader& in, const Value& value) {
+ExpressionVelocitySpec expression_velocity(Reader& in, const Value& value) {
   const Key& key = find_key("velocity", "u");
   const std::string label = in.label_of(key);
-  ExpressionVelocity field;
+  ExpressionVelocitySpec field;
   if (value.kind != Kind::list) {
     in.wrong_type(value, label, type_text(key));
     return field;
@@ -180,22 +180,23 @@ ExpressionVelocity expression_velocity(Reader& in, const Value& value) {
 void read_velocity(Reader& in, std::vector<VelocitySpec>& velocity) {
   in.each_part("velocity", [&](std::string_view kind, const Value& value) {
     if (kind == "u") velocity.emplace_back(expression_velocity(in, value));
-    if (kind == "file") velocity.emplace_back(grid_file<FileVelocity>(in, "velocity", value, in.facts.dimension, 3));
+    if (kind == "file")
+      velocity.emplace_back(grid_file<FileVelocitySpec>(in, "velocity", value, in.facts.dimension, 3));
     if (kind == "gaussians") velocity.emplace_back(gaussians(in, value));
     if (kind == "streamfunction") velocity.emplace_back(streamfunction(in, value));
     if (kind == "field")
-      velocity.emplace_back(NamedVelocity{
+      velocity.emplace_back(NamedVelocitySpec{
           value.text, in.arguments(find_key("velocity", kind), find_named_field(value.text).about, value)});
   });
 }
 
 namespace {
 
-void write_part(Writer& out, const ExpressionVelocity& spec) { out.entry("u", written(spec.components)); }
+void write_part(Writer& out, const ExpressionVelocitySpec& spec) { out.entry("u", written(spec.components)); }
 
-void write_part(Writer& out, const StreamfunctionVelocity& spec) { out.entry("streamfunction", written(spec.psi)); }
+void write_part(Writer& out, const StreamfunctionVelocitySpec& spec) { out.entry("streamfunction", written(spec.psi)); }
 
-void write_part(Writer& out, const FileVelocity& spec) { write_grid_file(out, spec); }
+void write_part(Writer& out, const FileVelocitySpec& spec) { write_grid_file(out, spec); }
 
 void write_part(Writer& out, const GaussianVelocitySpec& spec) {
   out.entry("gaussians", out.data_file(spec.file));
@@ -206,7 +207,7 @@ void write_part(Writer& out, const GaussianVelocitySpec& spec) {
   out.entry("tolerance", written(spec.tolerance));
 }
 
-void write_part(Writer& out, const NamedVelocity& spec) {
+void write_part(Writer& out, const NamedVelocitySpec& spec) {
   out.entry("field", written(spec.field));
   out.arguments("velocity", spec.field, spec.arguments);
 }
