@@ -25,6 +25,7 @@ struct FrameNumbers {
   double transform_error = 0;
   double transform_tolerance = 0;  ///< per-term tolerance that was asked of fgtd
   double evaluate_seconds = 0;     ///< preparing and evaluating the transform
+  double seconds = 0;              ///< since the run began, where this output is ready to be looked at
   /// Largest distance of particles that start as lattice neighbours, in spacings; 0: they are replaced.
   double stretch = 0;
   double weight = 0;                ///< sum_j |alpha_j|

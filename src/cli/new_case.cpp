@@ -87,6 +87,7 @@ ExitCode new_case(const NewOptions& options) {
   if (!options.folder.empty() && (fs::create_directories(options.folder, failure), failure))
     throw FileError(fmt::format("the folder {} cannot be made: {}", options.folder.string(), failure.message()));
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  write::remove_what_killed_processes_left(options.folder.empty() ? "." : options.folder);
   for (const input::ExampleFile* file : files) {
     const fs::path path = options.folder / file->name;
     write::write_text(path, file->bytes);

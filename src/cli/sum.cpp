@@ -146,11 +146,7 @@ class Output {
   std::FILE* stream_;
 };
 
-void write_file(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, const fs::path& file) {
-  Output out(file);
-  sum::write_table(columns, values, out.stream());
-  out.close();
-}
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd& values, const SumOptions& options) {
   std::error_code ignored;
@@ -158,10 +154,14 @@ void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd
   try {
     if (to_standard_output(options))
       sum::write_table(columns, values, stdout);
-    else if (special)  // a pipe or a device is written to; a rename would replace it
-      write_file(columns, values, options.out);
-    else
-      write::write_atomically(options.out, [&](const fs::path& part) { write_file(columns, values, part); });
+    else if (special) {  // a pipe or a device is written to; a rename would replace it
+      Output out(options.out);
+      sum::write_table(columns, values, out.stream());
+      out.close();
+    } else {
+      write::remove_what_killed_processes_left(folder_of(options.out));
+      write::write_atomically(options.out, [&](std::FILE* out) { sum::write_table(columns, values, out); });
+    }
   } catch (const std::system_error& error) {
     if (to_standard_output(options) && error.code() == std::errc::broken_pipe) return;  // as in: sum ... | head
     throw FileError(fmt::format("cannot write {}: {}",

@@ -239,6 +239,7 @@ void Simulation::Parts::show_frame(double time) {
   if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding);
   std::vector<double> exact;
   if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
+  frame.numbers.seconds = seconds_before_ + watch_.seconds();
   summary_.frames.emplace_back(time, frame.numbers);
   for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
 }
@@ -298,9 +299,9 @@ void Simulation::Parts::begin() {
 
 // Numbers of an output, one by one: a new one must not be forgotten here.
 void pass(base::StateBytes& bytes, FrameNumbers& n) {
-  static_assert(sizeof(FrameNumbers) == 144 + sizeof(std::string), "a number is not passed yet");
+  static_assert(sizeof(FrameNumbers) == 152 + sizeof(std::string), "a number is not passed yet");
   bytes(n.mass, n.minimum, n.maximum, n.centroid, n.transform_error, n.transform_tolerance, n.evaluate_seconds,
-        n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
+        n.seconds, n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
 }
 
 // What the run has come to, beside the particles.

@@ -53,20 +53,20 @@ json columns_of(const Particles& particles) {
 /// A file that is written or read in large parts, with a check sum of all of them.
 class RawFile {
  public:
-  RawFile(const fs::path& file, const char* mode) : file_(std::fopen(file.c_str(), mode), &std::fclose) {
+  /// Reads.
+  explicit RawFile(const fs::path& file) : own_(std::fopen(file.c_str(), "rb"), &std::fclose), file_(own_.get()) {
     if (!file_) throw std::system_error(errno, std::generic_category());
   }
+  /// Writes.
+  explicit RawFile(std::FILE* file) : own_(nullptr, &std::fclose), file_(file) {}
   void write(const void* data, std::size_t bytes) {
     add(data, bytes);
-    if (bytes > 0 && std::fwrite(data, 1, bytes, file_.get()) != bytes)
+    if (bytes > 0 && std::fwrite(data, 1, bytes, file_) != bytes)
       throw std::system_error(errno, std::generic_category());
   }
   void read(void* data, std::size_t bytes) {
-    if (bytes > 0 && std::fread(data, 1, bytes, file_.get()) != bytes) throw std::runtime_error("it is cut short");
+    if (bytes > 0 && std::fread(data, 1, bytes, file_) != bytes) throw std::runtime_error("it is cut short");
     add(data, bytes);
-  }
-  void close() {
-    if (std::fclose(file_.release()) != 0) throw std::system_error(errno, std::generic_category());
   }
   std::uint64_t sum() const { return sum_; }
   std::size_t bytes() const { return bytes_; }
@@ -76,7 +76,8 @@ class RawFile {
     sum_ = crc32_z(sum_, static_cast<const Bytef*>(data), bytes);
     bytes_ += bytes;
   }
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> own_;
+  std::FILE* file_;
   uLong sum_ = crc32_z(0, nullptr, 0);
   std::size_t bytes_ = 0;
 };
@@ -85,10 +86,9 @@ class RawFile {
 template <class Write>
 json write_raw(const fs::path& folder, const fs::path& name, const Write& write) {
   json entry{{"file", name.string()}};
-  write_atomically(folder / name, [&](const fs::path& part) {
-    RawFile file(part, "wb");
+  write_atomically(folder / name, [&](std::FILE* part) {
+    RawFile file(part);
     write(file);
-    file.close();
     entry["bytes"] = file.bytes();
     entry["crc32"] = file.sum();
   });
@@ -137,7 +137,7 @@ RawFile open_checked(const fs::path& folder, const json& entry, std::size_t expe
   if (error) throw std::runtime_error(fmt::format("{} is missing", name));
   if (bytes != expected || entry.at("bytes").get<std::uint64_t>() != expected)
     throw std::runtime_error(fmt::format("{} has {} bytes, must have {}", name, bytes, expected));
-  return RawFile(folder / name, "rb");
+  return RawFile(folder / name);
 }
 
 void check_sum(const RawFile& file, const json& entry) {

@@ -35,12 +35,21 @@ class FileSeries : public Observer {
       : kind_(kind), folder_(folder / kind.about.name), collection_(folder / fmt::format("{}.pvd", kind.about.name)) {}
   std::string name() const override { return fmt::format("write {}", kind_.about.name); }
   void frame(const Frame& frame) override {
-    const fs::path file = folder_ / fmt::format("{}_{:04}{}", kind_.about.name, frame.index, kind_.ending);
+    const fs::path file = file_of(static_cast<std::size_t>(frame.index));
     write_text(file, kind_.text(file, frame));
     collection_.add(frame.time, file);
   }
+  void restore(const std::vector<std::pair<double, FrameNumbers>>& frames, const std::string& /*state*/) override {
+    std::vector<std::pair<double, fs::path>> entries;
+    for (const auto& [time, numbers] : frames) entries.emplace_back(time, file_of(entries.size()));
+    if (!entries.empty()) collection_.begin(entries);
+  }
 
  private:
+  fs::path file_of(std::size_t index) const {
+    return folder_ / fmt::format("{}_{:04}{}", kind_.about.name, index, kind_.ending);
+  }
+
   const FileKind kind_;
   fs::path folder_;
   Collection collection_;

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "base/stopwatch.hpp"
-#include "write/atomic_file.hpp"
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "write/growing_file.hpp"
 
 namespace gaussdrift::write {
 
@@ -14,31 +17,43 @@ namespace {
 class SeriesTable : public Observer {
  public:
   SeriesTable(const fs::path& folder, int dimension, bool errors)
-      : file_(folder / series_name), dimension_(dimension), errors_(errors) {
-    table_ = "t,mass,minimum,maximum,centroid_x,centroid_y";
-    table_ += dimension == 3 ? ",centroid_z" : "";
-    table_ += ",transform_error";
-    table_ += errors ? ",L1,L2,Linf" : "";
-    table_ += ",outside,evaluate_seconds,seconds\n";
-  }
+      : text_(folder / series_name), dimension_(dimension), errors_(errors) {}
   std::string name() const override { return "write series"; }
   void frame(const Frame& frame) override {
-    const FrameNumbers& n = frame.numbers;
-    table_ += fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}", frame.time, n.mass, n.minimum, n.maximum);
-    for (int k = 0; k < dimension_; ++k) table_ += fmt::format(",{:.17g}", n.centroid[k]);
-    table_ += fmt::format(",{:.3e}", n.transform_error);
-    const ErrorNorms error = n.error.value_or(ErrorNorms{});
-    if (errors_) table_ += fmt::format(",{:.6e},{:.6e},{:.6e}", error.l1, error.l2, error.linf);
-    table_ += fmt::format(",{:.17g},{:.6f},{:.6f}\n", n.outside, n.evaluate_seconds, watch_.seconds());
-    write_text(file_, table_);
+    if (begun_)
+      text_.append(row(frame.time, frame.numbers));
+    else
+      begin({{frame.time, frame.numbers}});
+  }
+  void restore(const std::vector<std::pair<double, FrameNumbers>>& frames, const std::string& /*state*/) override {
+    if (!frames.empty()) begin(frames);
   }
 
  private:
-  fs::path file_;
+  void begin(const std::vector<std::pair<double, FrameNumbers>>& frames) {
+    std::string table = "t,mass,minimum,maximum,centroid_x,centroid_y";
+    table += dimension_ == 3 ? ",centroid_z" : "";
+    table += ",transform_error";
+    table += errors_ ? ",L1,L2,Linf" : "";
+    table += ",outside,evaluate_seconds,seconds\n";
+    for (const auto& [time, numbers] : frames) table += row(time, numbers);
+    text_.begin(table);
+    begun_ = true;
+  }
+
+  std::string row(double time, const FrameNumbers& n) const {
+    std::string row = fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}", time, n.mass, n.minimum, n.maximum);
+    for (int k = 0; k < dimension_; ++k) row += fmt::format(",{:.17g}", n.centroid[k]);
+    row += fmt::format(",{:.3e}", n.transform_error);
+    const ErrorNorms error = n.error.value_or(ErrorNorms{});
+    if (errors_) row += fmt::format(",{:.6e},{:.6e},{:.6e}", error.l1, error.l2, error.linf);
+    return row + fmt::format(",{:.17g},{:.6f},{:.6f}\n", n.outside, n.evaluate_seconds, n.seconds);
+  }
+
+  GrowingFile text_;
   int dimension_;
   bool errors_;
-  std::string table_;
-  base::Stopwatch watch_;  // runs from the start of the run
+  bool begun_ = false;
 };
 
 }  // namespace

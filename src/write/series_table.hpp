@@ -10,8 +10,7 @@ namespace gaussdrift::write {
 
 constexpr const char* series_name = "series.csv";
 
-/// The whole file is written again each time, so it is never half a row. `errors`: with the norms of the
-/// error, for runs that have a reference.
+/// Whole rows are there at every moment. `errors`: with the norms of the error, for runs that have a reference.
 std::unique_ptr<Observer> series_table(const std::filesystem::path& folder, int dimension, bool errors);
 
 }  // namespace gaussdrift::write

@@ -187,18 +187,28 @@ void write_particles(const fs::path& file, const Particles& particles, const std
   write_text(file, particle_text(file, particles, velocity, time));
 }
 
-void Collection::add(double time, const fs::path& data) {
+Collection::Collection(fs::path file) : file_(std::move(file)), text_(file_, "  </Collection>\n</VTKFile>\n") {}
+
+std::string Collection::entry(double time, const fs::path& data) const {
   const fs::path folder = fs::absolute(file_).lexically_normal().parent_path();
-  auto entries = entries_;
-  entries.emplace_back(time, fs::absolute(data).lexically_normal().lexically_relative(folder).generic_string());
+  const std::string name = fs::absolute(data).lexically_normal().lexically_relative(folder).generic_string();
+  return fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", time, escaped(name));
+}
+
+void Collection::add(double time, const fs::path& data) {
+  if (begun_)
+    text_.append(entry(time, data));
+  else
+    begin({{time, data}});
+}
+
+void Collection::begin(const std::vector<std::pair<double, fs::path>>& entries) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
       "<Collection>\n";
-  for (const auto& [t, name] : entries)
-    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", t, escaped(name));
-  text += "  </Collection>\n</VTKFile>\n";
-  write_text(file_, text);
-  entries_ = std::move(entries);
+  for (const auto& [time, data] : entries) text += entry(time, data);
+  text_.begin(text);
+  begun_ = true;
 }
 
 }  // namespace gaussdrift::write

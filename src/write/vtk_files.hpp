@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gaussdrift/frame.hpp"
+#include "write/growing_file.hpp"
 
 namespace gaussdrift::write {
 
@@ -27,16 +28,20 @@ std::string density_text(const std::filesystem::path& file, const DensityGrid& d
 std::string particle_text(const std::filesystem::path& file, const Particles& particles,
                           const std::vector<double>& velocity, double time);
 
-/// A ParaView collection: `add` writes the whole .pvd again, beside its name, and renames it. Throws FileError.
+/// A ParaView collection, whole after every call. Data are named relative to the folder of the .pvd. Throws FileError.
 class Collection {
  public:
-  explicit Collection(std::filesystem::path file) : file_(std::move(file)) {}
-  /// `data` is written relative to the folder of the .pvd.
+  explicit Collection(std::filesystem::path file);
   void add(double time, const std::filesystem::path& data);
+  /// Begins the .pvd anew with these entries; not none.
+  void begin(const std::vector<std::pair<double, std::filesystem::path>>& entries);
 
  private:
+  std::string entry(double time, const std::filesystem::path& data) const;
+
   std::filesystem::path file_;
-  std::vector<std::pair<double, std::string>> entries_;
+  GrowingFile text_;
+  bool begun_ = false;
 };
 
 }  // namespace gaussdrift::write

@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <stdexcept>
 #include <system_error>
 
@@ -39,11 +45,11 @@ TEST(AtomicFile, MakesItsFolders) {
 TEST(AtomicFile, WritesBesideItsNameInTheSameFolder) {
   const ScratchFolder folder;
   write_text(folder / "file.txt", "old");
-  write_atomically(folder / "file.txt", [&](const std::filesystem::path& part) {
-    EXPECT_EQ(part.parent_path(), folder.path());  // a rename across file systems would not be atomic
-    EXPECT_NE(part, folder / "file.txt");
-    std::ofstream(part) << "half";
+  write_atomically(folder / "file.txt", [&](std::FILE* part) {
+    std::fputs("half", part);
+    EXPECT_EQ(std::fflush(part), 0);
     EXPECT_EQ(read_file(folder / "file.txt"), "old");
+    EXPECT_EQ(folder.count(), 2u);  // a rename across file systems would not be atomic
   });
   EXPECT_EQ(read_file(folder / "file.txt"), "half");
 }
@@ -51,8 +57,8 @@ TEST(AtomicFile, WritesBesideItsNameInTheSameFolder) {
 TEST(AtomicFile, KeepsTheOldFileWhenWritingFails) {
   const ScratchFolder folder;
   write_text(folder / "file.txt", "old");
-  const auto broken = [](const std::filesystem::path& part) {
-    std::ofstream(part) << "half a te";
+  const auto broken = [](std::FILE* part) {
+    std::fputs("half a te", part);
     throw std::logic_error("out of ideas");
   };
   EXPECT_THROW(write_atomically(folder / "file.txt", broken), std::logic_error);
@@ -62,16 +68,61 @@ TEST(AtomicFile, KeepsTheOldFileWhenWritingFails) {
 
 TEST(AtomicFile, TurnsSystemErrorsIntoFileErrors) {
   const ScratchFolder folder;
-  const auto broken = [](const std::filesystem::path&) { throw std::system_error(EIO, std::generic_category()); };
+  const auto broken = [](std::FILE*) { throw std::system_error(EIO, std::generic_category()); };
   const auto text = message_of<FileError>([&] { write_atomically(folder / "file.txt", broken); });
   EXPECT_NE(text.find("file.txt"), std::string::npos) << text;
   EXPECT_NE(text.find("Input/output error (5)"), std::string::npos) << text;
 }
 
-TEST(AtomicFile, FailsWhenNothingWasWritten) {
+/// A link that somebody has put there must not lead the program to write elsewhere.
+TEST(AtomicFile, FollowsNoLinks) {
   const ScratchFolder folder;
-  EXPECT_THROW(write_atomically(folder / "file.txt", [](const auto&) {}), FileError);
-  EXPECT_EQ(folder.count(), 0u);
+  write_text(folder / "precious", "mine");
+  const std::string id = std::to_string(getpid());
+  for (int i = 0; i < 200; ++i)  // the names that a part may get next
+    std::filesystem::create_symlink(folder / "precious",
+                                    folder / (".gaussdrift-" + id + "-" + std::to_string(i) + ".part"));
+  std::filesystem::create_symlink(folder / "precious", folder / "v.csv.part");
+  std::filesystem::create_symlink(folder / "precious", folder / "v.csv");
+  write_text(folder / "v.csv", "values");
+  EXPECT_EQ(read_file(folder / "precious"), "mine");
+  EXPECT_EQ(read_file(folder / "v.csv"), "values");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "v.csv"));
+}
+
+TEST(AtomicFile, OfTwoWritersAtOnceOneIsLastAndWhole) {
+  const ScratchFolder folder;
+  write_atomically(folder / "file.txt", [&](std::FILE* part) {
+    std::fputs("first", part);
+    write_text(folder / "file.txt", "second");  // begins later and ends before
+    EXPECT_EQ(read_file(folder / "file.txt"), "second");
+  });
+  EXPECT_EQ(read_file(folder / "file.txt"), "first");
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(AtomicFile, IsRemovedWhereItsProcessWasKilledAndNotBefore) {
+  const ScratchFolder folder;
+  for (const char* name : {".gaussdrift-12-a.part", "user.part", ".hidden"}) write_text(folder / name, "mine");
+  std::array<int, 2> ready{};
+  ASSERT_EQ(pipe(ready.data()), 0);
+  const pid_t writer = fork();
+  if (writer == 0) {
+    write_atomically(folder / "file.txt", [&](std::FILE*) {
+      if (::write(ready[1], "x", 1) == 1) pause();
+    });
+    _exit(0);
+  }
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  remove_what_killed_processes_left(folder.path());
+  EXPECT_EQ(folder.count(), 4u) << "the file of a process that lives";
+  kill(writer, SIGKILL);
+  waitpid(writer, nullptr, 0);
+  EXPECT_EQ(folder.count(), 4u);
+  remove_what_killed_processes_left(folder.path());
+  EXPECT_EQ(folder.count(), 3u);
+  close(ready[0]), close(ready[1]);
 }
 
 TEST(AtomicFile, NamesAFileThatIsInTheWayOfAFolder) {
