@@ -72,9 +72,8 @@ std::size_t FileBytes::read(std::uint64_t offset, char* to, std::size_t count) {
 
 bool ByteStream::refill() {
   if (at_ >= end_) return false;
-  block_.resize(block_bytes);
-  const std::size_t got =
-      file_->read(at_, block_.data(), static_cast<std::size_t>(std::min<std::uint64_t>(block_bytes, end_ - at_)));
+  block_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(block_bytes, end_ - at_)));
+  const std::size_t got = file_->read(at_, block_.data(), block_.size());
   block_.resize(got);
   at_ += got;
   first_ = 0;

@@ -101,7 +101,8 @@ class TextReader {
   /// At most `most` numbers.
   std::vector<double> read(std::size_t most) {
     ByteStream stream(file_, array_.text_begin, array_.text_end, false);
-    std::vector<unsigned char> block(chunk_bytes);
+    std::vector<unsigned char> block(
+        static_cast<std::size_t>(std::min<std::uint64_t>(chunk_bytes, array_.text_end - array_.text_begin)));
     std::string word;
     while (numbers_.size() < most) {
       const std::size_t got = stream.read(block.data(), block.size());
@@ -342,8 +343,8 @@ std::vector<double> read_binary(FileBytes& file, const BinaryForm& form, const E
                                 std::size_t count) {
   WordReader<Number> words(form.swapped, count, binary.bytes / sizeof(Number) > count);
   ByteStream source(file, binary.data, binary.end, binary.base64);
-  std::vector<unsigned char> chunk(chunk_bytes);
   if (form.compressor.empty()) {
+    std::vector<unsigned char> chunk(std::min(chunk_bytes, std::max(binary.before, count * sizeof(Number))));
     source.read(chunk.data(), binary.before);
     for (std::uint64_t left = count * sizeof(Number); left > 0;) {
       const std::size_t some = static_cast<std::size_t>(std::min<std::uint64_t>(left, chunk.size()));
