@@ -55,7 +55,14 @@ std::vector<WrittenOutput> written_outputs(const fs::path& place, std::string_vi
   } catch (const read::GridFileError&) {  // the files say it themselves
   }
   std::map<fs::path, double> times;  // by name
-  for (const read::SeriesEntry& entry : listed) times[entry.file.filename()] = entry.time;
+  for (const read::SeriesEntry& entry : listed) {
+    // A run names files of its own. What leads elsewhere was put there by somebody.
+    const fs::path inside = entry.file.lexically_normal().lexically_relative((place / "").lexically_normal());
+    if (inside.empty() || *inside.begin() == "..")
+      throw FileError(fmt::format("line {} of {}.pvd in {} names {}, which is not in the folder of the run", entry.line,
+                                  series, place.string(), entry.file.string()));
+    times[entry.file.filename()] = entry.time;
+  }
   for (WrittenOutput& output : outputs) {
     const auto known = times.find(output.file.filename());
     output.time = known != times.end() ? known->second : snapshot(output.file, "rho").time;

@@ -73,11 +73,15 @@ std::string times(const Panel& panel) {
                       : span / power >= 8  ? 2 * power
                                            : power;
   std::string svg;
-  for (double k = std::ceil(panel.first / step - 1e-9); k * step <= panel.last + 1e-9 * step; ++k)
+  const double begin = std::ceil(panel.first / step - 1e-9);
+  for (int i = 0; i < 20; ++i) {  // where a step is below the rounding of the times, adding to k would change nothing
+    const double k = begin + i;
+    if (!(k * step <= panel.last + 1e-9 * step)) break;
     svg += fmt::format(
         "<line x1={0:.1f} x2={0:.1f} y1={1} y2={2} stroke=\"#888\"/><text x={0:.1f} y={3} "
         "text-anchor=middle>{4:.6g}</text>",
         panel.x(k * step), bottom, bottom + 5, bottom + 20, k == 0 ? 0 : k * step);
+  }
   return svg + fmt::format("<text x={} y={} text-anchor=middle>t</text>", Panel::left + Panel::width / 2, bottom + 40);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -19,7 +20,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of a run's folder, which may come from anybody: a link could bring any file of the reader onto the page, and a pipe
+/// or a device has no end.
 std::string read_text(const fs::path& file) {
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 28;
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error)) || fs::file_size(file, error) > most_bytes) return "";
   std::ifstream in(file, std::ios::binary);
   if (!in) return "";
   std::ostringstream text;
@@ -41,9 +47,7 @@ void write_file(const fs::path& file, const std::string& text, ReportFiles& resu
 class Page {
  public:
   Page(const fs::path& folder, const json& summary)
-      : folder_(folder),
-        summary_(summary),
-        provenance_(json::parse(read_text(folder / "provenance.json"), nullptr, false)) {}
+      : folder_(folder), summary_(summary), provenance_(parsed(read_text(folder / "provenance.json"))) {}
 
   ReportFiles write(bool pictures) {
     if (pictures)
@@ -159,7 +163,7 @@ ReportFiles write_report(const fs::path& folder, bool pictures) {
   const auto damaged = [&] {
     return FileError(fmt::format("{} is damaged: run the case again", (folder / "summary.json").string()));
   };
-  const json summary = json::parse(text, nullptr, false);
+  const json summary = parsed(text);
   for (const char* name : {"frames", "title", "case", "effects"})
     if (!summary.is_object() || !summary.contains(name)) throw damaged();
   try {

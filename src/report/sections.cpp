@@ -59,11 +59,11 @@ std::string about_comparison(const json& summary, const json& last) {
         " Compared at a sample, {} of the {} grid points, those around the maximum among them: the largest error is "
         "that "
         "of the sample.",
-        compared.get<std::size_t>(), points.get<std::size_t>());
+        number(compared, "{:.0f}"), number(points, "{:.0f}"));
   if (untraced.is_number() && untraced > 0)
     text +=
         fmt::format(" At {} points of the last output the exact density is not known, and the norms leave them out{}.",
-                    untraced.get<std::size_t>(),
+                    number(untraced, "{:.0f}"),
                     get(get(summary, "reference"), "trouble").is_string()
                         ? ": " + escaped(summary.at("reference").at("trouble").get<std::string>())
                         : "");

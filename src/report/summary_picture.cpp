@@ -8,6 +8,7 @@
 #include "read/written_run.hpp"
 #include "render/panel.hpp"
 #include "render/picture.hpp"
+#include "report/html.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::report {
@@ -30,14 +31,16 @@ std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary
   if (outputs.size() > 1) add(outputs.front(), "rho", "initial", false);
   add(outputs.back(), "rho", outputs.size() > 1 ? "final" : "density", false);
   const json frame = summary.at("frames").empty() ? json::object() : summary.at("frames").back();
-  const std::size_t points = panels.back().density.lattice.size(), compared = frame.value("compared", points);
+  const std::size_t points = panels.back().density.lattice.size();
+  const json told = get(frame, "compared");
+  const double compared = told.is_number() ? told.get<double>() : static_cast<double>(points);
   if (!frame.contains("Linf")) {
     notes.push_back("pictures of the exact density and the error: the run was compared with nothing");
-  } else if (compared < points) {
-    notes.push_back(
-        fmt::format("pictures of the exact density and the error: the run was compared at a sample, {} of the {} grid "
-                    "points (reference.points sets how many)",
-                    compared, points));
+  } else if (compared < static_cast<double>(points)) {
+    notes.push_back(fmt::format(
+        "pictures of the exact density and the error: the run was compared at a sample, {:.0f} of the {} grid "
+        "points (reference.points sets how many)",
+        compared, points));
   } else {
     try {
       add(outputs.back(), "rho_exact", "exact", false);
