@@ -6,13 +6,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <type_traits>
 
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
 #include "sum/first_lines.hpp"
+#include "sum/request_as_points.hpp"
+#include "sum/sums_json.hpp"
 
 namespace gaussdrift::sum {
 
@@ -21,12 +22,7 @@ namespace {
 constexpr double rounding = 1e-14;  // of the same sums that the tolerance is relative to
 
 template <int d>
-farfield::Points<d> points_of(const input::PointsTable& table) {
-  return Eigen::Map<const farfield::Points<d>>(table.positions.data(), d, static_cast<Eigen::Index>(table.size()));
-}
-
-template <int d>
-farfield::Points<d> points_of(const std::vector<GridAxis>& grid) {
+farfield::Points<d> nodes_as_points(const std::vector<GridAxis>& grid) {
   const auto nodes = nodes_of(grid);
   std::size_t count = 1;
   for (const auto& axis : nodes) count *= axis.size();
@@ -41,13 +37,6 @@ farfield::Points<d> points_of(const std::vector<GridAxis>& grid) {
   }
   return points;
 }
-
-Eigen::VectorXd charges_of(const PairSumRequest& request) {
-  return Eigen::Map<const Eigen::VectorXd>(request.sources.weights.data(),
-                                           static_cast<Eigen::Index>(request.sources.weights.size()));
-}
-
-double relative(double error, double size) { return error == 0 ? 0 : error / size; }
 
 /// The sums without signs that farfield's promise is relative to, at one target.
 struct Unsigned {
@@ -77,14 +66,15 @@ void measure(const PairSumRequest& request, PairSums& result) {
   farfield::Options options;
   options.method = farfield::Method::direct;
   options.threads = request.threads;
-  const Eigen::VectorXd charges = charges_of(request);
+  const Eigen::VectorXd charges = weights_of(request);
   const farfield::Values<d> exact =
       farfield::Plan<d>(request.kernel, points_of<d>(request.sources), farfield::Points<d>(sample.points), options)
           .evaluate(charges);
   std::vector<Unsigned> scale(count);
   base::parallel_for({count, 10e-9 * static_cast<double>(count * request.sources.size())}, request.threads,
                      [&](std::size_t i) { scale[i] = unsigned_sums<d>(request, sample.points.data() + i * d); });
-  double worst[2] = {}, error[2] = {}, size[2] = {};
+  Worst worst[2];
+  double error[2] = {}, size[2] = {};
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     double square[2] = {};
@@ -95,13 +85,12 @@ void measure(const PairSumRequest& request, PairSums& result) {
     }
     for (const int k : {0, 1}) {
       error[k] += square[k];
-      const double off = relative(std::sqrt(square[k]), k == 0 ? scale[i].potential : scale[i].field);
-      if (!(off <= worst[k]) && !std::isnan(worst[k])) worst[k] = off;  // what is not a number stays
+      worst[k].take(relative(std::sqrt(square[k]), k == 0 ? scale[i].potential : scale[i].field));
     }
   }
   result.compared = count;
   const double allowed = request.tolerance + rounding;
-  result.measured = {{"the potential", worst[0], allowed}, {"the field", worst[1], allowed}};
+  result.measured = {{"the potential", worst[0].error(), allowed}, {"the field", worst[1].error(), allowed}};
   result.potential_of_itself = relative(std::sqrt(error[0]), std::sqrt(size[0]));
   result.field_of_itself = relative(std::sqrt(error[1]), std::sqrt(size[1]));
 }
@@ -111,9 +100,9 @@ void sum(const PairSumRequest& request, farfield::Options options, PairSums& res
   const farfield::Points<d> sources = points_of<d>(request.sources);
   const bool self = !request.targets && request.grid.empty();
   const farfield::Points<d> targets = self                   ? sources
-                                      : request.grid.empty() ? points_of<d>(*request.targets)
-                                                             : points_of<d>(request.grid);
-  const Eigen::VectorXd charges = charges_of(request);
+                                      : request.grid.empty() ? farfield::Points<d>(points_of<d>(*request.targets))
+                                                             : nodes_as_points<d>(request.grid);
+  const Eigen::VectorXd charges = weights_of(request);
 
   const base::Stopwatch preparing;
   const auto plan = self ? farfield::Plan<d>(request.kernel, sources, options)
@@ -152,19 +141,6 @@ void with_errors_of_farfield(const Work& work) {
   }
 }
 
-/// Calls work(std::integral_constant<int, d>) for the dimension.
-template <class Work>
-void in_dimension(int dimension, const Work& work) {
-  switch (dimension) {
-    case 1:
-      return work(std::integral_constant<int, 1>{});
-    case 2:
-      return work(std::integral_constant<int, 2>{});
-    default:
-      return work(std::integral_constant<int, 3>{});
-  }
-}
-
 }  // namespace
 
 PairSums sum_pairs(const PairSumRequest& request) {
@@ -190,7 +166,7 @@ PairSums sum_pairs(const PairSumRequest& request) {
   // Points are held twice, as read and as the library takes them.
   options.memory_limit = memory_for_plan(request, result.columns.size() + static_cast<std::size_t>(result.dimension));
   with_errors_of_farfield([&] {
-    in_dimension(result.dimension, [&](auto dimension) {
+    in_dimension<1, 3>(result.dimension, [&](auto dimension) {
       constexpr int d = decltype(dimension)::value;
       const auto work = [&](double most_seconds) {
         options.most_seconds = most_seconds;
@@ -212,7 +188,7 @@ PairSums sum_pairs(const PairSumRequest& request) {
 
 void measure_errors(const PairSumRequest& request, PairSums& sums) {
   with_errors_of_farfield(
-      [&] { in_dimension(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
+      [&] { in_dimension<1, 3>(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
 }
 
 std::string to_text(const PairSums& sums) {
@@ -229,10 +205,6 @@ std::string to_json(const PairSums& sums) {
   const farfield::Choice& choice = sums.choice;
   std::ostringstream line;
   line << choice;
-  const auto number = [](double value) -> nlohmann::ordered_json {
-    if (std::isfinite(value)) return value;
-    return nullptr;
-  };
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
   if (choice.method != farfield::Method::direct)
     parameters = {{"degree", choice.degree},
@@ -242,10 +214,10 @@ std::string to_json(const PairSums& sums) {
   nlohmann::ordered_json measured = nullptr;
   if (sums.compared > 0)
     measured = {{"targets", sums.compared},
-                {"potential_error", number(sums.measured[0].error)},
-                {"field_error", number(sums.measured[1].error)},
-                {"potential_of_itself", number(sums.potential_of_itself)},
-                {"field_of_itself", number(sums.field_of_itself)},
+                {"potential_error", finite_or_null(sums.measured[0].error)},
+                {"field_error", finite_or_null(sums.measured[1].error)},
+                {"potential_of_itself", finite_or_null(sums.potential_of_itself)},
+                {"field_of_itself", finite_or_null(sums.field_of_itself)},
                 {"kept", broken_promises(sums.measured, sums.compared).empty()}};
   const nlohmann::ordered_json json = {{"kernel", farfield::to_string(choice.kernel)},
                                        {"dimension", sums.dimension},
@@ -257,17 +229,12 @@ std::string to_json(const PairSums& sums) {
                                        {"method", farfield::to_string(choice.method)},
                                        {"parameters", parameters},
                                        {"choice", line.str()},
-                                       {"bound", number(choice.bound)},
+                                       {"bound", finite_or_null(choice.bound)},
                                        {"measured", measured},
-                                       {"Q", number(sums.charge_total)},
-                                       {"predicted_seconds", number(choice.seconds)},
+                                       {"Q", finite_or_null(sums.charge_total)},
+                                       {"predicted_seconds", finite_or_null(choice.seconds)},
                                        {"threads", sums.threads},
-                                       {"seconds",
-                                        {{"read", sums.read_seconds},
-                                         {"prepare", sums.prepare_seconds},
-                                         {"evaluate", sums.evaluate_seconds},
-                                         {"compare", sums.compare_seconds},
-                                         {"write", sums.write_seconds}}}};
+                                       {"seconds", seconds_by_stage(sums)}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

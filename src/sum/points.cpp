@@ -10,7 +10,6 @@
 #include <numeric>
 #include <sstream>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
 #include "base/number.hpp"
@@ -19,6 +18,8 @@
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
 #include "sum/first_lines.hpp"
+#include "sum/request_as_points.hpp"
+#include "sum/sums_json.hpp"
 
 namespace gaussdrift::sum {
 
@@ -66,21 +67,13 @@ std::vector<fgtd::Combination<d>> combinations_of(const std::vector<std::vector<
   return combinations;
 }
 
-Eigen::Map<const Eigen::VectorXd> weights_of(const SumRequest& request) {
-  return {request.sources.weights.data(), static_cast<Eigen::Index>(request.sources.weights.size())};
-}
-
 template <int d>
 void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
-  using Points = Eigen::Map<const fgtd::Points<d>>;
-  const auto points = [](const input::PointsTable& table) {
-    return Points(table.positions.data(), d, static_cast<Eigen::Index>(table.size()));
-  };
   const std::vector<fgtd::Combination<d>> combinations = combinations_of<d>(result.derivatives);
   if (!request.grid.empty()) options.expected_grid = fgtd::TensorGrid{nodes_of(request.grid)};
 
   const base::Stopwatch preparing;
-  const fgtd::Plan<d> plan(points(request.sources), weights_of(request), request.sigma, options);
+  const fgtd::Plan<d> plan(points_of<d>(request.sources), weights_of(request), request.sigma, options);
   result.prepare_seconds = preparing.seconds();
 
   const base::Stopwatch evaluating;
@@ -88,7 +81,7 @@ void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
     result.values = plan.evaluate_combinations(*options.expected_grid, combinations);
   else
     result.values =
-        plan.evaluate_combinations(points(request.targets ? *request.targets : request.sources), combinations);
+        plan.evaluate_combinations(points_of<d>(request.targets ? *request.targets : request.sources), combinations);
   result.evaluate_seconds = evaluating.seconds();
 
   result.choice = plan.choice();
@@ -113,9 +106,7 @@ void measure(const SumRequest& request, PointSums& result) {
     options.derivative_order =
         std::max(options.derivative_order, std::accumulate(derivative.begin(), derivative.end(), 0));
   options.tolerance = 1e-6;  // all pairs, whatever it is
-  const fgtd::Plan<d> plan(Eigen::Map<const fgtd::Points<d>>(request.sources.positions.data(), d,
-                                                             static_cast<Eigen::Index>(request.sources.size())),
-                           weights_of(request), request.sigma, options);
+  const fgtd::Plan<d> plan(points_of<d>(request.sources), weights_of(request), request.sigma, options);
   const Eigen::MatrixXd exact = plan.evaluate_combinations(fgtd::Points<d>(sample.points), combinations);
   result.compared = sample.rows.size();
   result.measured.clear();
@@ -123,15 +114,12 @@ void measure(const SumRequest& request, PointSums& result) {
   for (std::size_t k = 0; k < combinations.size(); ++k) {
     const double scale =
         fgtd::derivative_scale<d>(combinations[k].front().derivative, request.sigma) * result.weight_total;
-    double error = 0;
-    for (std::size_t i = 0; i < sample.rows.size(); ++i) {
-      const auto column = static_cast<Eigen::Index>(k);
-      const double off = std::abs(result.values(sample.rows[i], column) - exact(static_cast<Eigen::Index>(i), column));
-      if (!(off <= error)) error = off;  // what is not a number stays
-      if (std::isnan(error)) break;
-    }
+    const auto column = static_cast<Eigen::Index>(k);
+    Worst worst;
+    for (std::size_t i = 0; i < sample.rows.size(); ++i)
+      worst.take(std::abs(result.values(sample.rows[i], column) - exact(static_cast<Eigen::Index>(i), column)));
     result.units.push_back(scale);
-    result.measured.push_back({result.columns[k], error == 0 ? 0 : error / scale, request.tolerance + 2 * rounding});
+    result.measured.push_back({result.columns[k], relative(worst.error(), scale), request.tolerance + 2 * rounding});
   }
 }
 
@@ -151,27 +139,6 @@ void with_errors_of_fgtd(const Work& work) {
   } catch (const fgtd::Error& error) {
     throw InputError(base::in_users_words(error.what(), words));
   }
-}
-
-/// Calls work(std::integral_constant<int, d>) for the dimension.
-template <class Work>
-void in_dimension(int dimension, const Work& work) {
-  switch (dimension) {
-    case 1:
-      return work(std::integral_constant<int, 1>{});
-    case 2:
-      return work(std::integral_constant<int, 2>{});
-    case 3:
-      return work(std::integral_constant<int, 3>{});
-    default:
-      return work(std::integral_constant<int, 4>{});
-  }
-}
-
-// Numbers that JSON has no word for become null.
-nlohmann::ordered_json number(std::optional<double> value) {
-  if (value && std::isfinite(*value)) return *value;
-  return nullptr;
 }
 
 }  // namespace
@@ -215,7 +182,7 @@ PointSums sum_points(const SumRequest& request) {
     options.derivative_order = std::max(options.derivative_order, static_cast<int>(std::min(order, 1e6)));
   }
   with_errors_of_fgtd([&] {
-    in_dimension(result.dimension, [&](auto dimension) {
+    in_dimension<1, 4>(result.dimension, [&](auto dimension) {
       constexpr int d = decltype(dimension)::value;
       const auto work = [&](double most_seconds) {
         options.most_seconds = most_seconds;
@@ -238,7 +205,7 @@ PointSums sum_points(const SumRequest& request) {
 
 void measure_errors(const SumRequest& request, PointSums& sums) {
   with_errors_of_fgtd(
-      [&] { in_dimension(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
+      [&] { in_dimension<1, 4>(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
 }
 
 std::string to_text(const PointSums& sums) {
@@ -261,11 +228,11 @@ std::string to_json(const PointSums& sums) {
   for (const fgtd::Parameter& parameter : fgtd::parameters(choice))
     std::visit([&](const auto& value) { parameters[parameter.name] = value; }, parameter.value);
   nlohmann::ordered_json errors = nlohmann::ordered_json::object();
-  for (std::size_t k = 0; k < sums.columns.size(); ++k) errors[sums.columns[k]] = number(sums.error_bounds[k]);
+  for (std::size_t k = 0; k < sums.columns.size(); ++k) errors[sums.columns[k]] = finite_or_null(sums.error_bounds[k]);
   nlohmann::ordered_json measured = nullptr;
   if (sums.compared > 0) {
     measured = {{"targets", sums.compared}};
-    for (const MeasuredError& one : sums.measured) measured["errors"][one.of] = number(one.error);
+    for (const MeasuredError& one : sums.measured) measured["errors"][one.of] = finite_or_null(one.error);
     measured["kept"] = broken_promises(sums.measured, sums.compared).empty();
   }
   const nlohmann::ordered_json json = {{"kernel", "gauss"},
@@ -280,18 +247,13 @@ std::string to_json(const PointSums& sums) {
                                        {"method", fgtd::to_string(choice.method)},
                                        {"parameters", parameters},
                                        {"choice", line.str()},
-                                       {"bound", number(choice.bound)},
+                                       {"bound", finite_or_null(choice.bound)},
                                        {"error_bounds", errors},
                                        {"measured", measured},
-                                       {"Q", number(sums.weight_total)},
-                                       {"predicted_seconds", number(choice.seconds)},
+                                       {"Q", finite_or_null(sums.weight_total)},
+                                       {"predicted_seconds", finite_or_null(choice.seconds)},
                                        {"threads", sums.threads},
-                                       {"seconds",
-                                        {{"read", sums.read_seconds},
-                                         {"prepare", sums.prepare_seconds},
-                                         {"evaluate", sums.evaluate_seconds},
-                                         {"compare", sums.compare_seconds},
-                                         {"write", sums.write_seconds}}}};
+                                       {"seconds", seconds_by_stage(sums)}};
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

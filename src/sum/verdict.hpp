@@ -1,6 +1,7 @@
 // Judges a sum by its errors against all pairs at some targets, and by its predicted seconds.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,6 +17,21 @@ struct MeasuredError {
   double error = 0;    // largest at the compared targets
   double allowed = 0;  // tolerance and rounding
 };
+
+/// The largest of the errors at the compared targets. An error that is not a number stays.
+class Worst {
+ public:
+  void take(double error) {
+    if (!(error <= error_) && !std::isnan(error_)) error_ = error;
+  }
+  double error() const { return error_; }
+
+ private:
+  double error_ = 0;
+};
+
+/// An error in units of `size`. Without an error it is 0, even where `size` is 0.
+inline double relative(double error, double size) { return error == 0 ? 0 : error / size; }
 
 /// One sentence for each error beyond what is allowed; NaN is beyond.
 std::vector<std::string> broken_promises(const std::vector<MeasuredError>& errors, std::size_t targets);

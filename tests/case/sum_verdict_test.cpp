@@ -27,6 +27,16 @@ input::PointsTable cloud(std::size_t count, int dimension) {
   return table;
 }
 
+TEST(SumVerdict, KeepsTheWorstErrorAndWhatIsNotANumber) {
+  Worst worst;
+  EXPECT_EQ(worst.error(), 0);
+  for (const double error : {2.0, 3.0, 1.0}) worst.take(error);
+  EXPECT_EQ(worst.error(), 3);
+  for (const double error : {std::numeric_limits<double>::quiet_NaN(), 9.0}) worst.take(error);
+  EXPECT_TRUE(std::isnan(worst.error()));
+  EXPECT_EQ(relative(0, 0), 0);
+}
+
 TEST(SumVerdict, NamesWhatIsBeyondThePromise) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(broken_promises({}, 0).empty());
