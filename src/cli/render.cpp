@@ -81,7 +81,7 @@ ExitCode render(const RenderOptions& options) {
   std::set<std::size_t> wanted;
   for (const double time : options.times) wanted.insert(output_at(time, outputs, options.folder));
   for (std::size_t i = 0; options.times.empty() && i < outputs.size(); ++i) wanted.insert(i);
-  if (const std::string reason = render::unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
+  render::check_available();
   // Read twice, for the range and for the picture: all of a run at once need not fit into memory.
   double low = 0, high = 0;
   int dimension = 2;

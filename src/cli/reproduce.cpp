@@ -7,6 +7,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/error.hpp"
+#include "render/picture.hpp"
 #include "reproduce/claims.hpp"
 #include "reproduce/cone.hpp"
 #include "reproduce/coulomb.hpp"
@@ -45,7 +46,7 @@ void declare(OptionList& options, ReproduceOptions& given) {
 ExitCode reproduce_cone(const ReproduceOptions& options) {
   if (!options.table.empty() || options.full)
     throw CommandLineError(
-        "the cone has no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
+        "the cone has no tables to choose from and no --full; these belong to: reproduce fgtd, divergence, figures");
   reproduce::ConeReproduction result;
   {
     ProgressLine line;
@@ -60,7 +61,7 @@ ExitCode reproduce_cone(const ReproduceOptions& options) {
 ExitCode reproduce_claims(const ReproduceOptions& options) {
   if (!options.table.empty() || options.full)
     throw CommandLineError(
-        "the claims have no tables to choose from and no --full; that is for: reproduce fgtd, divergence, figures");
+        "the claims have no tables to choose from and no --full; these belong to: reproduce fgtd, divergence, figures");
   reproduce::ClaimsOptions claims;
   if (options.threads > 0) claims.threads = options.threads;
   reproduce::ClaimsReproduction result;
@@ -73,7 +74,7 @@ ExitCode reproduce_claims(const ReproduceOptions& options) {
 }
 
 ExitCode reproduce_coulomb(const ReproduceOptions& options) {
-  if (!options.table.empty()) throw CommandLineError("coulomb is one table; leave the number away");
+  if (!options.table.empty()) throw CommandLineError("coulomb is one table; leave the number out");
   reproduce::CoulombOptions coulomb;
   if (options.threads > 0) coulomb.threads = options.threads;
   if (options.full) {
@@ -91,7 +92,7 @@ ExitCode reproduce_coulomb(const ReproduceOptions& options) {
 }
 
 ExitCode reproduce_logkernel(const ReproduceOptions& options) {
-  if (!options.table.empty()) throw CommandLineError("logkernel has no tables to choose from; leave the number away");
+  if (!options.table.empty()) throw CommandLineError("logkernel has no tables to choose from; leave the number out");
   reproduce::LogKernelOptions logkernel;
   logkernel.folder = options.folder.empty() ? fs::path("output") / "logkernel" : options.folder;
   if (options.full) logkernel.largest_dense = 14;
@@ -100,6 +101,8 @@ ExitCode reproduce_logkernel(const ReproduceOptions& options) {
     ProgressLine line;
     result = reproduce::reproduce_logkernel(logkernel, [&](const std::string& what) { line.show(what); });
   }
+  if (const std::string reason = render::unavailable_reason(); !reason.empty())
+    note("warning: no plots are drawn: {}\n", reason);
   say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
   return ExitCode::ok;
 }
@@ -149,7 +152,7 @@ ExitCode reproduce(const ReproduceOptions& options) {
         fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, claims, "
                     "coulomb, logkernel",
                     options.what));
-  say("tables that can be reproduced:\n"
+  say("gaussdrift reproduce WHAT computes published numbers again. There are:\n"
       "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
       "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
       "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"

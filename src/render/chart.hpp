@@ -38,8 +38,8 @@ struct Chart {
   int width = 1280, height = 960;
 };
 
-/// Writes a PNG beside its name and renames it. Throws FileError; Error(ExitCode::internal) when drawing is not
-/// available (picture.hpp, unavailable_reason()).
+/// Writes a PNG beside its name and renames it. Throws FileError; CommandLineError where pictures cannot be
+/// drawn (picture.hpp, check_available()).
 void draw_chart(const Chart& chart, const std::filesystem::path& png);
 
 }  // namespace gaussdrift::render

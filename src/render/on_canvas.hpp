@@ -1,4 +1,4 @@
-// A picture from nothing to its file.
+// From an empty canvas to the file of a picture.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 namespace gaussdrift::render {
 
 /// Makes a canvas, lets `paint` fill it, and writes the PNG beside its name and renames it. One call draws at a time,
-/// whatever the thread. Throws FileError; Error(ExitCode::internal) when drawing is not available or the size is not
-/// possible.
+/// whatever the thread. Throws FileError; CommandLineError as check_available(); Error(ExitCode::internal) when the size is
+/// not possible.
 void on_canvas(int width, int height, const std::filesystem::path& png, const std::function<void(Canvas&)>& paint);
 
 }  // namespace gaussdrift::render

@@ -32,8 +32,12 @@ ColourRange colour_range(const Style& style, const DensityGrid& density, const P
 
 std::string unavailable_reason() { return window_unavailable_reason(); }
 
+void check_available() {
+  if (const std::string reason = unavailable_reason(); !reason.empty()) throw CommandLineError(reason);
+}
+
 void on_canvas(int width, int height, const std::filesystem::path& png, const std::function<void(Canvas&)>& paint) {
-  if (const std::string reason = unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
+  check_available();
   if (width < 64 || height < 48 || width > 16384 || height > 16384)
     throw Error(ExitCode::internal, fmt::format("a picture of {} x {} pixels is not possible", width, height));
   static std::mutex one_at_a_time;  // VTK and GLEW share their state between all windows

@@ -29,14 +29,17 @@ struct PictureOptions {
 /// Empty if pictures can be drawn, else the reason and the remedy.
 std::string unavailable_reason();
 
+/// For commands that are asked for pictures: throws CommandLineError with the reason if they cannot be drawn.
+void check_available();
+
 /// Draws a density into a PNG (written beside its name and renamed). Values outside the range get the colours of its
 /// ends; heights stick out of the box by at most 4 % of the range. Values that are not finite are left out (red, or grey
 /// in pictures of errors) and counted in the heading, which also tells the true extremes. Without a range (range_min <
 /// range_max, both finite) the rounded one of the density itself is used.
 /// At most 300 x 300 points of a surface are drawn, and 160 an axis of surfaces in space. Where contour lines fill a
 /// small part of the domain, half, a quarter or an eighth of it around them is shown, and said.
-/// One call draws at a time, whatever the thread. Throws FileError; Error(ExitCode::internal) when drawing is not
-/// available or the style cannot show the density.
+/// One call draws at a time, whatever the thread. Throws FileError; CommandLineError as check_available();
+/// Error(ExitCode::internal) when the style cannot show the density.
 void draw(const Style& style, const DensityGrid& density, const PictureOptions& options,
           const std::filesystem::path& png);
 

@@ -13,6 +13,7 @@
 #include "gaussdrift/simulation.hpp"
 #include "input/examples.hpp"
 #include "render/chart.hpp"
+#include "render/picture.hpp"
 #include "render/styles.hpp"
 #include "reproduce/fgtd.hpp"
 
@@ -218,7 +219,7 @@ std::vector<Figure> reproduce_figures(const FiguresOptions& options,
   if (!options.figure.empty() && std::find(numbers.begin(), numbers.end(), options.figure) == numbers.end())
     throw CommandLineError(
         fmt::format("there is no figure {} to reproduce; there are: {}", options.figure, fmt::join(numbers, ", ")));
-  if (const std::string reason = render::unavailable_reason(); !reason.empty()) throw Error(ExitCode::internal, reason);
+  render::check_available();
   const std::string wanted = options.figure == "5.5" ? "5.4" : options.figure;
   std::vector<Figure> made;
   for (const auto& [number, make] : makers) {

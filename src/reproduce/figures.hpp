@@ -26,8 +26,7 @@ struct Figure {
 std::vector<std::string> figure_numbers();
 
 /// Writes the pictures; `progress` is told the number that is being made. Throws CommandLineError for a number that
-/// there is not, FileError where a picture cannot be written, Error(ExitCode::internal) where pictures are not
-/// available.
+/// there is not, and where this program draws no pictures, FileError where a picture cannot be written.
 std::vector<Figure> reproduce_figures(const FiguresOptions& options,
                                       const std::function<void(const std::string&)>& progress = {});
 

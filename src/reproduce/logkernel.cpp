@@ -11,6 +11,7 @@
 #include "base/stopwatch.hpp"
 #include "blockmatrix/block_matrix.hpp"
 #include "render/chart.hpp"
+#include "render/picture.hpp"
 #include "write/atomic_file.hpp"
 #include "write/provenance.hpp"
 
@@ -147,7 +148,7 @@ void draw_errors(const LogKernelReproduction& result, const std::filesystem::pat
     chart.series.push_back(series);
   }
   const LogKernelError &first = result.errors[result.errors.size() - degrees], &last = result.errors.back();
-  chart.conclusion = fmt::format("every degree more lowers the error, not squared, {:.0f} times",
+  chart.conclusion = fmt::format("each further degree makes the error (not squared) {:.0f} times smaller",
                                  std::pow(first.squared / last.squared, 0.5 / (degrees - 1)));
   render::draw_chart(chart, file);
 }
@@ -200,8 +201,10 @@ LogKernelReproduction reproduce_logkernel(const LogKernelOptions& options,
     write::write_text(path("storage.csv"), storage_csv(result));
     write::write_text(path("error.csv"), error_csv(result));
     write::write_text(path("times.csv"), times_csv(result));
-    draw_storage(result, path("storage.png"));
-    draw_errors(result, path("error.png"));
+    if (render::unavailable_reason().empty()) {
+      draw_storage(result, path("storage.png"));
+      draw_errors(result, path("error.png"));
+    }
   }
   result.seconds = watch.seconds();
   return result;
@@ -209,7 +212,7 @@ LogKernelReproduction reproduce_logkernel(const LogKernelOptions& options,
 
 std::string to_text(const LogKernelReproduction& result) {
   std::string text = "Melenk, project 6: ln|x_i - x_j| in blocks, exact or of rank n + 1\n\n";
-  text += "exercise 6a: numbers that are kept\n       N  blocks (low rank)";
+  text += "exercise 6a: how many numbers are kept\n       N  blocks (low rank)";
   for (int n = 0; n < degrees; ++n) text += fmt::format("{:>10}", fmt::format("n = {}", n));
   text += "   n = 5: shared bases   leaf 16      both         N^2\n";
   for (std::size_t i = 0; i + degrees <= result.storage.size(); i += degrees) {

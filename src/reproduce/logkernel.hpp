@@ -57,7 +57,7 @@ struct LogKernelReproduction {
   double seconds = 0;
 };
 
-/// Throws FileError where a table or plot cannot be written, Error(ExitCode::internal) where plots are not available.
+/// Throws FileError where a table or plot cannot be written. Where pictures cannot be drawn there are no plots.
 LogKernelReproduction reproduce_logkernel(const LogKernelOptions& options,
                                           const std::function<void(const std::string&)>& progress = {});
 

@@ -70,6 +70,18 @@ TEST(Report, SaysWhatTheFolderLacks) {
   EXPECT_EQ(gaussdrift_in(folder, "report .").exit_code, 6);
 }
 
+TEST(Render, IsRefusedByAProgramWithoutPictures) {
+  if (draws_pictures) GTEST_SKIP() << "built with pictures";
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --set output.report=none").exit_code, 0);
+  for (const char* command : {"render output/a", "reproduce figures 5.1"}) {
+    const Outcome refused = gaussdrift_in(folder, command);
+    EXPECT_EQ(refused.exit_code, 2) << command;
+    EXPECT_EQ(refused.err.rfind("error: this program draws no pictures: ", 0), 0u) << refused.err;
+  }
+}
+
 TEST(Render, DrawsAgainWithoutRunning) {
   if (!draws_pictures) GTEST_SKIP() << without_pictures;
   const ScratchFolder folder;

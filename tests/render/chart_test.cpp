@@ -29,7 +29,7 @@ Chart power_law() {
 TEST(WithoutPictures, AChartSaysWhyItCannotBeDrawn) {
   if (draws_pictures) GTEST_SKIP() << "built with pictures";
   const ScratchFolder folder;
-  EXPECT_THROW(draw_chart(power_law(), folder / "c.png"), Error);
+  EXPECT_THROW(draw_chart(power_law(), folder / "c.png"), CommandLineError);
   EXPECT_EQ(folder.count(), 0u);
 }
 

@@ -61,8 +61,9 @@ DensityGrid cone(double x, double y, double height = 1, double radius = 0.25) {
 TEST(WithoutPictures, APictureSaysWhyItCannotBeDrawn) {
   if (draws_pictures) GTEST_SKIP() << "built with pictures";
   EXPECT_NE(unavailable_reason().find("no pictures"), std::string::npos);
+  EXPECT_THROW(check_available(), CommandLineError);
   const ScratchFolder folder;
-  EXPECT_THROW(draw(find_style("surface"), cone(0, 0), {}, folder / "p.png"), Error);
+  EXPECT_THROW(draw(find_style("surface"), cone(0, 0), {}, folder / "p.png"), CommandLineError);
   EXPECT_EQ(folder.count(), 0u);
 }
 
