@@ -110,7 +110,7 @@ class Forward {
     }
   }
 
-  /// The derivatives of the result take the place of those of the first operand.
+  /// The derivatives of the result overwrite those of the first operand.
   void combine(const Step& step, std::size_t base) {
     const auto operands = static_cast<std::size_t>(step.operands);
     if (step.operation == Operation::choose) return choose(base);

@@ -31,7 +31,7 @@ struct RoughSpot {
 };
 
 /// One expression in given variables and constants (pi and e are always known).
-/// A value that is not finite (1/0, log(-1)) is no error here: it follows IEEE arithmetic and callers check.
+/// Values follow IEEE arithmetic. One that is not finite (1/0, log(-1)) is no error here; callers check.
 /// Evaluation is const and safe to call from several threads; the same arguments give the same bits.
 /// A copy shares the compiled program.
 class Expression {
@@ -50,9 +50,9 @@ class Expression {
   /// For expressions of single numbers: `arguments` has one value a variable.
   double evaluate(const std::vector<double>& arguments = {}) const;
 
-  /// The values (not written if `values` is null) and their derivatives with respect to some of the variables, by
-  /// index: derivatives[d][i] = d expression / d variable variables[d]. Exact to rounding, by forward differentiation;
-  /// rough_spots() says what is taken where there is no derivative. Neither result may be one of the arguments.
+  /// The values (not written if `values` is null), and their derivatives with respect to the variables of these
+  /// indices: derivatives[d][i] = d expression / d variable variables[d]. They are exact to rounding, by forward
+  /// differentiation. Where there is no derivative, rough_spots() says what is taken. Neither result may be one of the arguments.
   void differentiate(const double* const* arguments, std::size_t count, const std::vector<std::size_t>& variables,
                      double* values, double* const* derivatives) const;
   /// The functions and operators of the expression that are not differentiable everywhere, each once.

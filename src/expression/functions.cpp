@@ -1,4 +1,4 @@
-// NaN goes through every function, and a zero keeps its sign where the mathematics leaves it one.
+// Every function of NaN is NaN. A zero keeps its sign where the mathematics allows it.
 #include "expression/functions.hpp"
 
 #include <cmath>

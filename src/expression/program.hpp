@@ -43,7 +43,7 @@ struct Step {
 
 using Program = std::vector<Step>;
 
-/// A stack of rows. A row whose numbers are all the same keeps only the first: constants, and formulas of t alone.
+/// A stack of rows. If all numbers of a row are the same, only the first is kept: constants, and formulas of t alone.
 struct Stack {
   double* rows;
   std::vector<char> same;  // by row

@@ -1,4 +1,4 @@
-// One pass from left to right: a place either wants an operand or an operator, and every open parenthesis remembers
+// One pass from left to right. At each place an operand or an operator is expected. Every open parenthesis remembers
 // what it belongs to.
 #include "expression/syntax.hpp"
 

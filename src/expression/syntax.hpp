@@ -1,5 +1,5 @@
-// Checks the grammar of an expression before muParser sees it: muParser names neither the place nor the remedy
-// reliably, and accepts assignments, lists, strings and chained comparisons that nobody means. Knows nothing about
+// Checks the grammar of an expression before muParser sees it. muParser does not reliably name the place and the remedy.
+// It also accepts assignments, lists, strings and chained comparisons, which nobody means. The check knows nothing about
 // values and precedence.
 #pragma once
 

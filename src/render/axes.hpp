@@ -38,8 +38,8 @@ struct Axis {
 /// An axis with at least two ticks if the numbers allow it: short sides get finer ones.
 Axis short_axis(const std::string& name, double min, double max, int intervals);
 
-/// Every how many-th tick of an axis gets its number, so that no two numbers come nearer than `gap`. `numbers`: where
-/// each would stand. Ticks keep their marks.
+/// k, if every k-th tick of an axis gets its number and no two numbers come nearer than `gap`. `numbers` has the places
+/// of all numbers. Ticks keep their marks.
 std::size_t numbered_ticks(const std::vector<Rectangle>& numbers, double gap);
 
 /// Title, time, and the extremes of the density, which colours alone do not tell.

@@ -13,9 +13,9 @@
 namespace gaussdrift::render {
 namespace {
 
-/// What the contour lines are shown in: the whole field, or the half, quarter or eighth of it (in each direction)
-/// around the lines that holds them with some room. Their size, not their place, decides, so a moving object keeps its
-/// scale.
+/// The part of the field that is shown: all of it, or a half, a quarter or an eighth in each direction around the
+/// contour lines, if they fit into it with some room. Only their size decides, not their place, so a moving object keeps
+/// its scale.
 Rectangle window_around(const std::vector<ContourLine>& lines, const HeightField& field) {
   const Rectangle whole{0, 0, field.width, field.depth};
   Point low{field.width, field.depth}, high{0, 0};

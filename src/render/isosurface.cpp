@@ -27,7 +27,7 @@
 namespace gaussdrift::render {
 namespace {
 
-/// More points an axis than these a picture of 1280 pixels does not show; a surface costs time for each.
+/// A picture of 1280 pixels does not show more points an axis than these, and a surface costs time for each.
 constexpr std::size_t most_points = 160;
 
 struct Level {
@@ -57,7 +57,7 @@ vtkNew<vtkImageData> image_of(const DensityGrid& density, double longest) {
   return image;
 }
 
-/// Triangles of all levels in one list, those behind first, so that what is in front covers what is behind.
+/// Triangles of all levels in one list. Those behind come first, so that those in front cover them.
 class Surfaces {
  public:
   Surfaces() {
@@ -131,8 +131,8 @@ class Surfaces {
   std::vector<std::array<vtkIdType, 3>> triangles_;
 };
 
-/// On either side of 0 as far as the range reaches: a solid one at 3/4 of the largest density, others outside.
-/// Overshoots below a tenth of the range's larger end get none.
+/// The levels on both sides of 0, where the range has both: a solid surface at 3/4 of the end of the range, others
+/// outside it. Overshoots below a tenth of the range's larger end get no surface.
 std::vector<Level> levels_of(const ColourRange& range) {
   const double least = 0.1 * std::max(std::abs(range.min), std::abs(range.max));
   std::vector<Level> levels;

@@ -1,4 +1,4 @@
-// VTK on OSMesa. Stock VTK and GLEW are built for GLX, and reach OpenGL on three ways; each is led to OSMesa:
+// VTK on OSMesa. Stock VTK and GLEW are built for GLX and reach OpenGL in three ways. Each of them is led to OSMesa:
 //   direct calls (glClear, ...)   libOSMesa comes first among the shared libraries, see CMakeLists.txt; checked below
 //   GLEW's function pointers      the function glXGetProcAddressARB defined here answers instead of libGLX's
 //   glewInit's return code        complains about the missing X display after all pointers are set; accepted here
@@ -29,7 +29,8 @@
 
 #include "gaussdrift/error.hpp"
 
-// Found by GLEW before libGLX's. Names of GLX itself must be unknown: OSMesa would make up a stub for any name in gl.
+// GLEW finds this function before libGLX's. It must not know names of GLX: OSMesa would make up a stub for any name that
+// begins with gl.
 extern "C" {
 using Function = void (*)();
 __attribute__((visibility("default"), used)) Function glXGetProcAddressARB(const GLubyte* name) {
@@ -134,7 +135,7 @@ class OsmesaWindow : public vtkOpenGLRenderWindow {
 };
 vtkStandardNewMacro(OsmesaWindow)
 
-    /// Without the right order of libraries every picture would be blank, with exit status 0; so it is looked at.
+    /// In the wrong order of libraries every picture would be blank, and the exit status 0. So the order is checked.
     std::string wrong_library() {
   for (const char* name : {"glDrawArrays", "glGetString", "glReadPixels"}) {
     Dl_info info{};

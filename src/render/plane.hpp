@@ -1,4 +1,4 @@
-// A density on a plane as the pictures lay it out that look straight at it.
+// The layout of pictures that look straight at a density on a plane.
 #pragma once
 
 #include "render/axes.hpp"
@@ -6,7 +6,7 @@
 
 namespace gaussdrift::render {
 
-/// More points an axis than these a picture of 1280 pixels does not show.
+/// A picture of 1280 pixels does not show more points an axis than these.
 constexpr std::size_t most_plane_points = 1000;
 
 /// The axes of the part `window` of the scene, on so many pixels.

@@ -10,7 +10,7 @@ std::pair<double, double> rounded_range(double minimum, double maximum) {
   if (minimum > maximum) std::swap(minimum, maximum);
   if (minimum == 0 && maximum == 0) return {0, 1};
 
-  // 0 is an end if the values start near it, or cross it by no more than the overshoot of a smoothed step.
+  // 0 becomes an end if the values start near it, or if they cross it by no more than the overshoot of a smoothed step.
   constexpr double near = 0.25, overshoot = 0.01;
   const double size = std::max(std::fabs(minimum), std::fabs(maximum));
   if (minimum > -overshoot * size && minimum < near * size) minimum = 0;

@@ -19,7 +19,7 @@ std::array<std::size_t, 3> largest_point(const DensityGrid& density);
 /// Values where the index along the third axis is `index`; `across` and `up` are two different axes.
 Plane slice(const DensityGrid& density, int across, int up, std::size_t index);
 
-/// At each point of the plane the value largest in size on the line along the third axis. A NaN only where all are.
+/// At each point of the plane: the value largest in size on the line along the third axis. NaN only if all are NaN.
 Plane projection(const DensityGrid& density, int across, int up);
 
 /// Every second, third, ... point of each axis and the last one nearest to its end, so that no axis has more than

@@ -148,7 +148,7 @@ void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, co
   draw_heading(canvas, options, field);
 }
 
-/// More points an axis than these a picture of 1280 pixels does not show; a surface costs time for each.
+/// A picture of 1280 pixels does not show more points an axis than these, and a surface costs time for each.
 constexpr std::size_t most_points = 300;
 
 Painting surface(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {

@@ -45,7 +45,7 @@ Ticks make_ticks(double min, double max, int intervals) {
   if (!(length > 0) || !std::isfinite(length)) return ticks;
   ticks.step = round_step(length, intervals);
   const double largest = std::max(std::fabs(min), std::fabs(max));
-  // More than 5 digits before the ticks differ: an offset that is round itself.
+  // Where ticks differ only after more than 5 digits, a round offset is taken off.
   if (largest > 1e5 * ticks.step) {
     const double round = 10 * round_step(length, 1);
     ticks.offset = std::round(0.5 * (min + max) / round) * round;
@@ -56,7 +56,7 @@ Ticks make_ticks(double min, double max, int intervals) {
 
   const double step = ticks.step / ticks.scale;
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
-  // Counted from the offset, which is a multiple of the step or nearly so: no large integers.
+  // Ticks are counted from the offset, which is nearly a multiple of the step. So integers stay small.
   const double first = std::ceil((min - ticks.offset) / ticks.step - 1e-6);
   const double last = std::floor((max - ticks.offset) / ticks.step + 1e-6);
   for (double i = first; i <= last && ticks.list.size() < 100; ++i) {
