@@ -39,7 +39,7 @@ class Printed {
   PublishedTable table_{"schroeder-text"};
 };
 
-/// The error of what n neighbour boxes leave away, without derivatives [Sch06, Bemerkung 3.7.6], for a weight of 1.
+/// The error of what n neighbour boxes leave out, without derivatives [Sch06, Bemerkung 3.7.6], for a weight of 1.
 double box_error(double r, double n) { return std::exp(-2 * r * r * n * n); }
 /// The least n for an error of 10^-k [Sch06, 3.8.2].
 double neighbours_for(double r, double k) { return std::ceil(std::sqrt(k * std::numbers::ln10 / (2 * r * r))); }
@@ -138,9 +138,11 @@ class ConeDensity {
 void formulas(const Printed& printed, std::vector<Claim>& claims) {
   constexpr double p = 8, n = 2, sources = 10000, boxes = (2 * n + 1) * (2 * n + 1);
   const double even = std::ceil(p * p * sources / (sources - boxes * p * p));
-  claims.push_back({printed.section("break_even"), "break-even",
-                    "d = 2, p = 8, n = 2: evaluations from which 10 000 sources pay; p^d N / (N - (2n+1)^d p^d)",
-                    printed.text("break_even"), even, even == printed("break_even"), "by arithmetic"});
+  claims.push_back(
+      {printed.section("break_even"), "break-even",
+       "with p = 8, n = 2, d = 2 the transform pays for 10 000 sources from so many evaluations on: p^d N / (N - "
+       "(2n+1)^d p^d)",
+       printed.text("break_even"), even, even == printed("break_even"), "by arithmetic"});
   for (const auto& [name, terms, nu] :
        {std::tuple{"factor_of_the_bound_p8_nu2", 8, 2}, {"factor_of_the_bound_p9_nu3", 9, 3}}) {
     const double factor = fgtd::hermite_bound<3>(1.0 / nu, terms, all_boxes, {0, 1, 2}).value() * std::pow(2.0, 1.5);
@@ -159,7 +161,7 @@ void formulas(const Printed& printed, std::vector<Claim>& claims) {
   claims.push_back({printed.section("error_of_grids"), "error of grids",
                     "error below Q 1e-8 for p = 9, r = 0.25, n = 20, d = 2, alpha = 0 by (3.5), over Q",
                     printed.text("error_of_grids"), grids, grids < printed("error_of_grids"),
-                    "of that order, not below; what is measured is far smaller (Table 4.7)"});
+                    "it is of that order, but not below. Measured errors are far smaller (Table 4.7)"});
 }
 
 void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
@@ -167,11 +169,11 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
   const double bound = box_error(r, n), left = measured_box_error(r, static_cast<int>(n));
   claims.push_back(
       {"3.7.6", "box error",
-       fmt::format("without derivatives, n boxes leave away at most exp(-2 r^2 n^2) of a weight; r = {:g}, "
-                   "n = {:g}: a source at the border of the first box that is left away",
+       fmt::format("without derivatives, n boxes leave out at most exp(-2 r^2 n^2) of a weight (r = {:g}, n = {:g}). "
+                   "Measured with a source at the border of the first box that is left out",
                    r, n),
        fmt::format("{:.3g}", bound), left, left <= bound && left > 0.999 * bound,
-       fmt::format("nothing less can be promised; (3.5) promises exp(-r^2 n^2) = {:.2g}", std::sqrt(bound))});
+       fmt::format("no smaller bound is true. (3.5) promises exp(-r^2 n^2) = {:.2g}", std::sqrt(bound))});
 
   const double error = printed("optimum_error");
   const auto p = static_cast<int>(printed("optimum_terms")), nu = static_cast<int>(printed("optimum_boxes"));
@@ -181,23 +183,25 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
   const std::string section = printed.section("optimum_terms");
   claims.push_back(
       {section, "optimum",
-       fmt::format("p = {}, nu = {} cost least, {:g} terms, of all with an error below {:g}; the least "
-                   "cost of Table 3.2 with the power of ten 1e-7 in Table 3.3",
+       fmt::format("p = {}, nu = {} cost least, {:g} terms, of all parameters with an error below {:g}. "
+                   "Computed is the least cost of Table 3.2 with the power of ten 1e-7 in Table 3.3",
                    p, nu, cost, error),
        fmt::format("{:g}", cost), same.cost, same.p == p && same.nu == nu,
-       fmt::format("p = {}, nu = {} cost less and err less by the thesis's own tables: (3.5) gives {:.2g} "
-                   "there and {:.2g} for p = {}, nu = {}. Neither is below {:g}: the cheapest that is has "
-                   "p = {}, nu = {} and {:g} terms. By time p = {}, nu = {} is faster (Table 3.5)",
+       fmt::format("by the thesis's own tables p = {}, nu = {} cost less and err less: (3.5) gives {:.2g} "
+                   "there and {:.2g} for p = {}, nu = {}. Neither is below {:g}. The cheapest parameters "
+                   "below it are p = {}, nu = {} with {:g} terms. By time p = {}, nu = {} is faster (Table 3.5)",
                    same.p, same.nu, same.bound, promised, p, nu, error, below.p, below.nu, below.cost, p, nu)});
 
   const auto enough = [&](const char* neighbours, const char* wanted, const char* name) {
     const double taken = printed(neighbours), digits = -std::log10(printed(wanted));
     const double needed = neighbours_for(r, digits);
-    claims.push_back({printed.section(neighbours), name,
-                      fmt::format("n = {:g} neighbour boxes for an error of 1e-{:.0f}, r = {:g}; the least n by 3.8.2",
-                                  taken, digits, r),
-                      printed.text(neighbours), needed, taken >= needed,
-                      fmt::format("n = {:g} leaves away at most {:.1e}", taken, box_error(r, taken))});
+    claims.push_back(
+        {printed.section(neighbours), name,
+         fmt::format(
+             "n = {:g} neighbour boxes suffice for an error of 1e-{:.0f} (r = {:g}). Computed is the least n by 3.8.2",
+             taken, digits, r),
+         printed.text(neighbours), needed, taken >= needed,
+         fmt::format("n = {:g} leaves out at most {:.1e}", taken, box_error(r, taken))});
   };
   enough("neighbours_of_tables", "error_of_tables", "n of the tables");
   enough("neighbours_of_figures", "error_of_figures", "n of the figures");
@@ -212,12 +216,13 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
     errors.push_back(MeasuredSum<3>(problem, 500, 0, 1).hermite(nu, p, all_boxes).absolute);
   }
   const double ratio = errors[1] / errors[0];
-  claims.push_back({"3.8.2", "constant error",
-                    fmt::format("p = {}, nu = {}, sigma = 2, weights 1/N: the error does not depend on N; that of 8000 "
-                                "Halton points over that of 1000",
-                                p, nu),
-                    "constant", ratio, ratio > 1.0 / 3 && ratio < 3,
-                    fmt::format("errors {:.2g} and {:.2g}; the bound is the same for all N", errors[0], errors[1])});
+  claims.push_back(
+      {"3.8.2", "constant error",
+       fmt::format("with weights 1/N the error does not depend on N (p = {}, nu = {}, sigma = 2). Computed is "
+                   "the error of 8000 Halton points over that of 1000",
+                   p, nu),
+       "constant", ratio, ratio > 1.0 / 3 && ratio < 3,
+       fmt::format("the errors are {:.2g} and {:.2g}. The bound is the same for all N", errors[0], errors[1])});
 
   for (const auto& [name, d] : {std::pair{"boxes_for_32_in_the_plane", 2}, {"boxes_for_32_in_space", 3}}) {
     const double boxes = std::pow(32, d);
@@ -239,52 +244,57 @@ void rotating_cone(const Printed& printed, const ClaimsOptions& options, std::ve
   const auto particles = static_cast<double>(cone.particles_above(1e-15));
   claims.push_back(
       {section, "particles",
-       fmt::format("particles with alpha_j not 0 on the lattice of {} x {}; those above 1e-15", per_axis, per_axis),
+       fmt::format("so many particles have alpha_j not 0 on the lattice of {} x {}. Computed are those above 1e-15",
+                   per_axis, per_axis),
        printed.text("particles_with_weight"), particles, particles == printed("particles_with_weight"),
-       fmt::format("{} are not 0; the rest lies at the rim of the cone", cone.particles_above(0))});
+       fmt::format("{} are not 0. The particles between lie at the rim of the cone", cone.particles_above(0))});
 
   // As in Table 4.7, the number is that of a cube of side 1 and cut off.
   const double exact = 1 / (r * std::sqrt(2.0) * overlap * cone.spacing()), boxes = std::floor(exact);
   claims.push_back(
       {section, "boxes an axis",
-       fmt::format("boxes an axis for r = {:g}, c = {:g}: 1/(r sqrt(2) c h), cut off", r, overlap),
+       fmt::format("so many boxes an axis for r = {:g}, c = {:g}: 1/(r sqrt(2) c h), rounded down", r, overlap),
        printed.text("boxes_an_axis"), boxes, boxes == printed("boxes_an_axis"),
-       fmt::format("that is of side 1; the domain has side 2 and {:.0f} boxes of this r", std::ceil(2 * exact))});
+       fmt::format("that is for a cube of side 1. The domain has side 2, so it has {:.0f} boxes of this r",
+                   std::ceil(2 * exact))});
 
   const auto wide = static_cast<int>(printed("neighbours_of_tables"));
   const double bound = fgtd::hermite_bound<2>(r, p, all_boxes, {}).value() + box_error(r, wide);
   claims.push_back(
       {section, "error of the tables",
-       fmt::format("error below Q 1e-18 for r = {:g}, p = {}, n = {}; (3.5) with 3.7.6, over Q", r, p, wide),
+       fmt::format("the error for r = {:g}, p = {}, n = {} is below Q 1e-18. Computed is (3.5) with 3.7.6, over Q", r,
+                   p, wide),
        printed.text("error_of_tables"), bound, bound < printed("error_of_tables"),
-       "the series alone may err by that; of that order, not below"});
+       "the series alone may err by that. It is of that order, but not below"});
   const auto tables = cone.hermite(r, p, wide);
   claims.push_back({section,
                     "measured so",
-                    fmt::format("the same measured at t = 0, {} x {} points, over Q", points, points),
+                    fmt::format("the same error, measured at t = 0 at {} x {} points, over Q", points, points),
                     "",
                     tables.error / cone.total(),
                     {},
-                    "rounding: sums in double precision cannot show 1e-18"});
+                    "this is rounding: sums in double precision cannot show 1e-18"});
 
   const auto narrow = static_cast<int>(printed("neighbours_of_figures"));
   const auto figures = cone.hermite(r, p, narrow);
   claims.push_back(
       {section, "error of the figures",
-       fmt::format("error of 1e-8 for r = {:g}, p = {}, n = {}; measured at t = 0, height 1", r, p, narrow),
+       fmt::format("the error for r = {:g}, p = {}, n = {} is 1e-8. Measured at t = 0, where the height is 1", r, p,
+                   narrow),
        printed.text("error_of_figures"), figures.error, figures.error <= printed("error_of_figures"),
-       "n is too small for this r by 3.8.2, as above"});
+       "by 3.8.2 this n is too small for this r, as above"});
   // The printed boxes put over the domain are twice as wide as stated: r is then 0.4.
   const double over_domain = 2 / printed("boxes_an_axis") / (std::sqrt(2.0) * overlap * cone.spacing());
   const auto with_printed = cone.hermite(over_domain, p, narrow);
-  claims.push_back({section, "difference from pairs",
-                    fmt::format("n = {} differs from pair by pair only in the 12th decimal; with the {} boxes over the "
-                                "domain of side 2, so r = {:.3g}",
-                                narrow, printed.text("boxes_an_axis"), over_domain),
-                    printed.text("difference_from_pairs"), with_printed.error,
-                    with_printed.error <= printed("difference_from_pairs"),
-                    fmt::format("r = {:g} as stated differs by {:.1e}: the thesis will have had the wider boxes", r,
-                                figures.error)});
+  claims.push_back(
+      {section, "difference from pairs",
+       fmt::format("with n = {} the result differs from pair by pair only in the 12th decimal. Computed with "
+                   "the {} boxes over the domain of side 2, so r = {:.3g}",
+                   narrow, printed.text("boxes_an_axis"), over_domain),
+       printed.text("difference_from_pairs"), with_printed.error,
+       with_printed.error <= printed("difference_from_pairs"),
+       fmt::format("with r = {:g} as stated it differs by {:.1e}. So the thesis probably had the wider boxes", r,
+                   figures.error)});
   claims.push_back({section,
                     "seconds, n = 12",
                     fmt::format("seconds of {} x {} points by hermite, r = {:.3g}", points, points, over_domain),
@@ -328,7 +338,8 @@ std::string shown(double value) {
 }  // namespace
 
 std::string to_text(const ClaimsReproduction& result) {
-  std::string text = "Schroeder 2006, what the text claims outside its tables: printed, and computed here\n\n";
+  std::string text =
+      "claims of the text of Schroeder 2006 outside its tables: section, claim, printed number, computed number\n\n";
   std::size_t hold = 0, fail = 0;
   for (const Claim& claim : result.claims) {
     const char* verdict = !claim.holds ? "" : *claim.holds ? "holds" : "does not hold";
@@ -337,8 +348,8 @@ std::string to_text(const ClaimsReproduction& result) {
                         claim.printed.empty() ? "-" : claim.printed, shown(claim.computed), verdict, claim.what);
     if (!claim.note.empty()) text += "       " + claim.note + "\n";
   }
-  return text +
-         fmt::format("\n{} claims hold, {} do not, for the reasons given; {:.1f} s\n", hold, fail, result.seconds);
+  return text + fmt::format("\n{} claims hold. {} do not hold, and the line below each gives the reason. {:.1f} s\n",
+                            hold, fail, result.seconds);
 }
 
 std::string to_json(const ClaimsReproduction& result) {

@@ -103,9 +103,10 @@ std::string to_text(const CoulombReproduction& result) {
     return value ? fmt::format("{:9.1e}", *value) : fmt::format("{:>9}", "-");
   };
   std::string text = fmt::format(
-      "Boerm 2022, fast methods for many-particle systems: published, and computed on {} {} (seconds; error relative "
-      "to the forces)\ncompared: errors, at most the published error; seconds are of another machine and not "
-      "compared\n",
+      "Boerm 2022, fast methods for many-particle systems: published numbers (pub.), and those computed on {} {}\n"
+      "Errors are relative to the forces and must be at most the published ones. Seconds are of another machine and "
+      "not "
+      "compared.\n",
       result.threads, result.threads == 1 ? "thread" : "threads");
   text += fmt::format("{:>9} |{:^18} |{:^36} |{:^36} |\n", "", "all pairs", "tree", "symmetric");
   text += fmt::format("{:>9} |{:>9}{:>9} |{:>9}{:>9}{:>9}{:>9} |{:>9}{:>9}{:>9}{:>9} | {}\n", "particles", "pub. s",
@@ -137,12 +138,14 @@ std::string to_text(const CoulombReproduction& result) {
   }
   if (result.growth)
     text += fmt::format(
-        "\nsymmetric, from an eighth of the largest number to it: seconds grow like N^{:.2f}, pairs like N^{:.2f}, "
-        "couplings like N^{:.2f}; linear is N^1\n",
+        "\nsymmetric, over the last three doublings of N: seconds grow like N^{:.2f}, pairs like N^{:.2f}, couplings "
+        "like "
+        "N^{:.2f}; N^1 is linear\n",
         result.growth->seconds, result.growth->pairs, result.growth->couplings);
   for (const std::string& line : result.disagreements) text += "disagrees: " + line + "\n";
-  text += fmt::format("{} in {:.1f} s\n",
-                      result.disagreements.empty() ? "all errors at most the published ones" : "not all as published",
+  text += fmt::format("{}; {:.1f} s\n",
+                      result.disagreements.empty() ? "all errors are at most the published ones"
+                                                   : "not all errors are at most the published ones",
                       result.seconds);
   return text;
 }

@@ -97,11 +97,13 @@ std::vector<Table> field_table(const FgtdOptions& options) {
   Table table{
       "6.1",
       "the field S(y): time and error",
-      fmt::format("N = M Halton points, d = 3, sigma = 2, p = 9, nu = 3, every box, Gamma from Halton numbers "
-                  "(not stated), on which the relative error hangs: it is that of the component nearest to 0{}",
+      fmt::format("N = M Halton points, d = 3, sigma = 2, p = 9, nu = 3, every box. The thesis does not state "
+                  "Gamma; here it consists of Halton numbers. The relative error depends on it, because it is that of "
+                  "the component nearest to 0{}",
                   std::isinf(options.most_pairs)
                       ? ""
-                      : fmt::format("; pair sums beyond {:.0e} pairs at a sample of the targets", options.most_pairs)),
+                      : fmt::format(". Beyond {:.0e} pairs the sums by pairs are taken at a sample of the targets",
+                                    options.most_pairs)),
       {{.name = "pairs seconds", .printed = "seconds_brute_force", .quantity = Quantity::seconds, .digits = 3},
        {.name = "fgtd seconds",
         .printed = "seconds_fgtd",
@@ -186,26 +188,28 @@ double relative(const Divergence& result) { return std::abs(result.value[0]) / r
 }  // namespace
 
 std::vector<Table> divergence_table(const FgtdOptions& options) {
-  Table table{
-      "6.2",
-      "numerical divergence of S",
-      "at one target, (1/2, 1/2, 1/2). fgtd: every term of Lemma 6.4.1 is there twice with opposite signs, so one plan "
-      "gives 0 however wrong it is (not compared). Relative to the size of the terms: differences: div S from "
-      "differences of S along the axes; apart: d_1 S_1 by hermite, d_2 S_2 by chebyshev, d_3 S_3 by pairs; error: of "
-      "hermite in d_1 S_1",
-      {{.name = "pairs seconds", .printed = "seconds_brute_force", .quantity = Quantity::seconds, .digits = 3},
-       {.name = "pairs", .printed = "divergence_brute_force", .comparison = Comparison::at_most},
-       {.name = "fgtd seconds",
-        .printed = "seconds_fgtd",
-        .quantity = Quantity::seconds,
-        .digits = 3,
-        .automatic = true},
-       {.name = "fgtd", .printed = "divergence_fgtd"},
-       {.name = "pairs differences"},
-       {.name = "fgtd differences"},
-       {.name = "apart"},
-       {.name = "error"}},
-      {}};
+  Table table{"6.2",
+              "numerical divergence of S",
+              "at one target, (1/2, 1/2, 1/2). Every term of Lemma 6.4.1 is there twice with opposite signs. So one "
+              "plan of fgtd "
+              "gives 0 however wrong it is, and that 0 is not compared. The last columns are relative to the size of "
+              "the terms:\n"
+              "  differences  div S from differences of S along the axes\n"
+              "  apart        d_1 S_1 by hermite, d_2 S_2 by chebyshev, d_3 S_3 by pairs\n"
+              "  error        the error of hermite in d_1 S_1",
+              {{.name = "pairs seconds", .printed = "seconds_brute_force", .quantity = Quantity::seconds, .digits = 3},
+               {.name = "pairs", .printed = "divergence_brute_force", .comparison = Comparison::at_most},
+               {.name = "fgtd seconds",
+                .printed = "seconds_fgtd",
+                .quantity = Quantity::seconds,
+                .digits = 3,
+                .automatic = true},
+               {.name = "fgtd", .printed = "divergence_fgtd"},
+               {.name = "pairs differences"},
+               {.name = "fgtd differences"},
+               {.name = "apart"},
+               {.name = "error"}},
+              {}};
   const fgtd::Points<3> target = Eigen::Vector3d::Constant(0.5);
   const int threads = timed_threads(options);
   const PublishedTable published("schroeder-table-6.2");

@@ -62,8 +62,7 @@ Entry relative_errors(const Measurement& hermite, const Measurement& automatic) 
 
 constexpr const char* beyond_the_end = "just beyond the end of the printed power of ten";
 constexpr const char* nearest_to_zero =
-    "it is the error of the one target where the sum is nearest to 0, and the thesis's weights are not known to the "
-    "digit";
+    "it is the error of the one target where the sum is nearest to 0. The thesis's weights are not known to the digit";
 
 // The number that a row is named by: nu, N, sigma, c.
 double row_number(const PublishedTable& published, std::size_t row) {
@@ -119,11 +118,12 @@ std::vector<Table> analytic_tables() {
 std::vector<Table> parameter_tables() {
   constexpr std::size_t count = 12;
   const std::string taken = fmt::format(
-      "d = 3, sigma = 2, alpha = 0, every box; number of points not stated: {} Halton points, weights scaled to Q = 1",
+      "d = 3, sigma = 2, alpha = 0, every box. The thesis does not state the number of points; here {} Halton points "
+      "with weights scaled to Q = 1",
       count);
   TermsTable error("3.4", "absolute error", taken, {.comparison = Comparison::order, .automatic = true});
   TermsTable time("3.5", "microseconds to prepare and evaluate at all points",
-                  taken + "; published as hundredths of a second, which 12 points make plausible; one thread",
+                  taken + ". Published as hundredths of a second, which is plausible for 12 points. One thread",
                   {.quantity = Quantity::seconds, .digits = 3, .automatic = true, .unit = 1e4});
   Problem<3> problem{halton_points<3>(count), halton_weights(count, 3), 2.0, {}};
   problem.weights /= problem.weights.sum();
@@ -205,13 +205,11 @@ std::vector<Table> point_number_tables(const FgtdOptions& options) {
 }
 
 std::vector<Table> preparation_table(const FgtdOptions& options) {
-  Table table{
-      "4.3",
-      "seconds to prepare N sources, and to evaluate one target",
-      "Halton points, d = 3, sigma = 2, alpha = (0,1,2), every box; automatic is planned for as many targets as "
-      "sources",
-      {},
-      {}};
+  Table table{"4.3",
+              "seconds to prepare N sources, and to evaluate one target",
+              "Halton points, d = 3, sigma = 2, alpha = (0,1,2), every box. auto plans for as many targets as sources",
+              {},
+              {}};
   for (const char* part : {"prepare", "evaluate"})
     for (const Parameters& q : both)
       table.columns.push_back({.name = fmt::format("{} {}", part, q.name()),
@@ -242,8 +240,8 @@ std::vector<Table> preparation_table(const FgtdOptions& options) {
 std::vector<Table> break_even_table(const FgtdOptions& options) {
   Table table{"4.4",
               "targets from which the transform is faster than the direct sum",
-              "Halton points, d = 3, sigma = 2, alpha = (0,1,2), every box; measured: prepare / (direct - evaluate), "
-              "seconds a target averaged over 1024 targets; cost: p^d N / (N - nu^d p^d); -: never",
+              "Halton points, d = 3, sigma = 2, alpha = (0,1,2), every box. \"measured\" is prepare / (direct - "
+              "evaluate) with the mean seconds of 1024 targets. \"cost\" is p^d N / (N - nu^d p^d). A - means never",
               {},
               {}};
   std::array<Parameters, 6> all;
@@ -343,17 +341,18 @@ std::vector<Table> dimension_table(const FgtdOptions& options) {
 std::vector<Table> width_table(const FgtdOptions& options) {
   const double n = std::min(10000.0, options.most_points);
   constexpr double tolerance = 1e-8;
-  Table table{"4.6",
-              "absolute error over sigma and the neighbour boxes n",
-              fmt::format("N = M = {:.0f} Halton points, d = 3, alpha = (0,1,2), p = 9, nu = 4 fixed, so that r = "
-                          "sqrt(sigma/2)/4; automatic: tolerance 1e-8, or as accurate as n >= 2 where that is better{}",
-                          n, sampled(options)),
-              {{.name = "n = 0", .printed = "n0", .comparison = Comparison::order},
-               {.name = "n = 1", .printed = "n1", .comparison = Comparison::order},
-               {.name = "n >= 2", .printed = "n2_or_more", .comparison = Comparison::order, .automatic = true},
-               {.name = "promise of auto"},
-               {.name = "max |sum|"}},
-              {}};
+  Table table{
+      "4.6",
+      "absolute error over sigma and the neighbour boxes n",
+      fmt::format("N = M = {:.0f} Halton points, d = 3, alpha = (0,1,2), p = 9, nu = 4 fixed, so that r = "
+                  "sqrt(sigma/2)/4. auto has a tolerance of 1e-8, or is as accurate as n >= 2 where that is better{}",
+                  n, sampled(options)),
+      {{.name = "n = 0", .printed = "n0", .comparison = Comparison::order},
+       {.name = "n = 1", .printed = "n1", .comparison = Comparison::order},
+       {.name = "n >= 2", .printed = "n2_or_more", .comparison = Comparison::order, .automatic = true},
+       {.name = "promise of auto"},
+       {.name = "max |sum|"}},
+      {}};
   const PublishedTable published("schroeder-table-4.6");
   for (std::size_t row = 0; row < published.rows(); ++row) {
     Problem<3> problem = standard_problem<3>(static_cast<std::size_t>(n));
@@ -490,9 +489,9 @@ std::vector<Table> level_table(const FgtdOptions& options) {
   const double n = std::min(10000.0, options.most_points);
   Table table{"4.9",
               "seconds and error over the compiler's optimisation level",
-              fmt::format("N = M = {:.0f} Halton points, d = 3, sigma = 2, alpha = (0,1,2), p = 9, nu = 3, every box; "
-                          "which error is printed is not said, the relative one has its power of ten; this program has "
-                          "the inner loops of one level, the other levels are for: ninja bench_levels",
+              fmt::format("N = M = {:.0f} Halton points, d = 3, sigma = 2, alpha = (0,1,2), p = 9, nu = 3, every box. "
+                          "The thesis does not say which error it prints; the relative one has its power of ten. This "
+                          "program was compiled at one level; ninja bench_levels measures the others",
                           n),
               {{.name = "seconds", .printed = "seconds", .quantity = Quantity::seconds, .digits = 3},
                {.name = "relative error", .printed = "error", .comparison = Comparison::order, .digits = 3},

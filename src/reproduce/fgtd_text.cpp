@@ -67,7 +67,7 @@ std::string comparisons_of(const Table& table) {
   std::string text;
   for (std::size_t k = 0; k < comparisons.size(); ++k)
     if (counts[k] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k], to_string(comparisons[k]));
-  return text.empty() ? "nothing, as all is seconds" : text;
+  return text.empty() ? "nothing, because all numbers are seconds" : text;
 }
 
 std::string to_text(const Table& table) {
@@ -120,12 +120,17 @@ std::string short_power(double value, int digits) { return short_exponent(fmt::f
 
 std::string to_text(const FgtdReproduction& result) {
   std::string text = fmt::format(
-      "then: as printed (a 3.05 GHz Pentium 4, 2006); now: method hermite with the same parameters; auto: method "
-      "automatic asked for that error; times on {} thread{}; ! does not agree\n"
-      "compared: arithmetic: a formula gives the same number or power of ten, nothing is measured; equal digits: all "
-      "that "
-      "are printed; order of magnitude: between a third of the printed power of ten and {} times its end; at most the "
-      "published error: {} times the end of its power of ten; seconds are of another machine and not compared\n\n",
+      "then  the printed number; seconds of 2006 are those of a Pentium 4 of 3.05 GHz\n"
+      "now   method hermite with the thesis's parameters\n"
+      "auto  method auto, asked for the error that these parameters gave\n"
+      "!     this number does not agree\n"
+      "Times are taken on {} thread{}. Seconds are of another machine and not compared.\n"
+      "The line \"compared\" counts the numbers of a table by what agreement means:\n"
+      "  arithmetic                      a formula gives the same number or power of ten; nothing is measured\n"
+      "  equal digits                    all printed digits are the same\n"
+      "  order of magnitude              the error lies between a third of the printed power of ten and {} times its "
+      "end\n"
+      "  at most the published error     the error is at most {} times the end of the printed power of ten\n\n",
       result.threads, result.threads == 1 ? "" : "s", error_slack, error_slack);
   for (const Table& table : result.tables) text += to_text(table) + "\n";
   text += fmt::format("{} number{} compared", result.compared, result.compared == 1 ? "" : "s");
@@ -137,7 +142,8 @@ std::string to_text(const FgtdReproduction& result) {
   }
   text += fmt::format("; {} disagree; {:.0f} s\n", result.disagreements.size(), result.seconds);
   for (const std::string& line : result.disagreements) text += "disagrees: " + line + "\n";
-  if (!result.off.empty()) text += fmt::format("a power of ten off, {} numbers:\n", result.off.size());
+  if (!result.off.empty())
+    text += fmt::format("{} numbers are a power of ten off, for these reasons:\n", result.off.size());
   std::vector<std::string> reasons;
   for (const auto& [place, why] : result.off)
     if (std::find(reasons.begin(), reasons.end(), why) == reasons.end()) reasons.push_back(why);
