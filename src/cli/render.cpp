@@ -15,6 +15,8 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "render/styles.hpp"
+#include "write/folder_lock.hpp"
+#include "write/run_folder.hpp"
 
 namespace gaussdrift::cli {
 
@@ -77,6 +79,9 @@ ExitCode render(const RenderOptions& options) {
   }
   const bool error = options.field == "error";
   const render::Style* style = options.style.empty() ? nullptr : &style_called(options.style);
+  const bool into_the_run = options.out.empty() && fs::is_directory(options.folder);
+  std::optional<write::FolderLock> lock;
+  if (into_the_run) lock.emplace(options.folder);
   const auto outputs = outputs_of(options.folder);
   std::set<std::size_t> wanted;
   for (const double time : options.times) wanted.insert(output_at(time, outputs, options.folder));
@@ -95,10 +100,9 @@ ExitCode render(const RenderOptions& options) {
     throw CommandLineError(
         fmt::format("--style {} does not show densities of {} dimensions", style->about.name, dimension));
   const auto [range_min, range_max] = style->range(low, high);
-  const fs::path out = options.out.empty()
-                           ? (fs::is_directory(options.folder) ? options.folder / "images" : fs::path("."))
-                           : options.out;
+  const fs::path out = options.out.empty() ? (into_the_run ? options.folder / "images" : fs::path(".")) : options.out;
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
+  std::vector<std::string> names;                              // of the run, from now on
   const fs::path named = (options.folder / "").parent_path();  // "a/b/" is "a/b"
   for (const std::size_t i : wanted) {
     const fs::path png = out / fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_",
@@ -111,8 +115,10 @@ ExitCode render(const RenderOptions& options) {
           .range_max = range_max},
          png);
     written.push_back(png.string());
+    names.push_back("images/" + png.filename().string());
     if (!options.json) say("wrote  {}\n", png.string());
   }
+  if (into_the_run) write::add_to_own_files(options.folder, names);
   if (options.json) say("{}\n", laid_out(nlohmann::ordered_json{{"written", written}}));
   return ExitCode::ok;
 }

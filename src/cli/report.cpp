@@ -1,8 +1,12 @@
 // gaussdrift report: the page about a run, made again.
+#include <optional>
+#include <system_error>
+
 #include "cli/laid_out.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "report/page.hpp"
+#include "write/folder_lock.hpp"
 
 namespace gaussdrift::cli {
 
@@ -21,6 +25,8 @@ void declare(OptionList& options, ReportOptions& given) {
 }
 
 ExitCode report(const ReportOptions& options) {
+  std::optional<write::FolderLock> lock;
+  if (std::error_code ignored; fs::is_directory(options.folder, ignored)) lock.emplace(options.folder);
   const report::ReportFiles files = report::write_report(options.folder, true);
   if (options.json) {
     nlohmann::ordered_json written = nlohmann::ordered_json::array();

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "accuracy/footprint.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "cli/asked_case.hpp"
@@ -21,6 +22,7 @@
 #include "input/data_files.hpp"
 #include "render/picture.hpp"
 #include "render/picture_series.hpp"
+#include "render/styles.hpp"
 #include "report/page.hpp"
 #include "write/atomic_file.hpp"
 #include "write/output_files.hpp"
@@ -90,6 +92,16 @@ std::string provenance_of(const Case& spec, const fs::path& folder, const RunOpt
                                 base::resolve_threads(options.case_options.threads));
 }
 
+/// Bytes that the run writes at least: the exact density may stand beside the other.
+double least_disk(const Case& spec, std::size_t particles) {
+  const Domain& domain = spec.domain;
+  const Lattice grid = spec.evaluate.spacing > 0
+                           ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
+                           : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
+  return accuracy::disk_of_run(
+      spec, {.particles = static_cast<double>(particles), .grid_points = static_cast<double>(grid.size())});
+}
+
 class Run {
  public:
   explicit Run(const RunOptions& options)
@@ -103,11 +115,15 @@ class Run {
     Simulation simulation(spec_, threads());
     simulation.prepare();  // what cannot begin must not cost an earlier run
     const std::string provenance = provenance_of(spec_, folder_, options_);
-    write::prepare_run_folder(folder_, options_.force);
+    own_folder_.emplace(folder_, spec_,
+                        write::RunFolderOptions{.force = options_.force,
+                                                .bytes = least_disk(spec_, simulation.particles().size()),
+                                                .picture_styles = render::style_names()});
     write::write_run_inputs(folder_, spec_, case_text(spec_, folder_));
     write::write_text(folder_ / "provenance.json", provenance);
     add_observers(simulation, spec_, folder_);
     if (looks_back(spec_)) simulation.observe(std::make_unique<accuracy::LastFrame>(last_, spec_.output.times.back()));
+    simulation.observe(own_folder_->watch());
     ProgressLine line;
     simulation.on_progress([&](const Progress& progress) {
       line.show(progress);
@@ -142,6 +158,14 @@ class Run {
     for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
     for (const std::string& why : owed_.missing()) log += "error: " + why + "\n";
     owed_.attempt([&] { write::write_text(folder_ / "log.txt", base::printable_lines(log + ending_)); });
+    owed_.attempt([&] { own_folder_->complete(); });
+  }
+
+  /// After a failure: where the run is that this one was to replace.
+  void tell_what_is_kept() const {
+    if (own_folder_ && own_folder_->keeps_earlier())
+      note("the earlier run is whole in {}; it is replaced when another run in its place has an output\n",
+           (folder_ / "earlier").string());
   }
 
   ExitCode report() const {
@@ -170,13 +194,19 @@ class Run {
   nlohmann::ordered_json more_;  // members of summary.json beside those of the run
   std::string summary_text_, ending_;
   OwedFiles owed_;
+  std::optional<write::RunFolder> own_folder_;
 };
 
 ExitCode run(const RunOptions& options) {
   check_folder_name(options.folder,
                     "a run leaves a folder with ParaView files (density.pvd), pictures (PNG) and tables (CSV)");
   Run run(options);
-  run.simulate();
+  try {
+    run.simulate();
+  } catch (...) {
+    run.tell_what_is_kept();
+    throw;
+  }
   run.explain_errors();
   run.write();
   return run.report();

@@ -1,6 +1,10 @@
 // gaussdrift study: what accuracy costs in time.
 #include <fmt/format.h>
 
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
 #include <cstdio>
 
 #include "cli/asked_case.hpp"
@@ -13,6 +17,8 @@
 #include "render/picture.hpp"
 #include "study/study.hpp"
 #include "write/atomic_file.hpp"
+#include "write/folder_lock.hpp"
+#include "write/own_files.hpp"
 
 namespace gaussdrift::cli {
 
@@ -55,6 +61,19 @@ bool holds_a_study(const fs::path& folder) {
   return false;
 }
 
+/// What a finished study in this folder wrote, by the names that its study.json tells: a new one is not mixed with it. One
+/// that was interrupted has no list: its tables are replaced where the new one has tables of the same names.
+write::OwnFiles files_of_study(const fs::path& folder) {
+  write::OwnFiles files({"study.json", "study.md"});
+  std::ifstream in(folder / "study.json", std::ios::binary);
+  const auto told = nlohmann::json::parse(in, nullptr, false);
+  if (told.is_object() && told.contains("experiments") && told["experiments"].is_array())
+    for (const auto& experiment : told["experiments"])
+      if (experiment.is_object() && experiment.contains("name") && experiment["name"].is_string())
+        for (const char* ending : {".csv", ".png"}) files.add(experiment["name"].get<std::string>() + ending);
+  return files;
+}
+
 ExitCode study(const StudyVerbOptions& options) {
   check_folder_name(options.folder, "a study leaves a folder with tables (CSV) and charts (PNG)");
   study::StudyOptions wanted;
@@ -72,18 +91,26 @@ ExitCode study(const StudyVerbOptions& options) {
         fmt::format("{} holds an earlier study, or what is left of one; --force replaces it, --out DIR writes "
                     "elsewhere",
                     folder.string()));
+  std::optional<write::FolderLock> lock;
+  const auto take_folder = [&] {  // once there is something to write: until then an earlier study stays
+    if (lock) return;
+    lock.emplace(folder);
+    if (options.force) files_of_study(folder).remove_from(folder);
+  };
   study::Study result;
   {
     ProgressLine line;
     wanted.progress = [&](const std::string& what) { line.show(what); };
     // Written anew whenever a table grows, so that an interrupted study leaves what it has.
     wanted.table_grew = [&](const study::Experiment& experiment) {
+      take_folder();
       write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment));
     };
     result = study::run_study(wanted);
   }
   const std::string json = study::to_json(result);
   OwedFiles owed;
+  take_folder();
   for (const study::Experiment& experiment : result.experiments)
     owed.attempt([&] { write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment)); });
   owed.attempt([&] { write::write_text(folder / "study.json", json); });

@@ -41,6 +41,12 @@ const Style& first(int dimension, bool errors, const Wanted& wanted) {
 
 const std::vector<Style>& styles() { return base::catalogue<Style>(); }
 
+std::vector<std::string> style_names() {
+  std::vector<std::string> names;
+  for (const Style& style : styles()) names.emplace_back(style.about.name);
+  return names;
+}
+
 const Style& find_style(std::string_view name) { return base::find_named(styles(), "style of pictures", name); }
 
 const Style& default_style(int dimension, bool errors) {

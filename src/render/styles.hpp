@@ -48,6 +48,8 @@ struct Style {
 /// In the order of docs/cases.md.
 const std::vector<Style>& styles();
 
+std::vector<std::string> style_names();
+
 /// Throws std::out_of_range if no style is called so.
 const Style& find_style(std::string_view name);
 

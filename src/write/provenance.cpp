@@ -68,6 +68,8 @@ std::string hash_of_file(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::string program_version() { return GAUSSDRIFT_VERSION; }
+
 std::string made_by() {
   return fmt::format("gaussdrift {}, {}, {}", GAUSSDRIFT_VERSION, GAUSSDRIFT_COMPILER, processor());
 }

@@ -21,6 +21,9 @@ struct DataFile {
 std::string provenance_json(const Case& spec, const std::string& resolved, const std::vector<DataFile>& data,
                             const std::string& command, int threads);
 
+/// "0.9.0".
+std::string program_version();
+
 /// "gaussdrift VERSION, COMPILER, PROCESSOR": for the foot of charts and tables of seconds.
 std::string made_by();
 

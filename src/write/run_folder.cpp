@@ -1,9 +1,12 @@
 #include "write/run_folder.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
+#include <ctime>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -13,60 +16,110 @@
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
 #include "write/output_files.hpp"
+#include "write/provenance.hpp"
 #include "write/series_table.hpp"
 
 namespace gaussdrift::write {
 
 namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::string_view pictures_folder = "images", pictures_ending = ".png";
+constexpr const char* status_name = "status.json";
+constexpr const char* earlier_name = "earlier";
 
-/// The files that a run writes at the top of its folder.
-std::vector<std::string> run_files() {
-  std::vector<std::string> names{"case.toml",         "log.txt",     "provenance.json", "report.html",
-                                 "report.json",       "run.toml",    series_name,       "summary.json",
-                                 "summary.png.panel", "summary.png", "view.py"};
-  for (const FileKind& kind : output_files()) names.push_back(fmt::format("{}.pvd", kind.about.name));
-  return names;
-}
-
-/// Folders with the numbered files of a run, and the ending of these.
-std::vector<std::pair<std::string_view, std::string_view>> numbered_files() {
-  std::vector<std::pair<std::string_view, std::string_view>> folders{{pictures_folder, pictures_ending}};
-  for (const FileKind& kind : output_files()) folders.emplace_back(kind.about.name, kind.ending);
-  return folders;
-}
-
-// "surface_0012.png": letters, an underscore, digits, and the ending; ".part" where a run was killed.
-bool is_numbered(std::string name, std::string_view ending) {
-  if (name.ends_with(".part")) name.resize(name.size() - 5);
-  if (!name.ends_with(ending)) return false;
-  name.resize(name.size() - ending.size());
-  const std::size_t underscore = name.rfind('_');
-  return underscore != std::string::npos && name.size() - underscore > 4 &&
-         std::all_of(name.begin() + static_cast<std::ptrdiff_t>(underscore) + 1, name.end(),
-                     [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-// Removes what a run wrote and nothing else: what a user keeps beside it stays.
-void remove_earlier_run(const fs::path& folder) {
-  try {
-    for (const auto& [name, ending] : numbered_files()) {
-      if (!fs::is_directory(folder / name)) continue;
-      for (const auto& entry : fs::directory_iterator(folder / name))
-        if (is_numbered(entry.path().filename().string(), ending)) fs::remove(entry.path());
-      if (fs::is_empty(folder / name)) fs::remove(folder / name);
-    }
-    for (const std::string& name : run_files()) {
-      fs::remove(folder / name);
-      fs::remove(folder / (name + ".part"));  // where a run was killed
-    }
-  } catch (const fs::filesystem_error& failure) {
-    throw FileError(fmt::format("the earlier run in {} cannot be removed: {}; choose another folder with --out",
-                                folder.string(), failure.code().message()));
+/// The files that a run writes. `most`: of a series.
+OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_t most) {
+  OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
+                  "state/", "summary.json", "summary.png", "summary.png.panel", "view.py"});
+  for (const FileKind& kind : output_files()) {
+    const std::string name(kind.about.name);
+    files.add(name + ".pvd");
+    files.add(numbered_names(name + "/" + name + "_", most, kind.ending));
   }
+  for (const std::string& style : picture_styles) files.add(numbered_names("images/" + style + "_", most, ".png"));
+  return files;
+}
+
+OwnFiles files_of(const Case& spec) {
+  std::vector<std::string> styles;
+  for (const PictureStyle& style : spec.output.images) styles.emplace_back(style.name);
+  return files_of_run(styles, spec.output.times.size());
+}
+
+/// What status.json says. The folder may be a stranger's: what has another type than it should is as if it were not there.
+struct Status {
+  explicit Status(const fs::path& folder) {
+    const fs::path file = folder / status_name;
+    std::error_code problem;
+    if (!fs::is_regular_file(fs::symlink_status(file, problem)) || fs::file_size(file, problem) > 1'000'000) return;
+    std::ifstream in(file, std::ios::binary);
+    all = json::parse(in, nullptr, false);
+    try {
+      if (!all.is_object() || all.at("kind") != "run") return;
+      for (const json& name : all.at("files")) files.add(name.get<std::string>());
+      outputs = all.at("outputs").get<std::size_t>();
+      is_set_aside = all.value("set_aside", false);
+      if (all.at("last_output").is_number()) time = all.at("last_output").get<double>();
+      there = true;
+    } catch (const json::exception&) {
+      there = false;
+    }
+  }
+  bool there = false, is_set_aside = false;
+  OwnFiles files;
+  std::size_t outputs = 0;
+  std::optional<double> time;
+  json all;
+};
+
+std::string text_of(const json& status) { return status.dump(2, ' ', false, json::error_handler_t::replace) + "\n"; }
+
+/// Left by a process that was killed, this version's or an earlier one's: nothing is lost with it.
+bool is_leftover(const std::string& name) { return name == lock_name || name == "run.toml.part" || is_part_name(name); }
+
+[[noreturn]] void refuse(const fs::path& folder, const std::string& what) {
+  throw FileError(
+      fmt::format("cannot use {} as output folder: {}; choose another folder with --out", folder.string(), what));
+}
+
+/// The nearest folder above that is there tells how much is free.
+void check_space(const fs::path& folder, double bytes, double freed) {
+  fs::path there = fs::absolute(folder);
+  std::error_code problem;
+  while (!fs::exists(there, problem) && there.has_relative_path()) there = there.parent_path();
+  const fs::space_info space = fs::space(there, problem);
+  if (problem || static_cast<double>(space.available) + freed >= bytes) return;
+  throw FileError(
+      fmt::format("the run will write about {:.3g} MB, and {:.3g} MB are free for {}; free some space, write fewer "
+                  "outputs or files "
+                  "(output.times, output.vtk, output.images), or choose another folder with --out",
+                  bytes / 1e6, static_cast<double>(space.available) / 1e6, folder.string()));
+}
+
+std::string now() {
+  const std::time_t time = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&time, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                     parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+/// Removes the files of a run, its list last: a process that is killed in between can be followed by another.
+void remove_run(const fs::path& folder, const OwnFiles& files) {
+  files.remove_from(folder);
+  OwnFiles({status_name}).remove_from(folder);
+}
+
+/// Of a run, at the top of its folder; what else is there is not looked at.
+void check_links(const fs::path& folder) {
+  std::vector<std::string> folders{"images", "state", earlier_name};
+  for (const FileKind& kind : output_files()) folders.emplace_back(kind.about.name);
+  std::error_code ignored;
+  for (const std::string& name : folders)
+    if (fs::is_symlink(fs::symlink_status(folder / name, ignored)))
+      refuse(folder, fmt::format("{} in it is a link, and links are not followed; remove the link", name));
 }
 
 std::string view_script(const Case& spec) {
@@ -101,32 +154,139 @@ std::string view_script(const Case& spec) {
 
 }  // namespace
 
-void prepare_run_folder(const fs::path& folder, bool force) {
+RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& options)
+    : folder_(std::move(folder)), own_(files_of(spec)) {
   std::error_code problem;
-  const auto refuse = [&](const std::string& what) {
-    throw FileError(
-        fmt::format("cannot use {} as output folder: {}; choose another folder with --out", folder.string(), what));
-  };
-  const fs::file_status status = fs::status(folder, problem);
-  if (fs::exists(status) && !fs::is_directory(status)) refuse("it is a file");
-  if (fs::exists(status)) {
-    const bool empty = fs::is_empty(folder, problem);
-    if (problem) refuse(problem.message());
-    if (!empty && !force)
-      throw FileError(fmt::format("{} is not empty; --force replaces the earlier run in it, --out DIR writes elsewhere",
-                                  folder.string()));
-    if (!empty && !fs::exists(folder / "run.toml"))
-      throw FileError(
-          fmt::format("{} holds no earlier run (it has no run.toml), so --force does not touch it; choose "
-                      "another folder with --out",
-                      folder.string()));
-    if (!empty) remove_earlier_run(folder);
-  } else {
-    fs::create_directories(folder, problem);
-    if (problem) refuse(problem.message());
+  const fs::file_status status = fs::status(folder_, problem);
+  if (fs::exists(status) && !fs::is_directory(status)) refuse(folder_, "it is a file");
+  if (!fs::exists(status)) check_space(folder_, options.bytes, 0);
+  lock_.emplace(folder_);
+  check_links(folder_);
+  const Status run(folder_), aside(folder_ / earlier_name);
+  const bool old_version = !run.there && fs::exists(folder_ / "run.toml");
+  const OwnFiles files = old_version ? files_of_run(options.picture_styles, 1'000'000'000) : run.files;
+  keeps_earlier_ = aside.is_set_aside;
+  if (options.go_on) {
+    for (const std::string& name : files.names()) own_.add(name);
+    outputs_ = run.outputs, time_ = run.time;
+    tell("running", "wait, or look at what is there: every file is whole");
+    return;
   }
-  // A folder that cannot be written is found out now and not after the first hour of stepping.
-  write_text(folder / "run.toml", "# this run has not begun\n");
+
+  bool empty = true, nothing_else = true;  // but the run's own
+  for (const auto& entry : fs::directory_iterator(folder_, problem)) {
+    const std::string name = entry.path().filename().string();
+    if (is_leftover(name)) continue;
+    empty = false;
+    nothing_else = nothing_else && (files.has(name) || name == status_name);
+  }
+  if (problem) refuse(folder_, problem.message());
+  const bool killed_at_once = run.there && run.outputs == 0 && !run.is_set_aside && !keeps_earlier_ && nothing_else &&
+                              !fs::exists(folder_ / "state");
+  if (!empty && !killed_at_once && !options.force)
+    throw FileError(fmt::format("{} is not empty; --force replaces the earlier run in it, --out DIR writes elsewhere",
+                                folder_.string()));
+  if (!empty && !run.there && !old_version && !keeps_earlier_)
+    throw FileError(
+        fmt::format("{} holds no earlier run (it has neither status.json nor run.toml), so --force does not touch it; "
+                    "choose another folder with --out",
+                    folder_.string()));
+  if (fs::exists(folder_ / earlier_name) && !keeps_earlier_ && !run.is_set_aside)
+    refuse(folder_, "earlier in it is not of a run, and an earlier run would be kept there; move it away");
+  for (const std::string& name : own_.found_in(folder_))
+    if (!files.has(name))
+      refuse(folder_, fmt::format("{} in it is no file of the earlier run and would be replaced; move it away", name));
+  check_space(folder_, options.bytes, files.bytes_in(folder_));
+  fs::remove(folder_ / "run.toml.part", problem);  // of earlier versions, killed at once
+  if (killed_at_once)
+    remove_run(folder_, files);
+  else
+    set_aside(files, run.outputs > 0 || old_version, run.there);
+  tell("running", "wait, or look at what is there: every file is whole");
+}
+
+/// The run that is to be replaced goes into earlier/. Its list goes last: while it is at the top, a process that is killed
+/// can be followed by another that moves the rest. A run without an output does not take the place of one that has some.
+void RunFolder::set_aside(const OwnFiles& earlier, bool has_outputs, bool lists_itself) {
+  if (!lists_itself && !has_outputs) return;  // nothing is there
+  const fs::path aside = folder_ / earlier_name;
+  if (keeps_earlier_ && !has_outputs) return remove_run(folder_, earlier);
+  if (keeps_earlier_) remove_run(aside, Status(aside).files);
+  json list = lists_itself ? Status(folder_).all : json{{"kind", "run"}, {"state", "unknown"}, {"outputs", 1}};
+  list["set_aside"] = true;
+  list["files"] = earlier.names();
+  if (!list.contains("last_output")) list["last_output"] = nullptr;
+  write_text(folder_ / status_name, text_of(list));
+  std::error_code problem;
+  fs::create_directory(aside, problem);
+  if (problem) refuse(folder_, fmt::format("earlier in it cannot be made: {}", problem.message()));
+  earlier.move(folder_, aside);
+  OwnFiles({status_name}).move(folder_, aside);
+  keeps_earlier_ = true;
+}
+
+RunFolder::~RunFolder() {
+  if (ended_) return;
+  try {
+    end("failed", keeps_earlier_ ? "run it again with --force; the earlier run is whole in the folder earlier"
+                                 : "run it again with --force");
+  } catch (const std::exception&) {
+    // A disk that is full: status.json still says "running", and no process holds the lock.
+  }
+}
+
+void RunFolder::end(const std::string& state, const std::string& next) {
+  tell(state, next);
+  ended_ = true;
+}
+
+void RunFolder::tell(const std::string& state, const std::string& next) const {
+  write_text(folder_ / status_name, text_of({{"kind", "run"},
+                                             {"format", 1},
+                                             {"state", state},
+                                             {"next", next},
+                                             {"outputs", outputs_},
+                                             {"last_output", time_ ? json(*time_) : json()},
+                                             {"written", now()},
+                                             {"version", program_version()},
+                                             {"pid", getpid()},
+                                             {"host", host_name()},
+                                             {"files", own_.names()}}));
+}
+
+void RunFolder::seen(double time) {
+  ++outputs_;
+  time_ = time;
+  tell("running", "wait, or look at what is there: every file is whole");
+  if (!keeps_earlier_) return;
+  const fs::path aside = folder_ / earlier_name;
+  remove_run(aside, Status(aside).files);
+  std::error_code not_empty;  // a user's file in it stays
+  fs::remove(aside, not_empty);
+  keeps_earlier_ = false;
+}
+
+class RunFolder::Watch : public Observer {
+ public:
+  explicit Watch(RunFolder& folder) : folder_(folder) {}
+  std::string name() const override { return "write status"; }
+  void frame(const Frame& frame) override { folder_.seen(frame.time); }
+
+ private:
+  RunFolder& folder_;
+};
+
+std::unique_ptr<Observer> RunFolder::watch() { return std::make_unique<Watch>(*this); }
+
+void add_to_own_files(const fs::path& folder, const std::vector<std::string>& names) {
+  Status status(folder);
+  if (!status.there) return;
+  const std::size_t before = status.files.names().size();
+  for (const std::string& name : names)
+    if (!status.files.has(name)) status.files.add(name);
+  if (status.files.names().size() == before) return;
+  status.all["files"] = status.files.names();
+  write_text(folder / status_name, text_of(status.all));
 }
 
 void write_run_inputs(const fs::path& folder, const Case& spec, const std::string& resolved) {

@@ -1,0 +1,37 @@
+// The list of files that a run may replace and remove: its own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gaussdrift::write {
+
+/// Names as seen from the folder of the run, in one of three forms: "series.csv"; "density/density_{0000..0012}.vti", a
+/// range as shells write it; "state/", all that is in a folder. Names that lead out of the folder are not taken.
+class OwnFiles {
+ public:
+  OwnFiles() = default;
+  explicit OwnFiles(const std::vector<std::string>& names);
+  void add(const std::string& name);
+  bool has(std::string_view file) const;
+  const std::vector<std::string>& names() const { return names_; }
+
+  /// Those that are there: files, and links of such names, not what they lead to. A folder in `folder` that is a link
+  /// is not looked into.
+  std::vector<std::string> found_in(const std::filesystem::path& folder) const;
+  double bytes_in(const std::filesystem::path& folder) const;
+  /// Removes them, and folders that are empty then. Throws FileError.
+  void remove_from(const std::filesystem::path& folder) const;
+  /// Renames them into the folder `to`. Throws FileError. What has been moved by an earlier call stays there.
+  void move(const std::filesystem::path& folder, const std::filesystem::path& to) const;
+
+ private:
+  std::vector<std::string> names_;
+};
+
+/// "density/density_{0000..0012}.vti"; `count` files from 0.
+std::string numbered_names(std::string_view before, std::size_t count, std::string_view ending);
+
+}  // namespace gaussdrift::write

@@ -1,0 +1,214 @@
+// Who may write into the folder of a run, and what becomes of an earlier one.
+#include "write/run_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "gaussdrift/error.hpp"
+#include "message_of.hpp"
+#include "scratch_folder.hpp"
+#include "write/atomic_file.hpp"
+
+namespace gaussdrift::write {
+namespace {
+
+namespace fs = std::filesystem;
+
+Case some_case(std::size_t outputs = 3) {
+  Case spec;
+  spec.name = "some";
+  for (std::size_t i = 0; i < outputs; ++i) spec.output.times.push_back(static_cast<double>(i));
+  return spec;
+}
+
+std::string state_in(const fs::path& folder) {
+  return nlohmann::json::parse(read_file(folder / "status.json")).at("state").get<std::string>();
+}
+
+/// A run that writes some of its files and is complete, or not.
+void run_in(const fs::path& folder, const std::string& mark, bool force, int outputs, bool completes) {
+  const Case spec = some_case();
+  RunFolder run(folder, spec, {.force = force});
+  write_run_inputs(folder, spec, mark);
+  const auto watch = run.watch();
+  for (int i = 0; i < outputs; ++i) {
+    write_text(folder / ("density/density_000" + std::to_string(i) + ".vti"), mark);
+    write_text(folder / "density.pvd", mark);
+    write_text(folder / "state/0/manifest.json", mark);
+    watch->frame(Frame{.index = i, .time = i * 1., .numbers = {}});
+  }
+  if (completes) run.complete();
+}
+
+TEST(RunFolder, TellsHowFarTheRunIs) {
+  const ScratchFolder folder;
+  {
+    RunFolder run(folder / "r", some_case(), {});
+    EXPECT_EQ(state_in(folder / "r"), "running");
+    run.watch()->frame(Frame{.index = 0, .time = 0.5, .numbers = {}});
+    const auto status = nlohmann::json::parse(read_file(folder / "r/status.json"));
+    EXPECT_EQ(status.at("outputs"), 1);
+    EXPECT_EQ(status.at("last_output"), 0.5);
+    EXPECT_EQ(status.at("pid"), getpid());
+  }
+  EXPECT_EQ(state_in(folder / "r"), "failed");
+  run_in(folder / "r", "a", true, 1, true);
+  EXPECT_EQ(state_in(folder / "r"), "complete");
+  EXPECT_FALSE(fs::exists(folder / "r" / lock_name));
+}
+
+TEST(RunFolder, IsOfOneProcessAtATime) {
+  const ScratchFolder folder;
+  const RunFolder run(folder / "r", some_case(), {});
+  const std::string before = read_file(folder / "r/status.json");
+  for (const bool force : {false, true}) {
+    const auto text = message_of<FileError>([&] { RunFolder(folder / "r", some_case(), {.force = force}); });
+    EXPECT_NE(text.find("is in use: process " + std::to_string(getpid()) + " on "), std::string::npos) << text;
+  }
+  EXPECT_NE(message_of<FileError>([&] { FolderLock(folder / "r"); }), "");
+  EXPECT_EQ(read_file(folder / "r/status.json"), before);
+}
+
+TEST(RunFolder, KeepsTheEarlierRunUntilTheNewOneHasAnOutput) {
+  const ScratchFolder folder;
+  run_in(folder / "r", "old", false, 3, true);
+  write_text(folder / "r/notes.txt", "mine");
+  write_text(folder / "r/density/mine_0001.vti", "mine");
+  {
+    RunFolder run(folder / "r", some_case(), {.force = true});
+    EXPECT_TRUE(run.keeps_earlier());
+    EXPECT_EQ(read_file(folder / "r/earlier/density/density_0002.vti"), "old");
+    EXPECT_EQ(read_file(folder / "r/earlier/state/0/manifest.json"), "old");
+    EXPECT_EQ(state_in(folder / "r/earlier"), "complete");
+    EXPECT_FALSE(fs::exists(folder / "r/run.toml"));
+  }  // fails before its first output
+  EXPECT_TRUE(fs::exists(folder / "r/earlier/run.toml"));
+  EXPECT_NE(message_of<FileError>([&] { run_in(folder / "r", "new", false, 1, true); }), "") << "without --force";
+  run_in(folder / "r", "failed again", true, 0, false);
+  EXPECT_EQ(read_file(folder / "r/earlier/density/density_0002.vti"), "old");
+  run_in(folder / "r", "new", true, 1, true);
+  EXPECT_FALSE(fs::exists(folder / "r/earlier"));
+  EXPECT_FALSE(fs::exists(folder / "r/density/density_0002.vti"));
+  EXPECT_EQ(read_file(folder / "r/density/density_0000.vti"), "new");
+  EXPECT_EQ(read_file(folder / "r/notes.txt"), "mine");
+  EXPECT_EQ(read_file(folder / "r/density/mine_0001.vti"), "mine");
+}
+
+/// As if the process had been killed between two of the files that it moves.
+TEST(RunFolder, IsUsableAfterAProcessThatWasKilledWhileItMovedTheEarlierRun) {
+  const ScratchFolder folder;
+  for (const int moved : {0, 1, 4, 6}) {
+    const fs::path r = folder / std::to_string(moved);
+    run_in(r, "old", false, 3, true);
+    auto status = nlohmann::json::parse(read_file(r / "status.json"));
+    status["set_aside"] = true;
+    write_text(r / "status.json", status.dump());
+    fs::create_directories(r / "earlier/density");
+    int left = moved;
+    for (const char* file : {"density/density_0000.vti", "density/density_0001.vti", "density/density_0002.vti",
+                             "density.pvd", "run.toml", "view.py"})
+      if (left-- > 0) fs::rename(r / file, r / "earlier" / file);
+    {
+      const RunFolder run(r, some_case(), {.force = true});
+      EXPECT_TRUE(run.keeps_earlier());
+      for (const char* file : {"density/density_0000.vti", "density/density_0002.vti", "density.pvd", "run.toml"})
+        EXPECT_EQ(read_file(r / "earlier" / file), "old") << file << moved;
+    }
+    run_in(r, "new", true, 2, true);
+    EXPECT_FALSE(fs::exists(r / "earlier")) << moved;
+    EXPECT_EQ(read_file(r / "density/density_0001.vti"), "new");
+  }
+}
+
+TEST(RunFolder, IsUsableAfterAProcessThatWasKilledAtOnce) {
+  const ScratchFolder folder;
+  fs::create_directories(folder / "locked");
+  write_text(folder / ("locked/" + std::string(lock_name)), "process 1 on nowhere\n");
+  write_file(folder / "locked/.gaussdrift-1-2.part", "half");
+  run_in(folder / "locked", "a", false, 1, true);
+  EXPECT_FALSE(fs::exists(folder / "locked/.gaussdrift-1-2.part"));
+
+  fs::create_directories(folder / "old_version");
+  write_file(folder / "old_version/run.toml.part", "half");
+  run_in(folder / "old_version", "a", true, 1, true);
+  EXPECT_FALSE(fs::exists(folder / "old_version/run.toml.part"));
+
+  run_in(folder / "no_output", "a", false, 0, false);
+  run_in(folder / "no_output", "b", false, 1, true);  // nothing is lost
+  EXPECT_NE(message_of<FileError>([&] { run_in(folder / "no_output", "c", false, 1, true); }), "");
+}
+
+TEST(RunFolder, ReplacesARunOfAVersionWithoutAList) {
+  const ScratchFolder folder;
+  for (const char* file : {"run.toml", "density.pvd", "density/density_0007.vti", "images/surface_0007.png"})
+    write_text(folder / "r" / file, "old");
+  write_text(folder / "r/images/photo_0007.png", "mine");
+  {
+    RunFolder run(folder / "r", some_case(), {.force = true, .picture_styles = {"surface"}});
+    EXPECT_EQ(read_file(folder / "r/earlier/images/surface_0007.png"), "old");
+    run.watch()->frame(Frame{.index = 0, .numbers = {}});
+    run.complete();
+  }
+  EXPECT_FALSE(fs::exists(folder / "r/earlier"));
+  EXPECT_FALSE(fs::exists(folder / "r/density"));
+  EXPECT_EQ(read_file(folder / "r/images/photo_0007.png"), "mine");
+}
+
+TEST(RunFolder, FollowsNoLinks) {
+  const ScratchFolder folder;
+  write_text(folder / "precious/density_0000.vti", "mine");
+  run_in(folder / "r", "old", false, 1, true);
+  fs::remove_all(folder / "r/density");
+  fs::create_directory_symlink(folder / "precious", folder / "r/density");
+  const auto text = message_of<FileError>([&] { run_in(folder / "r", "new", true, 1, true); });
+  EXPECT_NE(text.find("density in it is a link, and links are not followed"), std::string::npos) << text;
+  EXPECT_EQ(read_file(folder / "precious/density_0000.vti"), "mine");
+  EXPECT_EQ(state_in(folder / "r"), "complete");
+}
+
+TEST(RunFolder, ReplacesNoFileThatIsNotOnTheListOfTheEarlierRun) {
+  const ScratchFolder folder;
+  run_in(folder / "r", "old", false, 1, true);
+  write_text(folder / "r/density/density_0007.vti", "mine");  // a run of 3 outputs does not write it
+  const Case longer = some_case(9);
+  const auto text = message_of<FileError>([&] { RunFolder(folder / "r", longer, {.force = true}); });
+  EXPECT_NE(text.find("density/density_0007.vti in it is no file of the earlier run"), std::string::npos) << text;
+  EXPECT_EQ(read_file(folder / "r/density/density_0000.vti"), "old");
+}
+
+TEST(RunFolder, TakesNoListThatLeadsOutOfIt) {
+  const ScratchFolder folder;
+  write_text(folder / "precious", "mine");
+  write_text(
+      folder / "r/status.json",
+      R"({"kind": "run", "outputs": 1, "last_output": 0, "files": ["../precious", "/etc/passwd", "a/../../precious"]})");
+  run_in(folder / "r", "new", true, 1, true);
+  EXPECT_EQ(read_file(folder / "precious"), "mine");
+  for (const char* damaged : {"[", "[]", "{}", R"({"kind": 1})", R"({"kind": "run", "files": 3})"}) {
+    write_text(folder / "s/status.json", damaged);
+    EXPECT_NE(message_of<FileError>([&] { run_in(folder / "s", "new", true, 1, true); }), "") << damaged;
+  }
+}
+
+TEST(RunFolder, RefusesARunThatTheDiskCannotTakeWithBothNumbers) {
+  const ScratchFolder folder;
+  const auto text = message_of<FileError>([&] { RunFolder(folder / "new/r", some_case(), {.bytes = 1e18}); });
+  EXPECT_NE(text.find("will write about 1e+12 MB, and "), std::string::npos) << text;
+  EXPECT_FALSE(fs::exists(folder / "new"));
+}
+
+TEST(OwnFiles, HasRangesAndFolders) {
+  const OwnFiles files({"a.csv", numbered_names("d/d_", 12, ".vti"), "state/"});
+  for (const char* name : {"a.csv", "d/d_0000.vti", "d/d_0011.vti", "state/x"}) EXPECT_TRUE(files.has(name)) << name;
+  for (const char* name : {"b.csv", "d/d_0012.vti", "d/d_11.vti", "d/d_00011.vti", "d/d_.vti", "d_0001.vti", "state",
+                           "d/d_{0000..0011}.vtix"})
+    EXPECT_FALSE(files.has(name)) << name;
+  EXPECT_TRUE(OwnFiles({numbered_names("d_", 20000, "")}).has("d_12345"));
+}
+
+}  // namespace
+}  // namespace gaussdrift::write
