@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <new>
+
 #include "accuracy/accuracy_table.hpp"
 #include "base/stopwatch.hpp"
 
@@ -26,6 +28,8 @@ std::optional<accuracy::Budget> look_back(const Case& spec, RunSummary& summary,
     const base::Stopwatch watch;
     try {
       work();
+    } catch (const std::bad_alloc&) {
+      warnings.push_back(fmt::format("no {}: out of memory", name));
     } catch (const std::exception& error) {
       warnings.push_back(fmt::format("no {}: {}", name, error.what()));
     }

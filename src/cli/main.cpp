@@ -4,7 +4,7 @@
 #include "cli/waiting_threads.hpp"
 
 int main(int argc, char** argv) {
-  gaussdrift::cli::let_waiting_threads_sleep(argv);
+  gaussdrift::cli::prepare_threads(argv);
   gaussdrift::cli::prepare_streams();
   return gaussdrift::cli::main_verbs(argc, argv);
 }

@@ -77,7 +77,7 @@ ExitCode dispatch(int argc, char** argv) {
 }  // namespace
 
 int main_verbs(int argc, char** argv) {
-  write::silence_vtk();
+  write::prepare_vtk();
   try {
     const ExitCode code = dispatch(argc, argv);
     const Delivery delivered = delivery();

@@ -1,15 +1,57 @@
 #include "cli/waiting_threads.hpp"
 
+#include <pthread.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace gaussdrift::cli {
 
-void let_waiting_threads_sleep(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  if (setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
-  execv("/proc/self/exe", argv);
+namespace {
+
+/// How many threads the run may want: all of the machine, or what --threads says.
+std::size_t wanted_threads(char** argv) {
+  long most = std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
+  for (char** word = argv; *word; ++word) {
+    const std::string_view text = *word;
+    if (text == "--threads" && word[1]) most = std::max(most, std::strtol(word[1], nullptr, 10));
+    if (text.starts_with("--threads=")) most = std::max(most, std::strtol(*word + 10, nullptr, 10));
+  }
+  return static_cast<std::size_t>(std::min(most, 1024L));
+}
+
+/// How many of them can be had, this one among them. They live at the same time.
+std::size_t threads_to_be_had(std::size_t wanted) {
+  pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
+  pthread_mutex_lock(&gate);
+  std::vector<pthread_t> started;
+  started.reserve(wanted);
+  const auto wait = [](void* at) -> void* {
+    pthread_mutex_lock(static_cast<pthread_mutex_t*>(at));
+    pthread_mutex_unlock(static_cast<pthread_mutex_t*>(at));
+    return nullptr;
+  };
+  for (pthread_t one{}; started.size() + 1 < wanted && pthread_create(&one, nullptr, wait, &gate) == 0;)
+    started.push_back(one);
+  pthread_mutex_unlock(&gate);
+  for (const pthread_t one : started) pthread_join(one, nullptr);
+  return started.size() + 1;
+}
+
+}  // namespace
+
+void prepare_threads(char** argv) {
+  bool changed = false;
+  if (!std::getenv("OMP_WAIT_POLICY") && !std::getenv("GOMP_SPINCOUNT"))
+    changed = setenv("OMP_WAIT_POLICY", "passive", 1) == 0;
+  if (!std::getenv("OMP_THREAD_LIMIT"))
+    if (const std::size_t wanted = wanted_threads(argv), found = threads_to_be_had(wanted); found < wanted)
+      changed = setenv("OMP_THREAD_LIMIT", std::to_string(found).c_str(), 1) == 0 || changed;
+  if (changed) execv("/proc/self/exe", argv);
 }
 
 }  // namespace gaussdrift::cli

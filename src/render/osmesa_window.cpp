@@ -28,6 +28,7 @@
 #include <string>
 
 #include "gaussdrift/error.hpp"
+#include "render/short_memory.hpp"
 
 // GLEW finds this function before libGLX's. It must not know names of GLX: OSMesa would make up a stub for any name that
 // begins with gl.
@@ -157,6 +158,8 @@ struct TheWindow {
   TheWindow() {
     reason = wrong_library();
     if (!reason.empty()) return;
+    check_room_for_drawing();
+    const WhileDrawing guard;
     window = OsmesaWindow::New();
     window->SetMultiSamples(4);  // what llvmpipe offers
     window->Initialize();

@@ -10,6 +10,7 @@
 #include "gaussdrift/error.hpp"
 #include "render/on_canvas.hpp"
 #include "render/osmesa_window.hpp"
+#include "render/short_memory.hpp"
 #include "render/styles.hpp"
 #include "write/atomic_file.hpp"
 
@@ -44,6 +45,7 @@ void on_canvas(int width, int height, const std::filesystem::path& png, const st
   const std::lock_guard lock(one_at_a_time);
   std::string bytes;
   {
+    const WhileDrawing guard;
     Canvas canvas(width, height);
     paint(canvas);
     bytes = canvas.png();

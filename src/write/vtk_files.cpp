@@ -21,7 +21,9 @@
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <cerrno>
 #include <cstdint>
+#include <new>
 #include <numeric>
 #include <string_view>
 #include <type_traits>
@@ -76,9 +78,14 @@ std::string text_of(const fs::path& file, vtkDataSet* data) {
   writer->SetDataModeToBinary();
   writer->SetCompressorTypeToNone();
   writer->SetHeaderTypeToUInt64();
-  if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError)
+  if (writer->Write() != 1 || writer->GetErrorCode() != vtkErrorCode::NoError) {
+    // Nothing is on a disk yet: what was full is the memory.
+    if (writer->GetErrorCode() == ENOMEM || writer->GetErrorCode() == vtkErrorCode::OutOfDiskSpaceError ||
+        messages.find("llocat") != std::string::npos)
+      throw std::bad_alloc();
     throw FileError(fmt::format("cannot write {}: {} {}", file.string(),
                                 vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()), messages));
+  }
   return writer->GetOutputString();
 }
 

@@ -6,6 +6,8 @@
 #include <vtkOutputWindow.h>
 #include <vtkVersion.h>
 
+#include <cstdlib>
+
 namespace gaussdrift::write {
 
 namespace {
@@ -20,10 +22,11 @@ class SilentWindow : public vtkOutputWindow {
 
 std::string vtk_version() { return vtkVersion::GetVTKVersion(); }
 
-void silence_vtk() {
+void prepare_vtk() {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   vtkNew<SilentWindow> window;
   vtkOutputWindow::SetInstance(window);
+  setenv("VTK_SMP_BACKEND_IN_USE", "Sequential", 0);  // VTK looks at it before its first loop
 }
 
 }  // namespace gaussdrift::write

@@ -1,0 +1,63 @@
+#include "render/short_memory.hpp"
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "gaussdrift/error.hpp"
+
+namespace gaussdrift::render {
+
+namespace {
+
+// OSMesa with two threads takes 480 MB of address space, most of it never touched.
+constexpr std::size_t room_for_drawing = std::size_t{512} << 20;
+constexpr std::size_t next_to_nothing = std::size_t{64} << 20;  // the largest piece that the libraries ask for at once
+
+constexpr std::array signals{SIGSEGV, SIGBUS, SIGABRT};  // LLVM aborts
+
+/// Async-signal-safe.
+bool is_there(std::size_t bytes) {
+  void* room = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (room == MAP_FAILED) return false;
+  munmap(room, bytes);
+  return true;
+}
+
+void end_in_order(int signal) {
+  if (!is_there(next_to_nothing)) {
+    constexpr char line[] =
+        "error: out of memory in the drawing library; allow more (ulimit -v), or draw nothing: output.images = [], "
+        "output.report = \"none\"\n";
+    if (write(STDERR_FILENO, line, sizeof(line) - 1) < 0) {  // nobody is there to be told
+    }
+    _exit(static_cast<int>(ExitCode::input));
+  }
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+}  // namespace
+
+void check_room_for_drawing() {
+  if (!is_there(room_for_drawing))
+    throw Error(ExitCode::input,
+                fmt::format("pictures need {} MB of address space more than this process may have; allow more "
+                            "(ulimit -v), or draw nothing: output.images = [], output.report = \"none\"",
+                            room_for_drawing >> 20));
+}
+
+WhileDrawing::WhileDrawing() {
+  struct sigaction action {};
+  action.sa_handler = end_in_order;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : signals) sigaction(signal, &action, &before_.emplace_back());
+}
+
+WhileDrawing::~WhileDrawing() {
+  for (std::size_t k = 0; k < before_.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
+}
+
+}  // namespace gaussdrift::render
