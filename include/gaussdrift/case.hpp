@@ -157,6 +157,8 @@ struct OutputSpec {
   std::vector<OutputFile> files;     ///< files that are written at each of these times
   std::vector<PictureStyle> images;  ///< pictures of every output
   bool report = true;                ///< report.html, report.json, summary.png
+  /// Seconds between two checkpoints; 0: none; empty: about a minute in runs of more than five.
+  std::optional<double> checkpoint{};
 };
 
 // --- what the results are compared with -------------------------------------------------------------------------

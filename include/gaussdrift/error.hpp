@@ -9,13 +9,17 @@ namespace gaussdrift {
 
 /// How the program ends; docs/usage.md, "Exit codes".
 enum class ExitCode {
-  ok = 0,            ///< all is well
-  internal = 1,      ///< a fault of the program
-  command_line = 2,  ///< the command line is wrong
-  input = 3,         ///< a case or its data are wrong, or it does not fit into memory
-  numerical = 4,     ///< a value is not finite, or an error bound cannot be kept
-  check = 5,         ///< a [[check]] failed
-  files = 6          ///< a file could not be read or written
+  ok = 0,             ///< all is well
+  internal = 1,       ///< a fault of the program
+  command_line = 2,   ///< the command line is wrong
+  input = 3,          ///< a case or its data are wrong, or it does not fit into memory
+  numerical = 4,      ///< a value is not finite, or an error bound cannot be kept
+  check = 5,          ///< a [[check]] failed
+  files = 6,          ///< a file could not be read or written
+  stopped = 7,        ///< --stop-after: the run is not complete, `resume` goes on
+  hung_up = 129,      ///< SIGHUP stopped the run, `resume` goes on
+  interrupted = 130,  ///< SIGINT (Ctrl-C), likewise
+  terminated = 143    ///< SIGTERM, likewise
 };
 
 /// Base of every error whose message is meant for the user.

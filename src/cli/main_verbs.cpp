@@ -38,7 +38,7 @@ std::string typed(int argc, char** argv) {
 
 /// In the order of --help.
 std::vector<Verb> all_verbs(const std::string& command) {
-  return {new_verb(),     run_verb(command), check_verb(), study_verb(),     report_verb(), render_verb(),
+  return {new_verb(),     run_verb(command), resume_verb(command), check_verb(), study_verb(),     report_verb(), render_verb(),
           compare_verb(), doctor_verb(),     sum_verb(),   reproduce_verb(), explain_verb()};
 }
 
@@ -50,7 +50,8 @@ ExitCode dispatch(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 ok, 1 internal error, 2 wrong command line, 3 wrong case or table, 4 numerical failure, 5 a check "
-      "failed, 6 files.\n"
+      "failed, 6 files, 7 stopped by "
+      "--stop-after; 130, 143, 129 stopped by a signal.\n"
       "First steps: gaussdrift new rotating_cone, then gaussdrift run rotating_cone.toml");
   const std::vector<Verb> verbs = all_verbs(typed(argc, argv));
   for (const Verb& verb : verbs) {

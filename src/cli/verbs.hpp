@@ -10,6 +10,7 @@ namespace gaussdrift::cli {
 Verb new_verb();
 /// `typed`: the command line, for provenance.json.
 Verb run_verb(const std::string& typed);
+Verb resume_verb(const std::string& typed);
 Verb check_verb();
 Verb study_verb();
 Verb report_verb();

@@ -80,10 +80,17 @@ std::string hash_of(const std::string& text) {
   return hash.text();
 }
 
+std::string hash_of(const std::string& text, const std::vector<DataFile>& data) {
+  std::string all = text;
+  for (const DataFile& each : data) all += hash_of_file(each.file);
+  return hash_of(all);
+}
+
 std::string provenance_json(const Case& spec, const std::string& resolved, const std::vector<DataFile>& data,
                             const std::string& command, int threads) {
   using json = nlohmann::ordered_json;
-  json document{{"version", GAUSSDRIFT_VERSION},
+  json document{{"name", spec.name},
+                {"version", GAUSSDRIFT_VERSION},
                 {"compiler", GAUSSDRIFT_COMPILER},
                 {"flags", GAUSSDRIFT_FLAGS},
                 {"processor", processor()},
@@ -91,13 +98,11 @@ std::string provenance_json(const Case& spec, const std::string& resolved, const
                 {"command", command},
                 {"date", date()},
                 {"case", hash_of(spec.source)}};
-  std::string all = resolved;
   json files = json::array();
   for (const DataFile& each : data) {
     files.push_back({{"file", each.name}, {"hash", hash_of_file(each.file)}});
-    all += files.back()["hash"].get<std::string>();
   }
-  document["resolved_case"] = hash_of(all);
+  document["resolved_case"] = hash_of(resolved, data);
   if (!files.empty()) document["data"] = files;
   return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }

@@ -29,5 +29,7 @@ std::string made_by();
 
 /// "fnv1a64:..." of a text.
 std::string hash_of(const std::string& text);
+/// The same of a text and of the bytes of data. Throws FileError.
+std::string hash_of(const std::string& text, const std::vector<DataFile>& data);
 
 }  // namespace gaussdrift::write

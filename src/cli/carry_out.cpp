@@ -1,0 +1,240 @@
+#include "cli/carry_out.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "base/printable.hpp"
+#include "cli/checkpoint_keeper.hpp"
+#include "cli/look_back.hpp"
+#include "cli/owed_files.hpp"
+#include "cli/progress.hpp"
+#include "cli/run_words.hpp"
+#include "cli/stop_request.hpp"
+#include "cli/terminal.hpp"
+#include "gaussdrift/accuracy.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "input/data_files.hpp"
+#include "input/same_past.hpp"
+#include "render/picture.hpp"
+#include "render/picture_series.hpp"
+#include "report/page.hpp"
+#include "write/atomic_file.hpp"
+#include "write/output_files.hpp"
+#include "write/provenance.hpp"
+#include "write/run_folder.hpp"
+#include "write/series_table.hpp"
+#include "write/summary.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder) {
+  simulation.observe(
+      write::series_table(folder, spec.domain.dimension, spec.reference.kind != ReferenceSpec::Kind::none));
+  for (const OutputFile& file : spec.output.files)
+    simulation.observe(write::file_series(write::find_output_file(file.name), folder));
+  if (const auto& images = spec.output.images; !images.empty()) {
+    if (const std::string reason = render::unavailable_reason(); !reason.empty())
+      note("warning: no pictures are drawn: {}\n", reason);
+    else
+      simulation.observe(render::picture_series(folder, images, spec.title.empty() ? spec.name : spec.title));
+  }
+}
+
+/// Lines for the end of the run: what the page does without.
+std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed) {
+  std::string without;
+  try {
+    const report::ReportFiles page = report::write_report(folder, !spec.output.images.empty());
+    for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
+    const bool there =
+        std::find(page.written.begin(), page.written.end(), folder / "report.html") != page.written.end();
+    for (const std::string& why : page.failed)
+      owed.miss(fmt::format("{}: {}; gaussdrift report {} makes it later",
+                            there ? "the page about this run is not complete" : "there is no page about this run", why,
+                            folder.string()));
+  } catch (const std::exception& error) {  // what was computed stands in the other files, and its checks count
+    owed.miss(fmt::format("there is no page about this run: {}; gaussdrift report {} makes it later", error.what(),
+                          folder.string()));
+  }
+  return without;
+}
+
+/// Data files are named as seen from the run's folder.
+std::vector<write::DataFile> data_of(const Case& spec, const fs::path& folder) {
+  std::vector<write::DataFile> data;
+  for (const fs::path& file : input::data_files(spec))
+    data.push_back({folder.empty() ? file.string() : input::seen_from(folder, file).generic_string(), file});
+  return data;
+}
+
+/// The hash has the bytes and bare names of data files: where they lie is of no interest to the result.
+std::string provenance_of(const RunTask& task) {
+  return write::provenance_json(task.spec, case_text(input::with_bare_names(task.spec)),
+                                data_of(task.spec, task.folder), task.command, base::resolve_threads(task.threads));
+}
+
+class Run {
+ public:
+  explicit Run(RunTask& task) : task_(task), spec_(task.spec), folder_(task.folder), stop_(task.stop_after) {}
+
+  void simulate() {
+    refuse_what_does_not_fit(spec_, task_.threads);
+    Simulation simulation(spec_, task_.threads);
+    if (!task_.from) simulation.prepare();  // what cannot begin must not cost an earlier run
+    prepare_folder();
+    add_observers(simulation, spec_, folder_);
+    const auto& times = spec_.output.times;
+    if (looks_back(spec_) && !times.empty())
+      simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
+    if (task_.from) simulation.restore(std::move(task_.from->particles), task_.from->state);
+
+    keeper_.emplace(folder_, past_of(spec_), spec_.output.checkpoint);
+    ProgressLine line;
+    simulation.on_progress([&](const Progress& progress) {
+      line.show(progress);
+      const bool stopping = stop_.made() && progress.time < progress.end;
+      keeper_->look(progress, simulation, stopping);
+      return !stopping;
+    });
+    try {
+      summary_ = simulation.run();
+    } catch (const FileError& error) {  // a full disk, mostly
+      keep_what_there_is(simulation);
+      throw FileError(fmt::format("{}\n{}", error.what(), how_to_go_on()));
+    }
+  }
+
+  bool complete() const { return summary_.complete; }
+
+  void explain_errors() {
+    warnings_ = warnings_of(spec_, summary_);
+    if (!complete()) return;
+    if (last_.any || spec_.output.times.empty())
+      budget_ = look_back(spec_, summary_, last_, more_, warnings_, task_.threads);
+    else if (looks_back(spec_))
+      warnings_.push_back(
+          "no error budget and no accuracy table: an earlier part of this run wrote the last output, and they need it");
+    if (const auto target = task_.asked.accuracy.target; target && !summary_.frames.empty()) {
+      const auto& error = summary_.frames.back().second.error;
+      const bool known = error && std::isfinite(error->linf);
+      more_["accuracy"] = {{"target", *target},
+                           {"achieved", known ? nlohmann::ordered_json(error->linf) : nlohmann::ordered_json()},
+                           {"met", known && error->linf <= *target}};
+      if (const std::string& why = summary_.frames.back().second.no_norms; !why.empty())
+        more_["accuracy"]["not_known"] = why;
+    }
+  }
+
+  /// Every file before the first word: a terminal that takes no text costs no result.
+  void write() {
+    if (!warnings_.empty()) more_["warnings"] = warnings_;
+    if (keeper_->written() > 0)
+      more_["checkpoints"] = {{"written", keeper_->written()},
+                              {"seconds", keeper_->seconds()},
+                              {"time", keeper_->last().time},
+                              {"bytes", keeper_->last().bytes}};
+    summary_text_ = write::summary_json(spec_, summary_, more_);
+    std::string without;
+    if (owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); }) && spec_.output.report)
+      without = write_page(folder_, spec_, owed_);
+    ending_ = (complete() ? "" : stopped_text()) +
+              ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + without + state_text();
+    std::string log;
+    for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
+    for (const std::string& why : owed_.missing()) log += "error: " + why + "\n";
+    owed_.attempt([&] { write::write_text(folder_ / "log.txt", base::printable_lines(log + ending_)); });
+  }
+
+  ExitCode report() const {
+    for (const std::string& warning : warnings_) note("warning: {}\n", warning);
+    put(stdout, task_.json ? summary_text_ : ending_);
+    if (!complete()) {
+      for (const std::string& why : owed_.missing()) note("error: {}\n", why);
+      note("{}\n", how_to_go_on());
+      return stop_.code();
+    }
+    bool failed = false;
+    for (const CheckResult& result : summary_.checks) {
+      if (result.passed) continue;
+      failed = true;
+      note("check failed: {}\n", result.text);
+    }
+    for (const std::string& why : owed_.missing()) note("error: {}\n", why);
+    return failed ? ExitCode::check : owed_.missing().empty() ? ExitCode::ok : ExitCode::files;
+  }
+
+ private:
+  void prepare_folder() {
+    if (!task_.from) write::prepare_run_folder(folder_, task_.force);
+    if (task_.from && !task_.changed) return;
+    const std::string provenance = provenance_of(task_);
+    write::write_run_inputs(folder_, spec_, case_text(spec_, folder_));
+    write::write_text(folder_ / "provenance.json", provenance);
+  }
+
+  /// After an error of the disk: a checkpoint where there is room for one.
+  void keep_what_there_is(const Simulation& simulation) {
+    try {
+      keeper_->write(0, 0, simulation);
+    } catch (const FileError&) {  // the one before stands
+    }
+  }
+
+  std::string how_to_go_on() const { return fmt::format("resume with: gaussdrift resume {}", folder_.string()); }
+
+  std::string stopped_text() const {
+    return fmt::format("stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end, stop_.reason(),
+                       keeper_->written() > 0
+                           ? how_to_go_on()
+                           : "There is no checkpoint, because output.checkpoint = 0: a resumed run begins again.");
+  }
+
+  std::string state_text() const {
+    if (keeper_->written() == 0 || !complete()) return "";
+    return fmt::format(
+        "state  {} checkpoints took {:.2g} s; the last has {} ({}/{}): gaussdrift resume --until T goes on\n",
+        keeper_->written(), keeper_->seconds(), bytes_text(keeper_->last().bytes), folder_.string(),
+        write::checkpoints_folder);
+  }
+
+  static std::string bytes_text(double bytes) {
+    return bytes < 1e6 ? fmt::format("{:.0f} kB", std::ceil(bytes / 1e3)) : fmt::format("{:.3g} MB", bytes / 1e6);
+  }
+
+  RunTask& task_;
+  const Case& spec_;
+  const fs::path folder_;
+  StopRequest stop_;
+  std::optional<CheckpointKeeper> keeper_;
+  accuracy::LastFrame::Kept last_;
+  RunSummary summary_;
+  std::optional<accuracy::Budget> budget_;
+  std::vector<std::string> warnings_;
+  nlohmann::ordered_json more_;  // members of summary.json beside those of the run
+  std::string summary_text_, ending_;
+  OwedFiles owed_;
+};
+
+}  // namespace
+
+std::string past_of(const Case& spec) { return write::hash_of(input::text_of_past(spec), data_of(spec, {})); }
+
+ExitCode carry_out(RunTask task) {
+  Run run(task);
+  run.simulate();
+  run.explain_errors();
+  run.write();
+  return run.report();
+}
+
+}  // namespace gaussdrift::cli

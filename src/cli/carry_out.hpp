@@ -1,0 +1,34 @@
+// A run from its first step, or from a checkpoint, to its last file.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "gaussdrift/case.hpp"
+#include "gaussdrift/error.hpp"
+#include "write/checkpoint.hpp"
+
+namespace gaussdrift::cli {
+
+struct RunTask {
+  Case asked;  // as it was asked for: its target is told beside what was achieved
+  Case spec;   // with the settings that count
+  std::filesystem::path folder;
+  std::string command;                                          // as it was typed, for provenance.json
+  bool force = false;                                           // replace an earlier run in the folder
+  bool json = false;                                            // results as JSON on standard output
+  int threads = 0;                                              // 0: all
+  double stop_after = std::numeric_limits<double>::infinity();  // seconds
+  std::optional<write::Checkpoint> from{};                      // go on from there
+  bool changed = false;                                         // going on: the case is another than before
+};
+
+/// The hash of all that the particles of a case depend on: settings and the bytes of its data. Throws FileError.
+std::string past_of(const Case& spec);
+
+/// Runs, explains the errors, writes everything, and then says what came out.
+ExitCode carry_out(RunTask task);
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,44 @@
+#include "cli/checkpoint_keeper.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace gaussdrift::cli {
+
+namespace {
+
+constexpr double long_run = 300;          // seconds: shorter ones keep no checkpoints by default
+constexpr double usual_interval = 60;     // seconds
+constexpr double least_part_of_run = 50;  // an interval is so many times as long as writing takes
+
+}  // namespace
+
+CheckpointKeeper::CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked)
+    : folder_(std::move(folder)), past_(std::move(past)), asked_(asked) {}
+
+bool CheckpointKeeper::is_due(const Progress& progress) const {
+  const double since = since_last_.seconds();
+  if (asked_) return *asked_ > 0 && since >= *asked_;
+  if (since < std::max(usual_interval, least_part_of_run * last_seconds_)) return false;
+  // The rest is taken to go on at the pace so far.
+  const double done = progress.time - begun_at_.value_or(0), left = progress.end - progress.time;
+  return done <= 0 || since_start_.seconds() * (1 + left / done) >= long_run;
+}
+
+void CheckpointKeeper::look(const Progress& progress, const Simulation& simulation, bool stopping) {
+  if (!begun_at_) begun_at_ = progress.time;
+  const bool at_end = progress.time >= progress.end && (asked_ ? *asked_ > 0 : since_start_.seconds() >= long_run);
+  if (stopping || at_end || is_due(progress)) write(progress.time, progress.steps_done, simulation);
+}
+
+void CheckpointKeeper::write(double time, std::size_t steps, const Simulation& simulation) {
+  if (asked_ && *asked_ == 0) return;
+  const base::Stopwatch watch;
+  last_ = write::write_checkpoint(folder_, past_, time, steps, simulation.particles(), simulation.state());
+  last_seconds_ = watch.seconds();
+  seconds_ += last_seconds_;
+  ++written_;
+  since_last_ = base::Stopwatch();
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,45 @@
+// Decides when a run writes a checkpoint, and counts what that costs.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/stopwatch.hpp"
+#include "gaussdrift/simulation.hpp"
+#include "write/checkpoint.hpp"
+
+namespace gaussdrift::cli {
+
+class CheckpointKeeper {
+ public:
+  /// `asked`: seconds between two, 0 for none, empty for the default: about every minute, and less often where that
+  /// would take more than a fiftieth of the time, once a run is seen to take more than five minutes.
+  CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked);
+
+  /// To be called between steps. Writes if it is time to, at the end of a run that keeps checkpoints, and where the run
+  /// is about to stop. Throws FileError.
+  void look(const Progress& progress, const Simulation& simulation, bool stopping);
+
+  /// Writes one, whatever the time. Not if the case wants none.
+  void write(double time, std::size_t steps, const Simulation& simulation);
+
+  std::size_t written() const { return written_; }
+  double seconds() const { return seconds_; }  // of all
+  const write::CheckpointFacts& last() const { return last_; }
+
+ private:
+  bool is_due(const Progress& progress) const;
+
+  std::filesystem::path folder_;
+  std::string past_;
+  std::optional<double> asked_;
+  base::Stopwatch since_start_, since_last_;
+  std::optional<double> begun_at_;  // time of the scene
+  std::size_t written_ = 0;
+  double seconds_ = 0, last_seconds_ = 0;
+  write::CheckpointFacts last_;
+};
+
+}  // namespace gaussdrift::cli

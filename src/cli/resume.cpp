@@ -1,0 +1,166 @@
+// gaussdrift resume: goes on with a run that was interrupted or killed, or with a complete one beyond its end.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "cli/carry_out.hpp"
+#include "cli/stop_request.hpp"
+#include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "input/same_past.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ResumeOptions {
+  fs::path folder{};
+  std::optional<double> until{};           // a new time.end
+  std::vector<std::string> overrides{};    // --set key=value
+  std::string stop_after{};                // a length of time; empty: never
+  int threads = 0;                         // 0: all
+  bool json = false;                       // results as JSON on standard output
+  std::string command{};                   // as it was typed
+};
+
+void declare(OptionList& options, ResumeOptions& given) {
+  options.add("folder", given.folder, "DIR", "folder of a run").required();
+  options.add("--until", given.until, "T", "a new end, time.end. Outputs go on at the same distance");
+  options.add("--set", given.overrides, "KEY=VALUE", "change a key that does not change the past, such as output.times. Repeatable")
+      .repeatable();
+  declare_stop_after(options, given.stop_after);
+  options.threads(given.threads);
+  options.json(given.json);
+}
+
+nlohmann::json json_in(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  nlohmann::json value = nlohmann::json::parse(in, nullptr, false);
+  return value.is_object() ? value : nlohmann::json::object();
+}
+
+/// Of the case as it was run, which run.toml does not say: pictures without a title show it.
+std::string name_of(const fs::path& folder) {
+  const nlohmann::json provenance = json_in(folder / "provenance.json");
+  const auto name = provenance.find("name");
+  return name != provenance.end() && name->is_string() ? name->get<std::string>()
+                                                       : fs::absolute(folder).filename().string();
+}
+
+Case case_in(const fs::path& folder, const std::vector<std::string>& overrides, int threads) {
+  if (!fs::exists(folder / "run.toml"))
+    throw FileError(
+        fmt::format("{} holds no run (it has no run.toml), so there is nothing to resume", folder.string()));
+  Case spec = read_case(folder / "run.toml", overrides, threads).spec;
+  spec.name = name_of(folder);
+  spec.source.clear();  // case.toml stays as it is
+  return spec;
+}
+
+/// Outputs up to a later end: at the distance of the last two, and at the end itself.
+void add_outputs(Case& spec, double old_end) {
+  std::vector<double>& times = spec.output.times;
+  const double end = spec.time.end;
+  if (end <= old_end || times.empty()) return;
+  const double first = times.back(), apart = times.size() > 1 ? first - times[times.size() - 2] : 0;
+  constexpr double most = 1e6;
+  if (apart > 0 && (end - first) / apart < most)
+    for (std::size_t i = 1; first + static_cast<double>(i) * apart < end * (1 - 1e-9); ++i)
+      times.push_back(first + static_cast<double>(i) * apart);
+  if (times.back() < end) times.push_back(end);
+}
+
+/// What was written stays; what is to come is that of the case as it is now.
+void keep_written_outputs(const Case& before, double now, Case& spec) {
+  std::vector<double> times;
+  for (const double time : before.output.times)
+    if (time < now) times.push_back(time);
+  for (const double time : spec.output.times)
+    if (time >= now) times.push_back(time);
+  spec.output.times = std::move(times);
+}
+
+void refuse_changed_past(const input::ChangedKeys& changed) {
+  if (changed.past.empty()) return;
+  throw InputError(fmt::format(
+      "{} cannot change while a run is under way, because what was computed depends on {}. Outputs from now on, "
+      "pictures, checks, time.end and threads can. Start a new run for the rest.",
+      fmt::join(changed.past, ", "), changed.past.size() == 1 ? "it" : "them"));
+}
+
+bool is_complete(const fs::path& folder) {
+  const nlohmann::json summary = json_in(folder / "summary.json");
+  const auto complete = summary.find("complete");
+  return complete != summary.end() && complete->is_boolean() && complete->get<bool>();
+}
+
+ExitCode resume(const ResumeOptions& options) {
+  RunTask task;
+  task.stop_after = stop_after_seconds(options.stop_after);
+  const Case before = case_in(options.folder, {}, options.threads);
+  std::vector<std::string> overrides = options.overrides;
+  const bool times_set = std::any_of(overrides.begin(), overrides.end(),
+                                     [](const std::string& set) { return set.starts_with("output."); });
+  Case spec = case_in(options.folder, overrides, options.threads);
+  if (options.until) {
+    if (!std::isfinite(*options.until) || *options.until < 0)
+      throw CommandLineError(fmt::format("--until {:g} is no time", *options.until));
+    spec.time.end = *options.until;
+    std::erase_if(spec.output.times, [&](double time) { return time > spec.time.end; });
+  }
+  if (!times_set) add_outputs(spec, before.time.end);
+  refuse_changed_past(input::changed_keys(before, spec));
+
+  task.folder = options.folder;
+  task.command = options.command;
+  task.json = options.json;
+  task.threads = options.threads;
+  std::vector<std::string> refused;
+  task.from = write::read_checkpoint(options.folder, past_of(before), refused);
+  for (const std::string& why : refused) note("warning: {}\n", why);
+  const bool complete = is_complete(options.folder);
+  if (task.from) {
+    const double now = task.from->facts.time;
+    if (spec.time.end < now)
+      throw InputError(
+          fmt::format("time.end = {:g} lies before t = {:g}, where the last checkpoint is", spec.time.end, now));
+    keep_written_outputs(before, now, spec);
+  }
+  const input::ChangedKeys changed = input::changed_keys(before, spec);
+  if (complete && changed.future.empty()) {
+    put(stdout, fmt::format("{} is complete. --until T lengthens it.\n", options.folder.string()));
+    return ExitCode::ok;
+  }
+  if (complete && !task.from)
+    throw InputError(
+        fmt::format("{} is complete, and it keeps no checkpoint to go on from. Set output.checkpoint in a new run.",
+                    options.folder.string()));
+  task.changed = !changed.future.empty();
+  if (task.changed) note("changed from now on: {}\n", fmt::join(changed.future, ", "));
+  if (task.from)
+    note("goes on at t = {:.6g} of {:.6g}, after {} steps\n", task.from->facts.time, spec.time.end,
+         task.from->facts.steps);
+  else
+    note("there is no checkpoint; the run begins again\n");
+  task.force = !task.from;
+  task.asked = spec;
+  task.spec = std::move(spec);
+  return carry_out(std::move(task));
+}
+
+}  // namespace
+
+Verb resume_verb(const std::string& typed) {
+  return make_verb<ResumeOptions>("resume", "go on with a run that was stopped or killed, or beyond its end", declare,
+                                  resume, {.command = typed});
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,80 @@
+#include "cli/stop_request.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <csignal>
+
+#include "base/duration_text.hpp"
+
+namespace gaussdrift::cli {
+
+namespace {
+
+constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+
+volatile std::sig_atomic_t received = 0;
+std::array<struct sigaction, signals.size()> before;
+
+extern "C" void remember(int signal) {
+  received = signal;
+  for (const int each : signals) std::signal(each, SIG_DFL);  // a second one ends the program
+}
+
+}  // namespace
+
+StopRequest::StopRequest(double after_seconds) : after_(after_seconds) {
+  received = 0;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    sigaction(signals[i], nullptr, &before[i]);
+    if (before[i].sa_handler == SIG_IGN) continue;
+    struct sigaction action {};
+    action.sa_handler = remember;
+    action.sa_flags = SA_RESTART;
+    sigaction(signals[i], &action, nullptr);
+  }
+}
+
+StopRequest::~StopRequest() {
+  for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
+}
+
+bool StopRequest::made() const { return received != 0 || watch_.seconds() > after_; }
+
+std::string StopRequest::reason() const {
+  switch (received) {
+    case SIGINT:
+      return "interrupted";
+    case SIGTERM:
+      return "terminated";
+    case SIGHUP:
+      return "its terminal was closed";
+    default:
+      return "--stop-after";
+  }
+}
+
+ExitCode StopRequest::code() const {
+  switch (received) {
+    case SIGINT:
+      return ExitCode::interrupted;
+    case SIGTERM:
+      return ExitCode::terminated;
+    case SIGHUP:
+      return ExitCode::hung_up;
+    default:
+      return ExitCode::stopped;
+  }
+}
+
+void declare_stop_after(OptionList& options, std::string& value) {
+  options.add("--stop-after", value, "TIME", "stop after this time (\"2 h\", \"90 min\", seconds), resumable; exit code 7");
+}
+
+double stop_after_seconds(const std::string& value) {
+  if (value.empty()) return std::numeric_limits<double>::infinity();
+  if (const auto seconds = base::read_duration(value)) return *seconds;
+  throw CommandLineError(fmt::format("--stop-after {} is no length of time; give {}", value, base::duration_form));
+}
+
+}  // namespace gaussdrift::cli
