@@ -23,18 +23,20 @@ namespace {
 
 struct ResumeOptions {
   fs::path folder{};
-  std::optional<double> until{};           // a new time.end
-  std::vector<std::string> overrides{};    // --set key=value
-  std::string stop_after{};                // a length of time; empty: never
-  int threads = 0;                         // 0: all
-  bool json = false;                       // results as JSON on standard output
-  std::string command{};                   // as it was typed
+  std::optional<double> until{};         // a new time.end
+  std::vector<std::string> overrides{};  // --set key=value
+  std::string stop_after{};              // a length of time; empty: never
+  int threads = 0;                       // 0: all
+  bool json = false;                     // results as JSON on standard output
+  std::string command{};                 // as it was typed
 };
 
 void declare(OptionList& options, ResumeOptions& given) {
   options.add("folder", given.folder, "DIR", "folder of a run").required();
   options.add("--until", given.until, "T", "a new end, time.end. Outputs go on at the same distance");
-  options.add("--set", given.overrides, "KEY=VALUE", "change a key that does not change the past, such as output.times. Repeatable")
+  options
+      .add("--set", given.overrides, "KEY=VALUE",
+           "change a key that does not change the past, such as output.times. Repeatable")
       .repeatable();
   declare_stop_after(options, given.stop_after);
   options.threads(given.threads);

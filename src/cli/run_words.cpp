@@ -133,8 +133,8 @@ std::string ending_text(const Case& spec, const RunSummary& summary, const std::
                         std::optional<double> target, const fs::path& folder) {
   std::string text = result_text(spec, summary) + error_text(summary, target);
   if (budget) text += budget_text(*budget);
-  for (const CheckResult& result : summary.checks)
-    text += fmt::format("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
+  for (const CheckResult& result : summary.checks)  // of a run that was stopped they do not count yet
+    if (summary.complete) text += fmt::format("check  {}: {}\n", result.passed ? "passed" : "FAILED", result.text);
   return text + files_text(folder);
 }
 

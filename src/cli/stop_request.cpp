@@ -68,7 +68,8 @@ ExitCode StopRequest::code() const {
 }
 
 void declare_stop_after(OptionList& options, std::string& value) {
-  options.add("--stop-after", value, "TIME", "stop after this time (\"2 h\", \"90 min\", seconds), resumable; exit code 7");
+  options.add("--stop-after", value, "TIME",
+              "stop after this time (\"2 h\", \"90 min\", seconds), resumable; exit code 7");
 }
 
 double stop_after_seconds(const std::string& value) {

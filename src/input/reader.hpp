@@ -91,6 +91,8 @@ class Reader {
 
   std::string text(std::string_view table_name, std::string_view name);
   std::vector<std::pair<std::string, double>> constants() const;
+  /// Seconds; none if the key is not there, or after a complaint.
+  std::optional<double> duration(std::string_view table_name, std::string_view name);
   /// A number or an expression of the params, finite. Nothing after a complaint.
   std::optional<double> number_in(const Value& value, const std::string& label);
   /// The same for a key, in its range; its default if it is absent.

@@ -1,4 +1,5 @@
 #include "input/registry.hpp"
+#include "base/duration_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -122,6 +123,8 @@ std::string type_text(const Key& key) {
       return "a number or an expression";
     case Type::whole:
       return "a whole number";
+    case Type::duration:
+      return base::duration_form;
     case Type::numbers:
       return "a list of numbers";
     case Type::point:

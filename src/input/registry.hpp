@@ -16,6 +16,7 @@ enum class Type {
   texts,        // a list of strings
   number,       // a number or an expression of params, pi, e
   whole,        // the same, without a fraction
+  duration,     // seconds, or a text as "10 min"
   numbers,      // a list of numbers
   point,        // a list of as many numbers as the domain has dimensions
   expression,   // a string in x, y, z and params

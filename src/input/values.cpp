@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/duration_text.hpp"
 #include "base/suggest.hpp"
 #include "input/foreign_keys.hpp"
 #include "input/reader.hpp"
@@ -85,6 +86,18 @@ std::optional<Number> Reader::number(std::string_view table_name, std::string_vi
 std::optional<double> Reader::number_of(const Key& key, const Entry& entry, const std::string& note) {
   const auto value = number_in(entry.value, label_of(key));
   return value && check_range(key, *value, entry.value, note) ? value : std::nullopt;
+}
+
+std::optional<double> Reader::duration(std::string_view table_name, std::string_view name) {
+  const Key& key = find_key(table_name, name);
+  const Entry* entry = find(table_name, name);
+  if (!entry) return std::nullopt;
+  if (entry->value.kind != Value::Kind::text) return number_of(key, *entry);
+  if (const auto seconds = base::read_duration(entry->value.text)) return seconds;
+  diagnostics.error(entry->value.place,
+                    fmt::format("{} is no length of time: \"{}\"", label_of(key), entry->value.text),
+                    fmt::format("give {}", base::duration_form));
+  return std::nullopt;
 }
 
 Arguments Reader::arguments(const Key& kind, const NamedFormula& formula, const Value& written) {

@@ -79,7 +79,14 @@ Section output_section() {
         .fallback = "html",
         .choices = {"html", "none"},
         .meaning = "the page about the run. `html` writes report.html and its numbers, report.json. With pictures and "
-                   "density files it also writes summary.png"}}};
+                   "density files it also writes summary.png"},
+       {.name = "checkpoint",
+        .type = Type::duration,
+        .range = {0, infinity},
+        .unit = "s",
+        .meaning = "time between two checkpoints, such as 60 or \"10 min\"; 0: none. `gaussdrift resume` goes on from "
+                   "the last one. Without this key a run that takes more than five minutes writes one about every "
+                   "minute, and spends at most a fiftieth of its time on them"}}};
 }
 
 using Kind = Value::Kind;
@@ -167,6 +174,7 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   for (const std::size_t k : in.choices("output", "vtk")) output.files.push_back(write::output_files()[k].about);
   for (const std::size_t k : in.choices("output", "images")) output.images.push_back(render::styles()[k].about);
   output.report = in.choice("output", "report") == "html";
+  output.checkpoint = in.duration("output", "checkpoint");
   if (in.facts.dimension) check_images(in, output.images);
 }
 
@@ -181,6 +189,7 @@ void write_output(Writer& out, const OutputSpec& output) {
   out.entry("vtk", names(output.files));
   out.entry("images", names(output.images));
   out.entry("report", written(std::string(output.report ? "html" : "none")));
+  if (output.checkpoint) out.entry("checkpoint", written(*output.checkpoint));
 }
 
 }  // namespace gaussdrift::input
