@@ -56,6 +56,9 @@ class Simulation {
   /// before them.
   void restore(Particles particles, const std::string& state);
 
+  /// What the run has done so far; callable wherever a progress function is called. Its seconds are those until now.
+  RunSummary summary() const;
+
   /// As they are now, without copies; empty before prepare(). Weights and widths are those of the last output.
   const Particles& particles() const;
 

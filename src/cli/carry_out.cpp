@@ -103,7 +103,9 @@ class Run {
     simulation.on_progress([&](const Progress& progress) {
       line.show(progress);
       const bool stopping = stop_.made() && progress.time < progress.end;
-      keeper_->look(progress, simulation, stopping);
+      // With the numbers so far: a run that is killed has a page.
+      if (keeper_->look(progress, simulation, stopping) && !stopping)
+        write::write_text(folder_ / "summary.json", write::summary_json(spec_, simulation.summary(), {}));
       return !stopping;
     });
     try {

@@ -25,10 +25,13 @@ bool CheckpointKeeper::is_due(const Progress& progress) const {
   return done <= 0 || since_start_.seconds() * (1 + left / done) >= long_run;
 }
 
-void CheckpointKeeper::look(const Progress& progress, const Simulation& simulation, bool stopping) {
+bool CheckpointKeeper::look(const Progress& progress, const Simulation& simulation, bool stopping) {
   if (!begun_at_) begun_at_ = progress.time;
   const bool at_end = progress.time >= progress.end && (asked_ ? *asked_ > 0 : since_start_.seconds() >= long_run);
-  if (stopping || at_end || is_due(progress)) write(progress.time, progress.steps_done, simulation);
+  if (!stopping && !at_end && !is_due(progress)) return false;
+  const std::size_t before = written_;
+  write(progress.time, progress.steps_done, simulation);
+  return written_ > before;
 }
 
 void CheckpointKeeper::write(double time, std::size_t steps, const Simulation& simulation) {

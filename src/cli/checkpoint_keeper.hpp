@@ -19,8 +19,8 @@ class CheckpointKeeper {
   CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked);
 
   /// To be called between steps. Writes if it is time to, at the end of a run that keeps checkpoints, and where the run
-  /// is about to stop. Throws FileError.
-  void look(const Progress& progress, const Simulation& simulation, bool stopping);
+  /// is about to stop. True if it wrote. Throws FileError.
+  bool look(const Progress& progress, const Simulation& simulation, bool stopping);
 
   /// Writes one, whatever the time. Not if the case wants none.
   void write(double time, std::size_t steps, const Simulation& simulation);

@@ -11,4 +11,7 @@ namespace gaussdrift::cli {
 /// Of the folder of a run, or the one of a file. Throws FileError if there are none.
 std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place);
 
+/// Says so on standard error if the folder is that of a run that is not complete.
+void tell_if_unfinished(const std::filesystem::path& folder);
+
 }  // namespace gaussdrift::cli

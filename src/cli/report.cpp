@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "cli/laid_out.hpp"
+#include "cli/outputs_of.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "report/page.hpp"
@@ -27,6 +28,7 @@ void declare(OptionList& options, ReportOptions& given) {
 ExitCode report(const ReportOptions& options) {
   std::optional<write::FolderLock> lock;
   if (std::error_code ignored; fs::is_directory(options.folder, ignored)) lock.emplace(options.folder);
+  tell_if_unfinished(options.folder);
   const report::ReportFiles files = report::write_report(options.folder, true);
   if (options.json) {
     nlohmann::ordered_json written = nlohmann::ordered_json::array();

@@ -8,18 +8,22 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/text_file.hpp"
 #include "cli/carry_out.hpp"
 #include "cli/stop_request.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/same_past.hpp"
+#include "write/run_folder.hpp"
 
 namespace gaussdrift::cli {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::size_t largest_case = 4'000'000;  // bytes
 
 struct ResumeOptions {
   fs::path folder{};
@@ -61,6 +65,10 @@ Case case_in(const fs::path& folder, const std::vector<std::string>& overrides, 
   if (!fs::exists(folder / "run.toml"))
     throw FileError(
         fmt::format("{} holds no run (it has no run.toml), so there is nothing to resume", folder.string()));
+  if (base::read_text_file(folder / "run.toml", "a case", largest_case).starts_with(write::not_begun))
+    throw FileError(fmt::format(
+        "the run in {0} ended before it began, so there is nothing to resume; run the case again, with --out {0} --force",
+        folder.string()));
   Case spec = read_case(folder / "run.toml", overrides, threads).spec;
   spec.name = name_of(folder);
   spec.source.clear();  // case.toml stays as it is
@@ -153,6 +161,8 @@ ExitCode resume(const ResumeOptions& options) {
   else
     note("there is no checkpoint; the run begins again\n");
   task.force = !task.from;
+  if (!task.from && fs::exists(options.folder / "case.toml"))
+    spec.source = base::read_text_file(options.folder / "case.toml", "a case", largest_case);
   task.asked = spec;
   task.spec = std::move(spec);
   return carry_out(std::move(task));

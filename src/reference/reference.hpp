@@ -21,7 +21,10 @@ class Reference {
   /// rho[i] = rho(x_i, time) on the lattice; NaN where it is not known, which the report counts. Times ascend from call
   /// to call.
   virtual ReferenceReport evaluate(double time, std::vector<double>& rho) = 0;
-  /// The same at some of the lattice points alone, rho[i] at points[i]; at any time.
+  /// Makes ready for the outputs after these, which another process has evaluated: the next ones then have the same
+  /// bits as there.
+  virtual void pass(const std::vector<double>& /*times*/) {}
+  /// As evaluate(), at some of the lattice points alone, rho[i] at points[i]; at any time.
   virtual ReferenceReport evaluate_at(double time, const std::vector<std::size_t>& points,
                                       std::vector<double>& rho) const = 0;
 };

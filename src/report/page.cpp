@@ -90,6 +90,10 @@ class Page {
         escaped(title.empty() ? name : title), page_style, escaped(name),
         escaped(get(provenance_, "version").is_string() ? provenance_.at("version").get<std::string>() : ""),
         verdict(summary_));
+    if (const json complete = get(summary_, "complete"); complete.is_boolean() && !complete.get<bool>())
+      text_ +=
+          "<p class=warning><b>This run is not complete.</b> The page shows what there is so far. <code>gaussdrift "
+          "resume</code> goes on.</p>\n";
     for (const json& warning : get(summary_, "warnings"))
       text_ += fmt::format("<p class=warning><b>Warning:</b> {}</p>\n", escaped(warning.get<std::string>()));
   }
@@ -159,7 +163,11 @@ class Page {
 
 ReportFiles write_report(const fs::path& folder, bool pictures) {
   const std::string text = read_text(folder / "summary.json");
-  if (text.empty()) throw FileError(fmt::format("{} holds no finished run: there is no summary.json", folder.string()));
+  if (text.empty())
+    throw FileError(
+        fmt::format("{} holds no numbers of a run yet: there is no summary.json. gaussdrift resume begins a run again "
+                    "that was killed",
+                    folder.string()));
   const auto damaged = [&] {
     return FileError(fmt::format("{} is damaged: run the case again", (folder / "summary.json").string()));
   };

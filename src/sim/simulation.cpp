@@ -109,6 +109,7 @@ class Simulation::Parts {
   void prepare();
   void restore(Particles particles, const std::string& bytes);
   std::string state();
+  RunSummary summary();
   RunSummary run();
   const Particles& particles() const { return particles_; }
 
@@ -119,6 +120,7 @@ class Simulation::Parts {
   void begin();
   void pass_state(base::StateBytes& bytes);
   void plan_landings();
+  void take_up_outputs();
   std::size_t steps_to_end() const;
   std::vector<double> velocity_at_particles(double time) const;
   void check_density_seconds() const;
@@ -130,6 +132,7 @@ class Simulation::Parts {
     return std::find(case_.output.times.begin(), case_.output.times.end(), time) != case_.output.times.end();
   }
   void end();
+  void sum_up();
 
   const Case case_;
   int threads_;
@@ -151,6 +154,7 @@ class Simulation::Parts {
   double seconds_before_ = 0;  // of earlier calls of run()
   base::Stopwatch watch_;
   RunSummary summary_;
+  std::vector<std::pair<std::string, std::string>> observers_state_;  // of another run, by name
 };
 
 void Simulation::Parts::prepare() {
@@ -329,11 +333,19 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes) {
   summary_.stages = {};
   for (const auto& [stage, spent] : stages) summary_.stages.add(stage, spent);
   seconds_before_ = seconds;
+  observers_state_ = std::move(seen);
+}
+
+// Observers and reference as they were after the outputs so far.
+void Simulation::Parts::take_up_outputs() {
   for (const auto& observer : observers) {
-    const auto same =
-        std::find_if(seen.begin(), seen.end(), [&](const auto& other) { return other.first == observer->name(); });
-    observer->restore(summary_.frames, same == seen.end() ? std::string() : same->second);
+    const auto same = std::find_if(observers_state_.begin(), observers_state_.end(),
+                                   [&](const auto& other) { return other.first == observer->name(); });
+    observer->restore(summary_.frames, same == observers_state_.end() ? std::string() : same->second);
   }
+  std::vector<double> times;
+  for (const auto& [time, numbers] : summary_.frames) times.push_back(time);
+  if (reference_ && compared_.points >= scene_.evaluation.size()) reference_->pass(times);
 }
 
 std::string Simulation::Parts::state() {
@@ -400,6 +412,7 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
     throw misfit(error.what());
   }
   plan_landings();
+  take_up_outputs();
   steps_total_ = steps_to_end();
 }
 
@@ -426,11 +439,17 @@ RunSummary Simulation::Parts::run() {
 // What is known after the last step so far.
 void Simulation::Parts::end() {
   summary_.complete = landed_ == landings_.size();
-  summary_.time = leg_.now;
   if (summary_.complete)
     for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->finish(); });
   else
     stage_ = Stage::under_way;
+  sum_up();
+  seconds_before_ = summary_.seconds;
+  watch_ = base::Stopwatch();
+}
+
+void Simulation::Parts::sum_up() {
+  summary_.time = leg_.now;
   summary_.checks = judge(case_.checks, mass_at_start_, summary_.frames);
   summary_.steps = steps_before_ + leg_.steps;
   summary_.steps_rejected = carrier_.steps_rejected();
@@ -439,8 +458,12 @@ void Simulation::Parts::end() {
   summary_.reference_word = compared_.word;
   summary_.effects.clear();
   summarise_effects(carrier_.effects(), scene_, summary_);
-  seconds_before_ += watch_.seconds();
-  summary_.seconds = seconds_before_;
+  summary_.seconds = seconds_before_ + watch_.seconds();
+}
+
+RunSummary Simulation::Parts::summary() {
+  sum_up();
+  return summary_;
 }
 
 Simulation::Simulation(const Case& spec, int threads) : parts_(std::make_unique<Parts>(spec, threads)) {}
@@ -455,6 +478,7 @@ void Simulation::observe(const std::string& name, std::function<void(const Frame
 void Simulation::on_progress(std::function<bool(const Progress&)> go_on) { parts_->go_on = std::move(go_on); }
 void Simulation::prepare() { parts_->prepare(); }
 std::string Simulation::state() const { return parts_->state(); }
+RunSummary Simulation::summary() const { return parts_->summary(); }
 void Simulation::restore(Particles particles, const std::string& state) {
   parts_->restore(std::move(particles), state);
 }

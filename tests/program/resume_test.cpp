@@ -1,0 +1,180 @@
+// A run that was stopped, killed or lengthened goes on with the same bits: its files are those of a run that never was.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <thread>
+
+#include "program/program.hpp"
+
+namespace gaussdrift {
+namespace {
+
+/// Some 0.3 s: 40 000 steps of few particles, three outputs.
+const std::string turning = R"(gaussdrift = 1
+[domain]
+min = [-1, -1]
+max = [1, 1]
+[velocity]
+u = ["-y", "x"]
+[density]
+shape = "wendland"
+center = [0.5, 0]
+radius = 0.25
+[particles]
+per_axis = 60
+[time]
+end = 4
+step = 0.0001
+[evaluate]
+per_axis = 40
+[output]
+times = [0, 1.5, 3, 4]
+images = []
+report = "none"
+checkpoint = 0.02
+)";
+
+/// Files of a run that hold seconds, or the moment of the run.
+bool has_times(const std::string& name) {
+  static const std::set<std::string> names{"series.csv", "summary.json", "log.txt", "provenance.json", "status.json"};
+  return names.contains(name) || name.starts_with("state/") || name.starts_with(".");
+}
+
+/// All files with their bytes; of series.csv the columns before the seconds.
+std::map<std::string, std::string> bits_of(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).generic_string();
+    if (entry.is_regular_file() && !has_times(name)) files[name] = read_file(entry.path());
+  }
+  std::istringstream rows(read_file(folder / "series.csv"));
+  for (std::string row; std::getline(rows, row);)
+    files["series.csv"] += row.substr(0, row.rfind(',', row.rfind(',') - 1)) + "\n";
+  return files;
+}
+
+void expect_same(const fs::path& whole, const fs::path& other) {
+  const auto a = bits_of(whole), b = bits_of(other);
+  for (const auto& [name, bytes] : a) {
+    ASSERT_TRUE(b.contains(name)) << name;
+    EXPECT_TRUE(b.at(name) == bytes) << name << " differs";
+  }
+  EXPECT_EQ(a.size(), b.size());
+}
+
+/// Starts the program, sends a signal after some milliseconds, and returns what waitpid() says.
+int run_and_signal(const ScratchFolder& folder, const std::vector<std::string>& words, int signal, int milliseconds) {
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(folder.path().c_str()) != 0) _exit(99);
+    if (!freopen("out.txt", "w", stdout) || !freopen("err.txt", "w", stderr)) _exit(99);
+    std::vector<char*> arguments{const_cast<char*>(PROGRAM)};
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    execv(PROGRAM, arguments.data());
+    _exit(99);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+  kill(child, signal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+class Resume : public testing::Test {
+ protected:
+  Resume() {
+    std::ofstream(folder / "turning.toml") << turning;
+    EXPECT_EQ(gaussdrift_in(folder, "run turning.toml --out whole").exit_code, 0);
+  }
+  const ScratchFolder folder;
+};
+
+TEST_F(Resume, AfterAStopByTheClock) {
+  Outcome stopped = gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.05");
+  int stops = 0;
+  for (; stopped.exit_code == 7 && stops < 100; ++stops) {
+    EXPECT_NE(stopped.err.find("resume with: gaussdrift resume part"), std::string::npos) << stopped.err;
+    EXPECT_FALSE(nlohmann::json::parse(read_file(folder / "part/summary.json")).at("complete").get<bool>());
+    stopped = gaussdrift_in(folder, "resume part --stop-after 0.05");
+  }
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  EXPECT_GT(stops, 0);
+  expect_same(folder / "whole", folder / "part");
+}
+
+TEST_F(Resume, AfterSignalsWhichItAnswersWithTheirExitCodes) {
+  for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
+    fs::remove_all(folder / "part");
+    const int status =
+        run_and_signal(folder, {"run", "turning.toml", "--out", "part", "--set", "time.step=0.00001"}, signal, 300);
+    ASSERT_TRUE(WIFEXITED(status)) << signal;
+    EXPECT_EQ(WEXITSTATUS(status), code) << read_file(folder / "err.txt");
+    EXPECT_NE(read_file(folder / "err.txt").find("resume with: gaussdrift resume part"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "part/state"));
+  }
+}
+
+TEST_F(Resume, AfterAKill) {
+  for (const int milliseconds : {60, 150, 250}) {
+    fs::remove_all(folder / "part");
+    run_and_signal(folder, {"run", "turning.toml", "--out", "part"}, SIGKILL, milliseconds);
+    if (!fs::exists(folder / "part/run.toml")) continue;  // it was not under way yet
+    const Outcome resumed = gaussdrift_in(folder, "resume part");
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+    expect_same(folder / "whole", folder / "part");
+  }
+}
+
+TEST_F(Resume, UntilALaterEnd) {
+  EXPECT_EQ(gaussdrift_in(folder, "run turning.toml --set time.end=5 --set output.times=[0,1.5,3,4,5] --out longer")
+                .exit_code,
+            0);
+  const Outcome lengthened = gaussdrift_in(folder, "resume whole --until 5");
+  EXPECT_EQ(lengthened.exit_code, 0) << lengthened.err;
+  EXPECT_NE(lengthened.err.find("changed from now on: output.times, time.end"), std::string::npos) << lengthened.err;
+  expect_same(folder / "longer", folder / "whole");
+  EXPECT_EQ(gaussdrift_in(folder, "resume whole --until 2").exit_code, 3) << "before the checkpoint";
+  EXPECT_NE(gaussdrift_in(folder, "resume whole").out.find("is complete"), std::string::npos);
+}
+
+TEST_F(Resume, RefusesToChangeThePastByName) {
+  gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.05");
+  const Outcome refused = gaussdrift_in(folder, "resume part --set time.step=0.001 --set particles.overlap=2.5");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("particles.overlap, time.step cannot change while a run is under way"), std::string::npos)
+      << refused.err;
+}
+
+TEST_F(Resume, BeginsAgainWhereThereIsNoCheckpointAndTakesTheOlderOfADamagedOne) {
+  gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1");
+  const auto serial = [&](const char* slot) {
+    const std::string text = read_file(folder / (std::string("part/state/") + slot + "/manifest.json"));
+    return text.empty() ? 0 : nlohmann::json::parse(text).at("serial").get<int>();
+  };
+  const bool two = serial("1") > 0;
+  std::ofstream(folder / (serial("1") > serial("0") ? "part/state/1/run.raw" : "part/state/0/run.raw"), std::ios::app) << "x";
+  const Outcome older = gaussdrift_in(folder, "resume part");
+  EXPECT_EQ(older.exit_code, 0) << older.err;
+  EXPECT_NE(older.err.find(two ? "is not used: run.raw has" : "the run begins again"), std::string::npos) << older.err;
+  expect_same(folder / "whole", folder / "part");
+  EXPECT_EQ(gaussdrift_in(folder, "resume nowhere").exit_code, 6);
+}
+
+TEST_F(Resume, LooksBackAtUnfinishedRuns) {
+  gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1");
+  for (const char* verb : {"report part", "compare part whole"}) {
+    const Outcome looked = gaussdrift_in(folder, verb);
+    EXPECT_EQ(looked.exit_code, 0) << verb << looked.err;
+    EXPECT_NE((looked.out + looked.err).find("not complete"), std::string::npos) << verb << looked.out << looked.err;
+  }
+}
+
+}  // namespace
+}  // namespace gaussdrift
