@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "accuracy/footprint.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "cli/checkpoint_keeper.hpp"
@@ -23,6 +24,7 @@
 #include "input/same_past.hpp"
 #include "render/picture.hpp"
 #include "render/picture_series.hpp"
+#include "render/styles.hpp"
 #include "report/page.hpp"
 #include "write/atomic_file.hpp"
 #include "write/output_files.hpp"
@@ -83,6 +85,16 @@ std::string provenance_of(const RunTask& task) {
                                 data_of(task.spec, task.folder), task.command, base::resolve_threads(task.threads));
 }
 
+/// Bytes that the run writes at least: the exact density may stand beside the other.
+double least_disk(const Case& spec, std::size_t particles) {
+  const Domain& domain = spec.domain;
+  const Lattice grid = spec.evaluate.spacing > 0
+                           ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
+                           : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
+  return accuracy::disk_of_run(
+      spec, {.particles = static_cast<double>(particles), .grid_points = static_cast<double>(grid.size())});
+}
+
 class Run {
  public:
   explicit Run(RunTask& task) : task_(task), spec_(task.spec), folder_(task.folder), stop_(task.stop_after) {}
@@ -90,12 +102,13 @@ class Run {
   void simulate() {
     refuse_what_does_not_fit(spec_, task_.threads);
     Simulation simulation(spec_, task_.threads);
-    if (!task_.from) simulation.prepare();  // what cannot begin must not cost an earlier run
-    prepare_folder();
+    simulation.prepare();  // what cannot begin must not cost an earlier run
+    prepare_folder(simulation);
     add_observers(simulation, spec_, folder_);
     const auto& times = spec_.output.times;
     if (looks_back(spec_) && !times.empty())
       simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
+    simulation.observe(own_folder_->watch());
     if (task_.from) simulation.restore(std::move(task_.from->particles), task_.from->state);
 
     keeper_.emplace(folder_, past_of(spec_), spec_.output.checkpoint);
@@ -155,6 +168,14 @@ class Run {
     for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
     for (const std::string& why : owed_.missing()) log += "error: " + why + "\n";
     owed_.attempt([&] { write::write_text(folder_ / "log.txt", base::printable_lines(log + ending_)); });
+    owed_.attempt([&] { complete() ? own_folder_->complete() : own_folder_->interrupted(how_to_go_on()); });
+  }
+
+  /// After a failure: where the run is that this one was to replace.
+  void tell_what_is_kept() const {
+    if (own_folder_ && own_folder_->keeps_earlier())
+      note("the earlier run is whole in {}; it is replaced when another run in its place has an output\n",
+           (folder_ / "earlier").string());
   }
 
   ExitCode report() const {
@@ -176,10 +197,15 @@ class Run {
   }
 
  private:
-  void prepare_folder() {
-    if (!task_.from) write::prepare_run_folder(folder_, task_.force);
-    if (task_.from && !task_.changed) return;
-    const std::string provenance = provenance_of(task_);
+  void prepare_folder(const Simulation& simulation) {
+    const bool goes_on = task_.from.has_value();
+    const std::string provenance = goes_on && !task_.changed ? "" : provenance_of(task_);
+    own_folder_.emplace(folder_, spec_,
+                        write::RunFolderOptions{.force = task_.force,
+                                                .go_on = goes_on,
+                                                .bytes = least_disk(spec_, simulation.particles().size()),
+                                                .picture_styles = render::style_names()});
+    if (provenance.empty()) return;
     write::write_run_inputs(folder_, spec_, case_text(spec_, folder_));
     write::write_text(folder_ / "provenance.json", provenance);
   }
@@ -225,6 +251,7 @@ class Run {
   nlohmann::ordered_json more_;  // members of summary.json beside those of the run
   std::string summary_text_, ending_;
   OwedFiles owed_;
+  std::optional<write::RunFolder> own_folder_;
 };
 
 }  // namespace
@@ -233,7 +260,12 @@ std::string past_of(const Case& spec) { return write::hash_of(input::text_of_pas
 
 ExitCode carry_out(RunTask task) {
   Run run(task);
-  run.simulate();
+  try {
+    run.simulate();
+  } catch (...) {
+    run.tell_what_is_kept();
+    throw;
+  }
   run.explain_errors();
   run.write();
   return run.report();

@@ -15,7 +15,6 @@
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/same_past.hpp"
-#include "write/run_folder.hpp"
 
 namespace gaussdrift::cli {
 
@@ -63,12 +62,8 @@ std::string name_of(const fs::path& folder) {
 
 Case case_in(const fs::path& folder, const std::vector<std::string>& overrides, int threads) {
   if (!fs::exists(folder / "run.toml"))
-    throw FileError(
-        fmt::format("{} holds no run (it has no run.toml), so there is nothing to resume", folder.string()));
-  if (base::read_text_file(folder / "run.toml", "a case", largest_case).starts_with(write::not_begun))
-    throw FileError(fmt::format(
-        "the run in {0} ended before it began, so there is nothing to resume; run the case again, with --out {0} --force",
-        folder.string()));
+    throw FileError(fmt::format("{} holds no run that has begun (it has no run.toml), so there is nothing to resume",
+                                folder.string()));
   Case spec = read_case(folder / "run.toml", overrides, threads).spec;
   spec.name = name_of(folder);
   spec.source.clear();  // case.toml stays as it is

@@ -159,7 +159,8 @@ TEST_F(Resume, BeginsAgainWhereThereIsNoCheckpointAndTakesTheOlderOfADamagedOne)
     return text.empty() ? 0 : nlohmann::json::parse(text).at("serial").get<int>();
   };
   const bool two = serial("1") > 0;
-  std::ofstream(folder / (serial("1") > serial("0") ? "part/state/1/run.raw" : "part/state/0/run.raw"), std::ios::app) << "x";
+  std::ofstream(folder / (serial("1") > serial("0") ? "part/state/1/run.raw" : "part/state/0/run.raw"), std::ios::app)
+      << "x";
   const Outcome older = gaussdrift_in(folder, "resume part");
   EXPECT_EQ(older.exit_code, 0) << older.err;
   EXPECT_NE(older.err.find(two ? "is not used: run.raw has" : "the run begins again"), std::string::npos) << older.err;
