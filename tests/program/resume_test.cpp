@@ -15,7 +15,7 @@
 namespace gaussdrift {
 namespace {
 
-/// Some 0.3 s: 40 000 steps of few particles, three outputs.
+/// Some 0.7 s: 200 000 steps of few particles, three outputs.
 const std::string turning = R"(gaussdrift = 1
 [domain]
 min = [-1, -1]
@@ -30,7 +30,7 @@ radius = 0.25
 per_axis = 60
 [time]
 end = 4
-step = 0.0001
+step = 0.00002
 [evaluate]
 per_axis = 40
 [output]
