@@ -15,6 +15,7 @@
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
+#include "render/picture_series.hpp"
 #include "render/styles.hpp"
 
 namespace gaussdrift::accuracy {
@@ -71,7 +72,9 @@ double memory_of_run(const Case& spec, const Extent& extent) {
   const bool kept = spec.output.report || (spec.reference.kind != ReferenceSpec::Kind::none &&
                                            spec.accuracy.budget != AccuracySpec::Budget::none);
   const double copy = kept ? n * particle + m * number * (extent.compared_everywhere ? 2 : 1) : 0;
-  if (pictures) stays += frames * std::min(m, in_space(spec) ? 2.1e6 : m) * 4;
+  if (pictures)
+    stays +=
+        std::min(frames * std::min(m, in_space(spec) ? 2.1e6 : m) * 4, static_cast<double>(render::most_kept_bytes));
 
   // Lines of the lattice are seeded one by one and joined.
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));

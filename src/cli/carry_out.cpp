@@ -39,7 +39,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder) {
+/// `later`: lines of warning for the end of the run.
+void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder, std::vector<std::string>& later) {
   simulation.observe(
       write::series_table(folder, spec.domain.dimension, spec.reference.kind != ReferenceSpec::Kind::none));
   for (const OutputFile& file : spec.output.files)
@@ -48,7 +49,8 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
     if (const std::string reason = render::unavailable_reason(); !reason.empty())
       note("warning: no pictures are drawn: {}\n", reason);
     else
-      simulation.observe(render::picture_series(folder, images, spec.title.empty() ? spec.name : spec.title));
+      simulation.observe(render::picture_series(folder, images, spec.title.empty() ? spec.name : spec.title,
+                                                {.warn = [&](const std::string& line) { later.push_back(line); }}));
   }
 }
 
@@ -104,7 +106,7 @@ class Run {
     Simulation simulation(spec_, task_.threads);
     simulation.prepare();  // what cannot begin must not cost an earlier run
     prepare_folder(simulation);
-    add_observers(simulation, spec_, folder_);
+    add_observers(simulation, spec_, folder_, of_observers_);
     const auto& times = spec_.output.times;
     if (looks_back(spec_) && !times.empty())
       simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
@@ -133,6 +135,7 @@ class Run {
 
   void explain_errors() {
     warnings_ = warnings_of(spec_, summary_);
+    warnings_.insert(warnings_.end(), of_observers_.begin(), of_observers_.end());
     if (!complete()) return;
     if (last_.any || spec_.output.times.empty())
       budget_ = look_back(spec_, summary_, last_, more_, warnings_, task_.threads);
@@ -247,7 +250,7 @@ class Run {
   accuracy::LastFrame::Kept last_;
   RunSummary summary_;
   std::optional<accuracy::Budget> budget_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, of_observers_;
   nlohmann::ordered_json more_;  // members of summary.json beside those of the run
   std::string summary_text_, ending_;
   OwedFiles owed_;

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <optional>
 #include <tuple>
 #include <utility>
 
-#include "render/solid.hpp"
+#include "base/state_bytes.hpp"
+#include "gaussdrift/error.hpp"
+#include "render/height_field.hpp"
+#include "render/kept_densities.hpp"
 #include "render/styles.hpp"
 
 namespace gaussdrift::render {
@@ -16,84 +20,90 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Colour range over all frames so far: that of the first one, until the values have left it.
-class RunningRange {
- public:
-  using Rounding = std::pair<double, double> (*)(double, double);
-  explicit RunningRange(Rounding round) : round_(round) {}
+/// Colours of a style over all frames so far: the range of the first one holds until values have left it. As it stands
+/// here it is part of the state of a run.
+struct RunningRange {
+  std::uint64_t first = 0;  // frame
+  double min = 0, max = 1;  // rounded, of the first frame
+  double lowest = 0, highest = 0;
+};
 
-  void include(double low, double high) {
-    if (!begun_) {
-      lowest_ = low, highest_ = high;
-      std::tie(min, max) = round_(low, high);
-      begun_ = true;
+struct Drawn {
+  Style style;
+  std::optional<RunningRange> range;  // none before the first frame
+
+  void include(std::uint64_t frame, double low, double high) {
+    if (!range) {
+      const auto [min, max] = style.range(low, high);
+      range = RunningRange{frame, min, max, low, high};
     }
-    lowest_ = std::min(lowest_, low), highest_ = std::max(highest_, high);
-  }
-  /// Widens the range if values have left it by more than a hundredth.
-  bool widen() {
-    const double margin = 0.01 * (max - min);
-    if (!begun_ || (lowest_ >= min - margin && highest_ <= max + margin)) return false;
-    std::tie(min, max) = round_(lowest_, highest_);
-    return true;
+    range->lowest = std::min(range->lowest, low), range->highest = std::max(range->highest, high);
   }
 
-  double min = 0, max = 1;
-
- private:
-  Rounding round_;
-  bool begun_ = false;
-  double lowest_ = 0, highest_ = 0;
+  /// If values have left the range by more than a hundredth.
+  std::optional<std::pair<double, double>> wider() const {
+    if (!range) return std::nullopt;
+    const double margin = 0.01 * (range->max - range->min);
+    if (range->lowest >= range->min - margin && range->highest <= range->max + margin) return std::nullopt;
+    return style.range(range->lowest, range->highest);
+  }
 };
 
 class PictureSeries : public Observer {
  public:
-  PictureSeries(const fs::path& folder, const std::vector<PictureStyle>& styles, std::string title)
-      : folder_(folder / "images") {
-    for (const PictureStyle& about : styles) {
-      const Style& style = find_style(about.name);
-      styles_.push_back({style, RunningRange(style.range)});
-    }
+  PictureSeries(const fs::path& folder, const std::vector<PictureStyle>& styles, std::string title,
+                SeriesOptions options)
+      : folder_(folder / "images"), warn_(std::move(options.warn)), kept_(folder, options.most_bytes) {
+    for (const PictureStyle& about : styles) styles_.push_back({find_style(about.name), {}});
     options_.title = std::move(title);
   }
   std::string name() const override { return "pictures"; }
 
   void frame(const Frame& frame) override {
-    show(kept_, frame, *frame.density, {frame.numbers.minimum, frame.numbers.maximum}, false);
+    times_.resize(static_cast<std::size_t>(frame.index));
+    times_.push_back(frame.time);
+    show(frame, *frame.density, {frame.numbers.minimum, frame.numbers.maximum}, false);
     if (!frame.exact ||
         std::none_of(styles_.begin(), styles_.end(), [](const Drawn& drawn) { return drawn.style.about.shows_error; }))
       return;
     const DensityGrid error = error_of(frame);
     const ValueFacts facts = facts_of(error.rho);
-    show(kept_errors_, frame, error, {facts.minimum, facts.maximum}, true);
+    show(frame, error, {facts.minimum, facts.maximum}, true);
+  }
+
+  std::string state() const override {
+    base::StateBytes bytes;
+    Lattice lattice = kept_.lattice;
+    Ranges ranges;
+    for (const Drawn& drawn : styles_)
+      if (drawn.range) ranges.emplace_back(drawn.style.about.name, *drawn.range);
+    pass_state(bytes, lattice, ranges);
+    return bytes.written();
+  }
+
+  void restore(const std::vector<std::pair<double, FrameNumbers>>& frames, const std::string& state) override {
+    times_.clear();
+    for (const auto& [time, numbers] : frames) times_.push_back(time);
+    if (state.empty()) return;  // there were no pictures
+    base::StateBytes bytes(state);
+    Ranges ranges;
+    pass_state(bytes, kept_.lattice, ranges);
+    for (const auto& [style, range] : ranges)
+      for (Drawn& drawn : styles_)
+        if (drawn.style.about.name == style) drawn.range = range;
   }
 
   void finish() override {
-    for (Drawn& drawn : styles_) {
-      if (!drawn.range.widen()) continue;
-      for (const Kept& kept : drawn.style.about.shows_error ? kept_errors_ : kept_)
-        draw_one(drawn, kept.index, kept.time, {kept.lattice, {kept.rho.begin(), kept.rho.end()}});
-    }
+    draw_again(false);
+    draw_again(true);
   }
 
  private:
-  struct Drawn {
-    Style style;
-    RunningRange range;
-  };
+  using Ranges = std::vector<std::pair<std::string, RunningRange>>;
 
-  // Single precision is plenty for colours and halves what a long run keeps; in space thinned, for the same reason.
-  struct Kept {
-    int index;
-    double time;
-    Lattice lattice;
-    std::vector<float> rho;
-  };
-
-  static void keep(std::vector<Kept>& list, const Frame& frame, const DensityGrid& density) {
-    constexpr std::size_t most_points = 128;
-    const DensityGrid thin = density.lattice.dimension == 3 ? thinned(density, most_points) : density;
-    list.push_back({frame.index, frame.time, thin.lattice, {thin.rho.begin(), thin.rho.end()}});
+  static void pass_state(base::StateBytes& bytes, Lattice& lattice, Ranges& ranges) {
+    bytes(lattice.dimension, lattice.points, lattice.origin, lattice.spacing, ranges);
+    bytes.end();
   }
 
   static DensityGrid error_of(const Frame& frame) {
@@ -103,34 +113,62 @@ class PictureSeries : public Observer {
   }
 
   /// By the styles that show the density, or those that show its error.
-  void show(std::vector<Kept>& list, const Frame& frame, const DensityGrid& density, std::pair<double, double> extremes,
-            bool errors) {
-    keep(list, frame, density);
+  void show(const Frame& frame, const DensityGrid& density, std::pair<double, double> extremes, bool error) {
+    const auto index = static_cast<std::size_t>(frame.index);
+    kept_.keep(error, index, density);
     for (Drawn& drawn : styles_) {
-      if (drawn.style.about.shows_error != errors) continue;
-      drawn.range.include(extremes.first, extremes.second);
-      draw_one(drawn, frame.index, frame.time, density);
+      if (drawn.style.about.shows_error != error) continue;
+      drawn.include(index, extremes.first, extremes.second);
+      draw_one(drawn.style, {drawn.range->min, drawn.range->max}, index, density);
     }
   }
 
-  void draw_one(const Drawn& drawn, int index, double time, const DensityGrid& density) {
-    options_.time = time;
-    options_.quantity = drawn.style.quantity;
-    options_.range_min = drawn.range.min, options_.range_max = drawn.range.max;
-    draw(drawn.style, density, options_, folder_ / fmt::format("{}_{:04}.png", drawn.style.about.name, index));
+  /// Pictures of all outputs with the wider range, where there is one. Each density is fetched once for all styles.
+  void draw_again(bool error) {
+    std::vector<std::pair<const Drawn*, std::pair<double, double>>> wide;
+    for (const Drawn& drawn : styles_)
+      if (const auto range = drawn.wider(); range && drawn.style.about.shows_error == error)
+        wide.emplace_back(&drawn, *range);
+    std::size_t first = times_.size(), missing = 0;
+    for (const auto& [drawn, range] : wide) first = std::min<std::size_t>(first, drawn->range->first);
+    std::string why;
+    for (std::size_t index = first; index < times_.size(); ++index) {
+      DensityGrid density;
+      try {
+        density = kept_.get(error, index, times_[index]);
+      } catch (const FileError& failure) {
+        if (++missing == 1) why = failure.what();
+        continue;
+      }
+      for (const auto& [drawn, range] : wide)
+        if (index >= drawn->range->first) draw_one(drawn->style, range, index, density);
+    }
+    if (missing > 0 && warn_)
+      warn_(
+          fmt::format("pictures of the {} at {} earlier output{} keep a narrower range of colours than the others: {}",
+                      error ? "error" : "density", missing, missing == 1 ? "" : "s", why));
+  }
+
+  void draw_one(const Style& style, std::pair<double, double> range, std::size_t index, const DensityGrid& density) {
+    options_.time = times_[index];
+    options_.quantity = style.quantity;
+    std::tie(options_.range_min, options_.range_max) = range;
+    draw(style, density, options_, folder_ / fmt::format("{}_{:04}.png", style.about.name, index));
   }
 
   fs::path folder_;
+  std::function<void(const std::string&)> warn_;
   std::vector<Drawn> styles_;
   PictureOptions options_;
-  std::vector<Kept> kept_, kept_errors_;
+  std::vector<double> times_;  // of all outputs so far, those of earlier processes too
+  KeptDensities kept_;
 };
 
 }  // namespace
 
 std::unique_ptr<Observer> picture_series(const fs::path& folder, const std::vector<PictureStyle>& styles,
-                                         std::string title) {
-  return std::make_unique<PictureSeries>(folder, styles, std::move(title));
+                                         std::string title, SeriesOptions options) {
+  return std::make_unique<PictureSeries>(folder, styles, std::move(title), std::move(options));
 }
 
 }  // namespace gaussdrift::render

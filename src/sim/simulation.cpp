@@ -408,11 +408,11 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   try {
     base::StateBytes state(bytes);
     pass_state(state);
-  } catch (const std::out_of_range& error) {
+    plan_landings();
+    take_up_outputs();
+  } catch (const std::out_of_range& error) {  // here or in an observer
     throw misfit(error.what());
   }
-  plan_landings();
-  take_up_outputs();
   steps_total_ = steps_to_end();
 }
 

@@ -177,5 +177,35 @@ TEST_F(Resume, LooksBackAtUnfinishedRuns) {
   }
 }
 
+using ResumedPictures = Drawn;
+
+TEST_F(ResumedPictures, HaveTheColoursOfARunThatNeverStopped) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "growing.toml") << turning << "[effects.reaction]\nrate = \"-0.3\"\n";
+  const std::string drawn = R"( --set 'output.images=["heatmap"]' --set output.times=[0,4])";
+  EXPECT_EQ(gaussdrift_in(folder, "run growing.toml --out whole" + drawn).exit_code, 0);
+  EXPECT_EQ(gaussdrift_in(folder, "run growing.toml --out part --stop-after 0.3" + drawn).exit_code, 7);
+  const Outcome resumed = gaussdrift_in(folder, "resume part");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(resumed.err.find("warning"), std::string::npos) << resumed.err;
+  EXPECT_TRUE(fs::exists(folder / "whole/images/heatmap_0001.png"));
+  expect_same(folder / "whole", folder / "part");
+}
+
+TEST_F(ResumedPictures, SayWhereTheirRangeStaysNarrow) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "growing.toml") << turning << "[effects.reaction]\nrate = \"-0.3\"\n";
+  EXPECT_EQ(gaussdrift_in(folder,
+                          "run growing.toml --out part --set time.step=0.01 --set time.end=2 "
+                          R"(--set 'output.images=["heatmap"]' --set output.times=[0,2] --set output.vtk=[])")
+                .exit_code,
+            0);
+  const Outcome resumed = gaussdrift_in(folder, "resume part --until 4");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_NE(resumed.err.find("warning: pictures of the density at 1 earlier output keep a narrower range of colours"),
+            std::string::npos)
+      << resumed.err;
+}
+
 }  // namespace
 }  // namespace gaussdrift
