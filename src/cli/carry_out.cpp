@@ -162,15 +162,11 @@ class Run {
                               {"time", keeper_->last().time},
                               {"bytes", keeper_->last().bytes}};
     summary_text_ = write::summary_json(spec_, summary_, more_);
-    std::string without;
-    if (owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); }) && spec_.output.report)
-      without = write_page(folder_, spec_, owed_);
-    ending_ = (complete() ? "" : stopped_text()) +
-              ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + without + state_text();
-    std::string log;
-    for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
-    for (const std::string& why : owed_.missing()) log += "error: " + why + "\n";
-    owed_.attempt([&] { write::write_text(folder_ / "log.txt", base::printable_lines(log + ending_)); });
+    const bool told = owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); });
+    // The log before the page: `resume` makes the page of a run that was killed here, and cannot make the log.
+    const std::string before_page = write_log("");
+    const std::string without = told && spec_.output.report ? write_page(folder_, spec_, owed_) : "";
+    if (log_text(without) != before_page) write_log(without);
     owed_.attempt([&] { complete() ? own_folder_->complete() : own_folder_->interrupted(how_to_go_on()); });
   }
 
@@ -209,8 +205,25 @@ class Run {
                                                 .bytes = least_disk(spec_, simulation.particles().size()),
                                                 .picture_styles = render::style_names()});
     if (provenance.empty()) return;
-    write::write_run_inputs(folder_, spec_, case_text(spec_, folder_));
+    // First, because it has the name of the case: a run that has a run.toml can be resumed, and pictures show the name.
     write::write_text(folder_ / "provenance.json", provenance);
+    write::write_run_inputs(folder_, spec_, case_text(spec_, folder_));
+  }
+
+  /// `without`: lines about the page.
+  std::string log_text(const std::string& without) {
+    ending_ = (complete() ? "" : stopped_text()) +
+              ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + without + state_text();
+    std::string log;
+    for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
+    for (const std::string& why : owed_.missing()) log += "error: " + why + "\n";
+    return base::printable_lines(log + ending_);
+  }
+
+  std::string write_log(const std::string& without) {
+    std::string text = log_text(without);
+    owed_.attempt([&] { write::write_text(folder_ / "log.txt", text); });
+    return text;
   }
 
   /// After an error of the disk: a checkpoint where there is room for one.
@@ -272,6 +285,15 @@ ExitCode carry_out(RunTask task) {
   run.explain_errors();
   run.write();
   return run.report();
+}
+
+ExitCode finish(const Case& spec, const fs::path& folder) {
+  write::RunFolder own_folder(folder, spec, {.go_on = true});
+  OwedFiles owed;
+  if (spec.output.report) put(stdout, write_page(folder, spec, owed));
+  owed.attempt([&] { own_folder.complete(); });
+  for (const std::string& why : owed.missing()) note("error: {}\n", why);
+  return owed.missing().empty() ? ExitCode::ok : ExitCode::files;
 }
 
 }  // namespace gaussdrift::cli

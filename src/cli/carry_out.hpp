@@ -31,4 +31,7 @@ std::string past_of(const Case& spec);
 /// Runs, explains the errors, writes everything, and then says what came out.
 ExitCode carry_out(RunTask task);
 
+/// Of a run that died after its last number: makes its page and closes its folder.
+ExitCode finish(const Case& spec, const std::filesystem::path& folder);
+
 }  // namespace gaussdrift::cli

@@ -107,6 +107,13 @@ bool is_complete(const fs::path& folder) {
   return complete != summary.end() && complete->is_boolean() && complete->get<bool>();
 }
 
+/// Its numbers are complete, and status.json says that what comes after them is not. Earlier versions wrote no status.json.
+bool lacks_its_end(const fs::path& folder) {
+  const nlohmann::json status = json_in(folder / "status.json");
+  const auto state = status.find("state");
+  return state != status.end() && *state != "complete";
+}
+
 ExitCode resume(const ResumeOptions& options) {
   RunTask task;
   task.stop_after = stop_after_seconds(options.stop_after);
@@ -140,6 +147,10 @@ ExitCode resume(const ResumeOptions& options) {
     keep_written_outputs(before, now, spec);
   }
   const input::ChangedKeys changed = input::changed_keys(before, spec);
+  if (complete && changed.future.empty() && lacks_its_end(options.folder)) {
+    note("all numbers are there; the page about them is made again\n");
+    return finish(spec, options.folder);
+  }
   if (complete && changed.future.empty()) {
     put(stdout, fmt::format("{} is complete. --until T lengthens it.\n", options.folder.string()));
     return ExitCode::ok;

@@ -271,6 +271,11 @@ class RunFolder::Watch : public Observer {
   explicit Watch(RunFolder& folder) : folder_(folder) {}
   std::string name() const override { return "write status"; }
   void frame(const Frame& frame) override { folder_.seen(frame.time); }
+  /// A run that was killed may have written outputs after its checkpoint. They are written again, and count once.
+  void restore(const std::vector<std::pair<double, FrameNumbers>>& frames, const std::string& /*state*/) override {
+    folder_.outputs_ = frames.size();
+    folder_.time_ = frames.empty() ? std::nullopt : std::optional(frames.back().first);
+  }
 
  private:
   RunFolder& folder_;

@@ -5,12 +5,11 @@
 
 #include <chrono>
 #include <csignal>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <thread>
 
 #include "program/program.hpp"
+#include "program/same_run.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -39,34 +38,6 @@ images = []
 report = "none"
 checkpoint = 0.02
 )";
-
-/// Files of a run that hold seconds, or the moment of the run.
-bool has_times(const std::string& name) {
-  static const std::set<std::string> names{"series.csv", "summary.json", "log.txt", "provenance.json", "status.json"};
-  return names.contains(name) || name.starts_with("state/") || name.starts_with(".");
-}
-
-/// All files with their bytes; of series.csv the columns before the seconds.
-std::map<std::string, std::string> bits_of(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).generic_string();
-    if (entry.is_regular_file() && !has_times(name)) files[name] = read_file(entry.path());
-  }
-  std::istringstream rows(read_file(folder / "series.csv"));
-  for (std::string row; std::getline(rows, row);)
-    files["series.csv"] += row.substr(0, row.rfind(',', row.rfind(',') - 1)) + "\n";
-  return files;
-}
-
-void expect_same(const fs::path& whole, const fs::path& other) {
-  const auto a = bits_of(whole), b = bits_of(other);
-  for (const auto& [name, bytes] : a) {
-    ASSERT_TRUE(b.contains(name)) << name;
-    EXPECT_TRUE(b.at(name) == bytes) << name << " differs";
-  }
-  EXPECT_EQ(a.size(), b.size());
-}
 
 /// Starts the program, sends a signal after some milliseconds, and returns what waitpid() says.
 int run_and_signal(const ScratchFolder& folder, const std::vector<std::string>& words, int signal, int milliseconds) {

@@ -1,0 +1,315 @@
+// Preloaded into the program (LD_PRELOAD): lets its k-th call that writes a file fail, or kills it there, or lets its k-th
+// allocation fail. The environment says what is to happen:
+//   FAULTS_FOLDER   calls on files in it, at any depth, are counted
+//   FAULTS_AT       which call fails, from 1
+//   FAULTS_ERROR    with which errno; "kill": the process is killed there by SIGKILL
+//   FAULTS_LASTING  set: all later calls fail too, but those that close or remove, as on a disk that stays full
+//   FAULTS_NEW_AT   which allocation of the program itself fails, from 1
+//   FAULTS_REPORT   file that takes "struck <call> <file>" at the fault and "calls <n> allocations <n>" at the exit
+// A write that fails has written its first half. fsync is counted and not done: a killed process loses nothing of what the
+// system has, and the test takes a third of the time.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <link.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdarg>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace {
+
+template <class Function>
+Function* next(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+long number_of(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text ? std::atol(text) : 0;
+}
+
+struct Plan {
+  Plan() {
+    if (const char* text = std::getenv("FAULTS_FOLDER")) folder = text;
+    if (const char* text = std::getenv("FAULTS_ERROR")) kill = std::strcmp(text, "kill") == 0;
+    report = std::getenv("FAULTS_REPORT");
+    at = number_of("FAULTS_AT"), error = static_cast<int>(number_of("FAULTS_ERROR"));
+    lasting = std::getenv("FAULTS_LASTING") != nullptr;
+    new_at = number_of("FAULTS_NEW_AT");
+  }
+  const char* folder = nullptr;
+  const char* report = nullptr;
+  long at = 0, new_at = 0;
+  int error = 0;
+  bool kill = false, lasting = false;
+};
+
+const Plan& plan() {
+  static const Plan the_plan;
+  return the_plan;
+}
+
+std::atomic<long> calls{0}, allocations{0};
+
+/// Without stdio and without operator new, which are counted.
+void report(const char* line) {
+  static const auto open_it = next<int(const char*, int, ...)>("open");
+  static const auto write_it = next<ssize_t(int, const void*, size_t)>("write");
+  static const auto close_it = next<int(int)>("close");
+  if (!plan().report) return;
+  const int descriptor = open_it(plan().report, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (descriptor < 0) return;
+  if (write_it(descriptor, line, std::strlen(line)) < 0) std::abort();
+  close_it(descriptor);
+}
+
+bool is_counted(const char* path) {
+  if (!plan().folder) return false;
+  char absolute[8192];
+  if (path[0] != '/') {
+    if (!getcwd(absolute, sizeof absolute / 2)) return false;
+    const size_t length = std::strlen(absolute);
+    std::snprintf(absolute + length, sizeof absolute - length, "/%s", path);
+    path = absolute;
+  }
+  const size_t length = std::strlen(plan().folder);
+  return std::strncmp(path, plan().folder, length) == 0 && (path[length] == '/' || path[length] == 0);
+}
+
+/// The name of an open file; "" if it has none.
+struct NameOf {
+  explicit NameOf(int descriptor) {
+    char link[64];
+    std::snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
+    const ssize_t length = readlink(link, name, sizeof name - 1);
+    name[std::max<ssize_t>(length, 0)] = 0;
+  }
+  char name[4096];
+};
+
+enum class Kind { writes, closes };
+
+/// Counts a call. True: this one is to fail, after `half` of its work. It does not return where the process is to die.
+template <class Half>
+bool strikes(const char* call, const char* path, Kind kind, const Half& half) {
+  const int before = errno;
+  if (!is_counted(path)) return errno = before, false;
+  const long number = ++calls;
+  const bool first = number == plan().at;
+  const bool later = plan().lasting && plan().at > 0 && number > plan().at && kind == Kind::writes;
+  if (!first && !later) return errno = before, false;
+  half();
+  if (first) {
+    char line[4200];
+    std::snprintf(line, sizeof line, "struck %s %s\n", call, path);
+    report(line);
+  }
+  if (plan().kill) ::kill(getpid(), SIGKILL);
+  errno = plan().error;
+  return true;
+}
+
+bool strikes(const char* call, const char* path, Kind kind = Kind::writes) {
+  return strikes(call, path, kind, [] {});
+}
+
+bool opens_to_write(int flags) { return (flags & O_CREAT) || (flags & O_ACCMODE) != O_RDONLY; }
+
+mode_t mode_in(int flags, va_list arguments) { return (flags & O_CREAT) ? va_arg(arguments, mode_t) : 0; }
+
+/// Where the program itself lies in memory, without its libraries: the first object that the loader tells of.
+struct OwnCode {
+  OwnCode() {
+    dl_iterate_phdr(
+        [](dl_phdr_info* object, size_t, void* result) {
+          auto& own = *static_cast<OwnCode*>(result);
+          for (int i = 0; i < object->dlpi_phnum; ++i) {
+            if (object->dlpi_phdr[i].p_type != PT_LOAD) continue;
+            const std::uintptr_t begin = object->dlpi_addr + object->dlpi_phdr[i].p_vaddr;
+            own.first = std::min(own.first, begin);
+            own.last = std::max(own.last, begin + object->dlpi_phdr[i].p_memsz);
+          }
+          return 1;
+        },
+        this);
+  }
+  std::uintptr_t first = UINTPTR_MAX, last = 0;
+};
+
+void* allocate(size_t size, size_t alignment, void* caller) {
+  static const OwnCode own;
+  const auto at = reinterpret_cast<std::uintptr_t>(caller);
+  if (own.first <= at && at < own.last && ++allocations == plan().new_at) {
+    char line[100];
+    std::snprintf(line, sizeof line, "struck new at +0x%zx\n", static_cast<size_t>(at - own.first));
+    report(line);
+    throw std::bad_alloc();
+  }
+  size = std::max<size_t>(size, 1);
+  void* memory =
+      alignment ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment) : std::malloc(size);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+[[gnu::destructor]] void tell_counts() {
+  char line[100];
+  std::snprintf(line, sizeof line, "calls %ld allocations %ld\n", calls.load(), allocations.load());
+  report(line);
+}
+
+}  // namespace
+
+void* operator new(size_t size) { return allocate(size, 0, __builtin_return_address(0)); }
+void* operator new[](size_t size) { return allocate(size, 0, __builtin_return_address(0)); }
+void* operator new(size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<size_t>(alignment), __builtin_return_address(0));
+}
+void* operator new[](size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<size_t>(alignment), __builtin_return_address(0));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+
+extern "C" {
+
+#define OPENS(name)                                                   \
+  int name(const char* path, int flags, ...) {                        \
+    static const auto real = next<int(const char*, int, ...)>(#name); \
+    va_list arguments;                                                \
+    va_start(arguments, flags);                                       \
+    const mode_t mode = mode_in(flags, arguments);                    \
+    va_end(arguments);                                                \
+    if (opens_to_write(flags) && strikes(#name, path)) return -1;     \
+    return real(path, flags, mode);                                   \
+  }
+OPENS(open)
+OPENS(open64)
+
+#define OPENS_AT(name)                                                     \
+  int name(int folder, const char* path, int flags, ...) {                 \
+    static const auto real = next<int(int, const char*, int, ...)>(#name); \
+    va_list arguments;                                                     \
+    va_start(arguments, flags);                                            \
+    const mode_t mode = mode_in(flags, arguments);                         \
+    va_end(arguments);                                                     \
+    if (opens_to_write(flags) && strikes(#name, path)) return -1;          \
+    return real(folder, path, flags, mode);                                \
+  }
+OPENS_AT(openat)
+OPENS_AT(openat64)
+
+#define OPENS_STREAM(name)                                                      \
+  std::FILE* name(const char* path, const char* mode) {                         \
+    static const auto real = next<std::FILE*(const char*, const char*)>(#name); \
+    if (std::strpbrk(mode, "wa+") && strikes(#name, path)) return nullptr;      \
+    return real(path, mode);                                                    \
+  }
+OPENS_STREAM(fopen)
+OPENS_STREAM(fopen64)
+
+std::FILE* fdopen(int descriptor, const char* mode) noexcept {
+  static const auto real = next<std::FILE*(int, const char*)>("fdopen");
+  if (std::strpbrk(mode, "wa+") && strikes("fdopen", NameOf(descriptor).name)) return nullptr;
+  return real(descriptor, mode);
+}
+
+ssize_t write(int descriptor, const void* data, size_t size) {
+  static const auto real = next<ssize_t(int, const void*, size_t)>("write");
+  const auto half = [&] { (void)!real(descriptor, data, size / 2); };
+  if (strikes("write", NameOf(descriptor).name, Kind::writes, half)) return -1;
+  return real(descriptor, data, size);
+}
+
+ssize_t pwrite(int descriptor, const void* data, size_t size, off_t place) {
+  static const auto real = next<ssize_t(int, const void*, size_t, off_t)>("pwrite");
+  const auto half = [&] { (void)!real(descriptor, data, size / 2, place); };
+  if (strikes("pwrite", NameOf(descriptor).name, Kind::writes, half)) return -1;
+  return real(descriptor, data, size, place);
+}
+
+size_t fwrite(const void* data, size_t size, size_t count, std::FILE* stream) {
+  static const auto real = next<size_t(const void*, size_t, size_t, std::FILE*)>("fwrite");
+  static const auto flush = next<int(std::FILE*)>("fflush");
+  const auto half = [&] {
+    real(data, 1, size * count / 2, stream);
+    flush(stream);
+  };
+  if (strikes("fwrite", NameOf(fileno(stream)).name, Kind::writes, half)) return count / 2;
+  return real(data, size, count, stream);
+}
+
+int fflush(std::FILE* stream) {
+  static const auto real = next<int(std::FILE*)>("fflush");
+  if (stream && strikes("fflush", NameOf(fileno(stream)).name)) return EOF;
+  return real(stream);
+}
+
+int fclose(std::FILE* stream) {
+  static const auto real = next<int(std::FILE*)>("fclose");
+  const bool fails = strikes("fclose", NameOf(fileno(stream)).name, Kind::closes);
+  const int problem = errno, result = real(stream);
+  return fails ? (errno = problem, EOF) : result;
+}
+
+int close(int descriptor) {
+  static const auto real = next<int(int)>("close");
+  const bool fails = strikes("close", NameOf(descriptor).name, Kind::closes);
+  const int problem = errno, result = real(descriptor);
+  return fails ? (errno = problem, -1) : result;
+}
+
+int fsync(int descriptor) {
+  static const auto real = next<int(int)>("fsync");
+  const NameOf file(descriptor);
+  if (strikes("fsync", file.name)) return -1;
+  return is_counted(file.name) ? 0 : real(descriptor);
+}
+
+#define TAKES_TWO_NAMES(name)                                            \
+  int name(const char* from, const char* to) noexcept {                  \
+    static const auto real = next<int(const char*, const char*)>(#name); \
+    return strikes(#name, to) ? -1 : real(from, to);                     \
+  }
+TAKES_TWO_NAMES(rename)
+TAKES_TWO_NAMES(link)
+
+int linkat(int a, const char* from, int b, const char* to, int flags) noexcept {
+  static const auto real = next<int(int, const char*, int, const char*, int)>("linkat");
+  return strikes("linkat", to) ? -1 : real(a, from, b, to, flags);
+}
+
+int mkdir(const char* path, mode_t mode) noexcept {
+  static const auto real = next<int(const char*, mode_t)>("mkdir");
+  return strikes("mkdir", path) ? -1 : real(path, mode);
+}
+
+#define REMOVES(name)                                            \
+  int name(const char* path) noexcept {                          \
+    static const auto real = next<int(const char*)>(#name);      \
+    return strikes(#name, path, Kind::closes) ? -1 : real(path); \
+  }
+REMOVES(unlink)
+REMOVES(remove)
+
+int ftruncate(int descriptor, off_t length) noexcept {
+  static const auto real = next<int(int, off_t)>("ftruncate");
+  return strikes("ftruncate", NameOf(descriptor).name) ? -1 : real(descriptor, length);
+}
+
+}  // extern "C"
