@@ -113,7 +113,7 @@ class Run {
     simulation.observe(own_folder_->watch());
     if (task_.from) simulation.restore(std::move(task_.from->particles), task_.from->state);
 
-    keeper_.emplace(folder_, past_of(spec_), spec_.output.checkpoint);
+    keeper_.emplace(folder_, past_of(spec_), spec_.output.checkpoint, task_.from.has_value());
     ProgressLine line;
     simulation.on_progress([&](const Progress& progress) {
       line.show(progress);
@@ -245,10 +245,10 @@ class Run {
 
   std::string state_text() const {
     if (keeper_->written() == 0 || !complete()) return "";
-    return fmt::format(
-        "state  {} checkpoints took {:.2g} s; the last has {} ({}/{}): gaussdrift resume --until T goes on\n",
-        keeper_->written(), keeper_->seconds(), bytes_text(keeper_->last().bytes), folder_.string(),
-        write::checkpoints_folder);
+    return fmt::format("state  {} took {:.2g} s; the last has {} ({}/{}): gaussdrift resume --until T goes on\n",
+                       keeper_->written() == 1 ? "1 checkpoint" : fmt::format("{} checkpoints", keeper_->written()),
+                       keeper_->seconds(), bytes_text(keeper_->last().bytes), folder_.string(),
+                       write::checkpoints_folder);
   }
 
   static std::string bytes_text(double bytes) {

@@ -13,8 +13,9 @@ constexpr double least_part_of_run = 50;  // an interval is so many times as lon
 
 }  // namespace
 
-CheckpointKeeper::CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked)
-    : folder_(std::move(folder)), past_(std::move(past)), asked_(asked) {}
+CheckpointKeeper::CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked,
+                                   bool resumed)
+    : folder_(std::move(folder)), past_(std::move(past)), asked_(asked), resumed_(resumed) {}
 
 bool CheckpointKeeper::is_due(const Progress& progress) const {
   const double since = since_last_.seconds();
@@ -27,7 +28,8 @@ bool CheckpointKeeper::is_due(const Progress& progress) const {
 
 bool CheckpointKeeper::look(const Progress& progress, const Simulation& simulation, bool stopping) {
   if (!begun_at_) begun_at_ = progress.time;
-  const bool at_end = progress.time >= progress.end && (asked_ ? *asked_ > 0 : since_start_.seconds() >= long_run);
+  const bool keeps_one = asked_ ? *asked_ > 0 : resumed_ || since_start_.seconds() >= long_run;
+  const bool at_end = keeps_one && progress.time >= progress.end;
   if (!stopping && !at_end && !is_due(progress)) return false;
   const std::size_t before = written_;
   write(progress.time, progress.steps_done, simulation);

@@ -16,7 +16,8 @@ class CheckpointKeeper {
  public:
   /// `asked`: seconds between two, 0 for none, empty for the default: about every minute, and less often where that
   /// would take more than a fiftieth of the time, once a run is seen to take more than five minutes.
-  CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked);
+  /// `resumed`: the run goes on from a checkpoint, and keeps one of its end.
+  CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked, bool resumed);
 
   /// To be called between steps. Writes if it is time to, at the end of a run that keeps checkpoints, and where the run
   /// is about to stop. True if it wrote. Throws FileError.
@@ -35,6 +36,7 @@ class CheckpointKeeper {
   std::filesystem::path folder_;
   std::string past_;
   std::optional<double> asked_;
+  bool resumed_;
   base::Stopwatch since_start_, since_last_;
   std::optional<double> begun_at_;  // time of the scene
   std::size_t written_ = 0;

@@ -97,7 +97,7 @@ void refuse_changed_past(const input::ChangedKeys& changed) {
   if (changed.past.empty()) return;
   throw InputError(fmt::format(
       "{} cannot change while a run is under way, because what was computed depends on {}. Outputs from now on, "
-      "pictures, checks, time.end and threads can. Start a new run for the rest.",
+      "pictures, checks, titles, time.end and threads can. Start a new run for the rest.",
       fmt::join(changed.past, ", "), changed.past.size() == 1 ? "it" : "them"));
 }
 
@@ -162,7 +162,7 @@ ExitCode resume(const ResumeOptions& options) {
   task.changed = !changed.future.empty();
   if (task.changed) note("changed from now on: {}\n", fmt::join(changed.future, ", "));
   if (task.from)
-    note("goes on at t = {:.6g} of {:.6g}, after {} steps\n", task.from->facts.time, spec.time.end,
+    note("goes on at t = {:.6g} of {:.6g}, after {} steps: the last checkpoint\n", task.from->facts.time, spec.time.end,
          task.from->facts.steps);
   else
     note("there is no checkpoint; the run begins again\n");
