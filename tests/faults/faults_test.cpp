@@ -34,8 +34,9 @@ std::string small(const std::string& velocity, const char* images, const char* r
 /// A cone that turns and flows apart.
 const std::string apart = small(velocity_of({"0.3*x - y", "0.3*y + x"}), "", "none");
 
-/// With pictures and a page. It is at rest: the test is about files, and its colours keep their range.
-const std::string drawn = small(at_rest, draws_pictures ? "\"heatmap\"" : "", draws_pictures ? "html" : "none");
+/// With pictures and a page.
+const std::string drawn = small(velocity_of({"0.3*x - y", "0.3*y + x"}), draws_pictures ? "\"heatmap\"" : "",
+                                draws_pictures ? "html" : "none");
 
 constexpr int killed = 128 + 9;  // as the shell tells it
 
@@ -134,9 +135,9 @@ struct Counts {
 class Faults : public testing::Test {
  protected:
   /// Runs it once without a fault: what the others are compared with, and how many calls there are.
-  Counts begin(const std::string& text) {
+  Counts begin(const std::string& text, const std::string& counted = "") {
     write_file(folder / "small.toml", text);
-    const Outcome whole = call(run_part);
+    const Outcome whole = call(run_part, counted);
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
     fs::rename(folder / "part", folder / "whole");
     Counts counts;
@@ -247,11 +248,21 @@ TEST_F(Faults, AKill) {
   tell("calls killed a run with pictures and a page", calls);
 }
 
+/// Once the program writes.
 TEST_F(Faults, AnAllocationThatFails) {
   const long allocations = begin(apart).allocations;
   for (const long at : spread(allocations, faults_of_a_test(40)))
     suffer("FAULTS_NEW_AT=" + std::to_string(at), {0, 3, 6});
   tell("allocations failed", allocations);
+}
+
+/// From its start. This fails with g++ 12 at some of them: where an allocation fails inside the braces of a table of keys,
+/// it destroys the strings before it twice, and the program aborts. It has written nothing then.
+TEST_F(Faults, DISABLED_AnAllocationThatFailsFromTheStart) {
+  const long allocations = begin(apart, "FAULTS_NEW_ALL=1").allocations;
+  for (const long at : spread(allocations, faults_of_a_test(300)))
+    suffer("FAULTS_NEW_ALL=1 FAULTS_NEW_AT=" + std::to_string(at), {0, 3, 6});
+  tell("allocations failed, from the start of the program", allocations);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 //   FAULTS_AT       which call fails, from 1
 //   FAULTS_ERROR    with which errno; "kill": the process is killed there by SIGKILL
 //   FAULTS_LASTING  set: all later calls fail too, but those that close or remove, as on a disk that stays full
-//   FAULTS_NEW_AT   which allocation of the program itself fails, from 1
+//   FAULTS_NEW_AT   which allocation of the program itself fails, from 1 after the first call that is counted
+//   FAULTS_NEW_ALL  set: allocations are counted from the start of the program
 //   FAULTS_REPORT   file that takes "struck <call> <file>" at the fault and "calls <n> allocations <n>" at the exit
 // A write that fails has written its first half. fsync is counted and not done: a killed process loses nothing of what the
 // system has, and the test takes a third of the time.
@@ -44,13 +45,13 @@ struct Plan {
     report = std::getenv("FAULTS_REPORT");
     at = number_of("FAULTS_AT"), error = static_cast<int>(number_of("FAULTS_ERROR"));
     lasting = std::getenv("FAULTS_LASTING") != nullptr;
-    new_at = number_of("FAULTS_NEW_AT");
+    new_at = number_of("FAULTS_NEW_AT"), new_all = std::getenv("FAULTS_NEW_ALL") != nullptr;
   }
   const char* folder = nullptr;
   const char* report = nullptr;
   long at = 0, new_at = 0;
   int error = 0;
-  bool kill = false, lasting = false;
+  bool kill = false, lasting = false, new_all = false;
 };
 
 const Plan& plan() {
@@ -148,7 +149,8 @@ struct OwnCode {
 void* allocate(size_t size, size_t alignment, void* caller) {
   static const OwnCode own;
   const auto at = reinterpret_cast<std::uintptr_t>(caller);
-  if (own.first <= at && at < own.last && ++allocations == plan().new_at) {
+  const bool counts = own.first <= at && at < own.last && (plan().new_all || calls > 0);
+  if (counts && ++allocations == plan().new_at) {
     char line[100];
     std::snprintf(line, sizeof line, "struck new at +0x%zx\n", static_cast<size_t>(at - own.first));
     report(line);
