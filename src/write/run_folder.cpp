@@ -228,8 +228,8 @@ void RunFolder::set_aside(const OwnFiles& earlier, bool has_outputs, bool lists_
 RunFolder::~RunFolder() {
   if (ended_) return;
   try {
-    end("failed", keeps_earlier_ ? "run it again with --force; the earlier run is whole in the folder earlier"
-                                 : "run it again with --force");
+    const std::string next = "gaussdrift resume goes on, or run it again with --force";
+    end("failed", keeps_earlier_ ? next + "; the earlier run is whole in the folder earlier" : next);
   } catch (const std::exception&) {
     // A disk that is full: status.json still says "running", and no process holds the lock.
   }
