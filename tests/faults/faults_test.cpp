@@ -256,7 +256,7 @@ TEST_F(Faults, AnAllocationThatFails) {
   tell("allocations failed", allocations);
 }
 
-/// From its start. This fails with g++ 12 at some of them: where an allocation fails inside the braces of a table of keys,
+/// From its start. This fails at some of them, probably because of g++ 12: where an allocation fails inside the braces of a table of keys,
 /// it destroys the strings before it twice, and the program aborts. It has written nothing then.
 TEST_F(Faults, DISABLED_AnAllocationThatFailsFromTheStart) {
   const long allocations = begin(apart, "FAULTS_NEW_ALL=1").allocations;
