@@ -17,6 +17,7 @@
 #include "gaussdrift/simulation.hpp"
 #include "render/picture_series.hpp"
 #include "render/styles.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
 
@@ -120,12 +121,9 @@ void refuse_what_does_not_fit(const Case& spec, int threads) {
   const Domain& domain = spec.domain;
   const auto lattice =
       static_cast<double>(make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis).size());
-  const Lattice grid = spec.evaluate.spacing > 0
-                           ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
-                           : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
   Extent extent{.lattice_points = lattice,
                 .particles = lattice,
-                .grid_points = static_cast<double>(grid.size()),
+                .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
                 .compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none};
   const double there = memory_of_this_machine(), before = memory_of_this_process();
   if (before + memory_of_run(spec, extent) < there) return;

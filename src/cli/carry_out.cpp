@@ -26,6 +26,7 @@
 #include "render/picture_series.hpp"
 #include "render/styles.hpp"
 #include "report/page.hpp"
+#include "sim/scene.hpp"
 #include "write/atomic_file.hpp"
 #include "write/output_files.hpp"
 #include "write/provenance.hpp"
@@ -89,12 +90,8 @@ std::string provenance_of(const RunTask& task) {
 
 /// Bytes that the run writes at least: the exact density may stand beside the other.
 double least_disk(const Case& spec, std::size_t particles) {
-  const Domain& domain = spec.domain;
-  const Lattice grid = spec.evaluate.spacing > 0
-                           ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
-                           : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
-  return accuracy::disk_of_run(
-      spec, {.particles = static_cast<double>(particles), .grid_points = static_cast<double>(grid.size())});
+  return accuracy::disk_of_run(spec, {.particles = static_cast<double>(particles),
+                                      .grid_points = static_cast<double>(evaluation_lattice(spec).size())});
 }
 
 class Run {
@@ -113,7 +110,8 @@ class Run {
     simulation.observe(own_folder_->watch());
     if (task_.from) simulation.restore(std::move(task_.from->particles), task_.from->state);
 
-    keeper_.emplace(folder_, past_of(spec_), spec_.output.checkpoint, task_.from.has_value());
+    keeper_.emplace(
+        folder_, [this] { return past_of(spec_); }, spec_.output.checkpoint, task_.from.has_value());
     ProgressLine line;
     simulation.on_progress([&](const Progress& progress) {
       line.show(progress);
@@ -229,7 +227,8 @@ class Run {
   /// After an error of the disk: a checkpoint where there is room for one.
   void keep_what_there_is(const Simulation& simulation) {
     try {
-      keeper_->write(0, 0, simulation);
+      const RunSummary so_far = simulation.summary();
+      keeper_->write(so_far.time, so_far.steps, simulation);
     } catch (const FileError&) {  // the one before stands
     }
   }

@@ -13,8 +13,8 @@ constexpr double least_part_of_run = 50;  // an interval is so many times as lon
 
 }  // namespace
 
-CheckpointKeeper::CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked,
-                                   bool resumed)
+CheckpointKeeper::CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past,
+                                   std::optional<double> asked, bool resumed)
     : folder_(std::move(folder)), past_(std::move(past)), asked_(asked), resumed_(resumed) {}
 
 bool CheckpointKeeper::is_due(const Progress& progress) const {
@@ -39,7 +39,8 @@ bool CheckpointKeeper::look(const Progress& progress, const Simulation& simulati
 void CheckpointKeeper::write(double time, std::size_t steps, const Simulation& simulation) {
   if (asked_ && *asked_ == 0) return;
   const base::Stopwatch watch;
-  last_ = write::write_checkpoint(folder_, past_, time, steps, simulation.particles(), simulation.state());
+  if (hash_.empty()) hash_ = past_();
+  last_ = write::write_checkpoint(folder_, hash_, time, steps, simulation.particles(), simulation.state());
   last_seconds_ = watch.seconds();
   seconds_ += last_seconds_;
   ++written_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,8 +17,10 @@ class CheckpointKeeper {
  public:
   /// `asked`: seconds between two, 0 for none, empty for the default: about every minute, and less often where that
   /// would take more than a fiftieth of the time, once a run is seen to take more than five minutes.
+  /// `past` gives the hash of what the particles depend on; asked for once, and only if something is written.
   /// `resumed`: the run goes on from a checkpoint, and keeps one of its end.
-  CheckpointKeeper(std::filesystem::path folder, std::string past, std::optional<double> asked, bool resumed);
+  CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past, std::optional<double> asked,
+                   bool resumed);
 
   /// To be called between steps. Writes if it is time to, at the end of a run that keeps checkpoints, and where the run
   /// is about to stop. True if it wrote. Throws FileError.
@@ -34,7 +37,8 @@ class CheckpointKeeper {
   bool is_due(const Progress& progress) const;
 
   std::filesystem::path folder_;
-  std::string past_;
+  std::function<std::string()> past_;
+  std::string hash_;  // what it said
   std::optional<double> asked_;
   bool resumed_;
   base::Stopwatch since_start_, since_last_;

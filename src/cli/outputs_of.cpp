@@ -11,19 +11,16 @@
 
 namespace gaussdrift::cli {
 
-namespace {
-
-/// Whether the summary of a run says that it is complete; one of an older version does not speak of it.
-bool says_complete(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
+bool says_complete(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "summary.json", std::ios::binary);
   const nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
-  return summary.is_object() && summary.value("complete", true);
+  if (!summary.is_object()) return false;
+  const auto complete = summary.find("complete");
+  return complete == summary.end() || *complete == true;
 }
 
-}  // namespace
-
 void tell_if_unfinished(const std::filesystem::path& folder) {
-  if (std::filesystem::exists(folder / "run.toml") && !says_complete(folder / "summary.json"))
+  if (std::filesystem::exists(folder / "run.toml") && !says_complete(folder))
     note("note: {0} is not complete; gaussdrift resume {0} goes on\n", folder.string());
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/text_file.hpp"
 #include "cli/carry_out.hpp"
+#include "cli/outputs_of.hpp"
 #include "cli/stop_request.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -101,12 +102,6 @@ void refuse_changed_past(const input::ChangedKeys& changed) {
       fmt::join(changed.past, ", "), changed.past.size() == 1 ? "it" : "them"));
 }
 
-bool is_complete(const fs::path& folder) {
-  const nlohmann::json summary = json_in(folder / "summary.json");
-  const auto complete = summary.find("complete");
-  return complete != summary.end() && complete->is_boolean() && complete->get<bool>();
-}
-
 /// Its numbers are complete, and status.json says that what comes after them is not. Earlier versions wrote no status.json.
 bool lacks_its_end(const fs::path& folder) {
   const nlohmann::json status = json_in(folder / "status.json");
@@ -118,10 +113,10 @@ ExitCode resume(const ResumeOptions& options) {
   RunTask task;
   task.stop_after = stop_after_seconds(options.stop_after);
   const Case before = case_in(options.folder, {}, options.threads);
-  std::vector<std::string> overrides = options.overrides;
-  const bool times_set = std::any_of(overrides.begin(), overrides.end(),
-                                     [](const std::string& set) { return set.starts_with("output."); });
-  Case spec = case_in(options.folder, overrides, options.threads);
+  const bool times_set = std::any_of(options.overrides.begin(), options.overrides.end(), [](const std::string& set) {
+    return set.starts_with("output.times") || set.starts_with("output.frames");
+  });
+  Case spec = case_in(options.folder, options.overrides, options.threads);
   if (options.until) {
     if (!std::isfinite(*options.until) || *options.until < 0)
       throw CommandLineError(fmt::format("--until {:g} is no time", *options.until));
@@ -138,7 +133,7 @@ ExitCode resume(const ResumeOptions& options) {
   std::vector<std::string> refused;
   task.from = write::read_checkpoint(options.folder, past_of(before), refused);
   for (const std::string& why : refused) note("warning: {}\n", why);
-  const bool complete = is_complete(options.folder);
+  const bool complete = says_complete(options.folder);
   if (task.from) {
     const double now = task.from->facts.time;
     if (spec.time.end < now)

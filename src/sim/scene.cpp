@@ -31,6 +31,13 @@ void make_effect_fields(const Case& spec, Scene& scene) {
 
 }  // namespace
 
+Lattice evaluation_lattice(const Case& spec) {
+  const Domain& domain = spec.domain;
+  return spec.evaluate.spacing > 0
+             ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
+             : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
+}
+
 Scene make_scene(const Case& spec, int threads) {
   Scene scene;
   const Domain& domain = spec.domain;
@@ -39,10 +46,7 @@ Scene make_scene(const Case& spec, int threads) {
   make_effect_fields(spec, scene);
   scene.threshold = spec.particles.threshold;
   scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis);
-  const EvaluateSpec& evaluate = spec.evaluate;
-  scene.evaluation = evaluate.spacing > 0
-                         ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, evaluate.spacing)
-                         : make_lattice(domain.dimension, domain.min, domain.max, evaluate.per_axis);
+  scene.evaluation = evaluation_lattice(spec);
   scene.core_radius = spec.particles.overlap * scene.seeding.spacing;
   scene.cutoff =
       make_cutoff(spec.particles.cutoff, domain.dimension, scene.core_radius, spec.particles.cutoff_arguments);

@@ -40,6 +40,9 @@ struct Scene {
 /// the density resolves.
 inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius; }
 
+/// The grid on which a case sums its density.
+Lattice evaluation_lattice(const Case& spec);
+
 /// threads: see make_velocity().
 Scene make_scene(const Case& spec, int threads = 0);
 

@@ -117,10 +117,12 @@ class Simulation::Parts {
   std::function<bool(const Progress&)> go_on;
 
  private:
+  using ObserverStates = std::vector<std::pair<std::string, std::string>>;  // name and state
+
   void begin();
-  void pass_state(base::StateBytes& bytes);
+  void pass_state(base::StateBytes& bytes, ObserverStates& seen);
   void plan_landings();
-  void take_up_outputs();
+  void take_up_outputs(const ObserverStates& seen);
   std::size_t steps_to_end() const;
   std::vector<double> velocity_at_particles(double time) const;
   void check_density_seconds() const;
@@ -154,7 +156,6 @@ class Simulation::Parts {
   double seconds_before_ = 0;  // of earlier calls of run()
   base::Stopwatch watch_;
   RunSummary summary_;
-  std::vector<std::pair<std::string, std::string>> observers_state_;  // of another run, by name
 };
 
 void Simulation::Parts::prepare() {
@@ -309,7 +310,7 @@ void pass(base::StateBytes& bytes, FrameNumbers& n) {
 }
 
 // What the run has come to, beside the particles.
-void Simulation::Parts::pass_state(base::StateBytes& bytes) {
+void Simulation::Parts::pass_state(base::StateBytes& bytes, ObserverStates& seen) {
   bytes(leg_, steps_before_, index_);
   carrier_.pass_state(bytes, particles_);
   bytes(summary_.transform_choice, summary_.transform_achievable);
@@ -325,23 +326,20 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes) {
   bytes(traced.untraced, traced.first_untraced, traced.trouble, traced.rates, traced.exhausted);
   auto stages = summary_.stages.stages();
   double seconds = seconds_before_ + watch_.seconds();
-  std::vector<std::pair<std::string, std::string>> seen;
-  for (const auto& observer : observers) seen.emplace_back(observer->name(), observer->state());
   bytes(stages, seconds, seen);
   bytes.end();
   if (!bytes.reading()) return;
   summary_.stages = {};
   for (const auto& [stage, spent] : stages) summary_.stages.add(stage, spent);
   seconds_before_ = seconds;
-  observers_state_ = std::move(seen);
 }
 
 // Observers and reference as they were after the outputs so far.
-void Simulation::Parts::take_up_outputs() {
+void Simulation::Parts::take_up_outputs(const ObserverStates& seen) {
   for (const auto& observer : observers) {
-    const auto same = std::find_if(observers_state_.begin(), observers_state_.end(),
-                                   [&](const auto& other) { return other.first == observer->name(); });
-    observer->restore(summary_.frames, same == observers_state_.end() ? std::string() : same->second);
+    const auto same =
+        std::find_if(seen.begin(), seen.end(), [&](const auto& other) { return other.first == observer->name(); });
+    observer->restore(summary_.frames, same == seen.end() ? std::string() : same->second);
   }
   std::vector<double> times;
   for (const auto& [time, numbers] : summary_.frames) times.push_back(time);
@@ -349,8 +347,10 @@ void Simulation::Parts::take_up_outputs() {
 }
 
 std::string Simulation::Parts::state() {
+  ObserverStates seen;
+  for (const auto& observer : observers) seen.emplace_back(observer->name(), observer->state());
   base::StateBytes bytes;
-  pass_state(bytes);
+  pass_state(bytes, seen);
   return bytes.written();
 }
 
@@ -365,11 +365,10 @@ void Simulation::Parts::plan_landings() {
     throw InputError(fmt::format("time.end = {:g} lies before t = {:g}, where the run is", case_.time.end, leg_.now));
   if (!arrived && later.front() < leg_.to) {
     if (carrier_.acts_between_steps())
-      throw InputError(
-          fmt::format("the effects of this case need the next output at t = {:g}, as before, because steps lead there. "
-                      "Later outputs "
-                      "may be others.",
-                      leg_.to));
+      throw InputError(fmt::format(
+          "the next output has to stay at t = {:g}, because an effect of this case has begun what ends there. "
+          "Outputs after it may change.",
+          leg_.to));
     leg_.to = later.front();
   }
   // An output at the end of the leg is shown by run(), perhaps again.
@@ -380,8 +379,6 @@ void Simulation::Parts::plan_landings() {
   landings_.assign(1, leg_.to);
   for (const double landing : later)
     if (landing > leg_.to) landings_.push_back(landing);
-  // Without a new end the run would go on to the old one.
-  while (landings_.size() > 1 && landings_.back() > case_.time.end) landings_.pop_back();
   landed_ = 0;
 }
 
@@ -407,9 +404,10 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   particles_ = std::move(particles);
   try {
     base::StateBytes state(bytes);
-    pass_state(state);
+    ObserverStates seen;
+    pass_state(state, seen);
     plan_landings();
-    take_up_outputs();
+    take_up_outputs(seen);
   } catch (const std::out_of_range& error) {  // here or in an observer
     throw misfit(error.what());
   }

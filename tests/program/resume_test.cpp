@@ -113,6 +113,9 @@ TEST_F(Resume, UntilALaterEnd) {
   EXPECT_EQ(lengthened.exit_code, 0) << lengthened.err;
   EXPECT_NE(lengthened.err.find("changed from now on: output.times, time.end"), std::string::npos) << lengthened.err;
   expect_same(folder / "longer", folder / "whole");
+  EXPECT_NE(gaussdrift_in(folder, "resume whole --until 6 --set output.report=none").out.find("6 frames"),
+            std::string::npos)
+      << "another key of [output] leaves the outputs at the same distance";
   EXPECT_EQ(gaussdrift_in(folder, "resume whole --until 2").exit_code, 3) << "before the checkpoint";
   EXPECT_NE(gaussdrift_in(folder, "resume whole").out.find("is complete"), std::string::npos);
 }
