@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace gaussdrift {
 
@@ -43,6 +44,34 @@ double narrowest_width(const Cutoff& cutoff) {
   return std::min_element(cutoff.begin(), cutoff.end(),
                           [](const CutoffTerm& a, const CutoffTerm& b) { return a.width < b.width; })
       ->width;
+}
+
+double reach(const Cutoff& cutoff, double part) {
+  // |H_n(t)| <= (2 |t| + sqrt(2 n))^n bounds each derivative of a Gaussian. The bound falls from where every term does.
+  const auto bound = [&](double distance) {
+    double sum = 0;
+    for (const CutoffTerm& term : cutoff) {
+      const double t = distance / term.width;
+      double value = std::abs(term.coefficient) * std::exp(-t * t);
+      for (const int order : term.derivative) value *= std::pow((2 * t + std::sqrt(2. * order)) / term.width, order);
+      sum += value;
+    }
+    return sum;
+  };
+  double widest = 0, low = 0;
+  for (const CutoffTerm& term : cutoff) {
+    widest = std::max(widest, term.width);
+    const int order = std::accumulate(term.derivative.begin(), term.derivative.end(), 0);
+    low = std::max(low, term.width * std::sqrt(order / 2.));  // here (2 t)^n exp(-t^2) is largest
+  }
+  const double allowed = part * std::abs(peak(cutoff));
+  double high = low + widest;
+  while (bound(high) > allowed) high += widest;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (bound(middle) > allowed ? low : high) = middle;
+  }
+  return high;
 }
 
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread) {

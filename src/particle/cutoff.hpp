@@ -57,6 +57,9 @@ double fourier(const Cutoff& cutoff, int dimension, double wave_number);
 /// The smallest of its widths.
 double narrowest_width(const Cutoff& cutoff);
 
+/// A distance beyond which no |zeta_eps| is larger than this part of its peak, 0 < part < 1.
+double reach(const Cutoff& cutoff, double part);
+
 /// The cutoff convolved with the Gaussian of variance spread/2 an axis. The square of every width grows by `spread`.
 /// Its integral and the coefficients of the derivatives stay (method.md, equation 11).
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread);

@@ -1,0 +1,142 @@
+#include "sim/blob_sum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+#include "base/weight_within.hpp"
+#include "gaussdrift/error.hpp"
+#include "particle/fgtd_points.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+fgtd::Method method_by_name(const std::string& name) {
+  std::string known;
+  for (const fgtd::Method method : fgtd::methods()) {
+    if (fgtd::to_string(method) == name) return method;
+    known += (known.empty() ? "" : ", ") + fgtd::to_string(method);
+  }
+  throw InputError("evaluate.method = \"" + name + "\" is not a method of the Gauss transform; there are " + known);
+}
+
+}  // namespace
+
+template <int d>
+BlobSum<d>::BlobSum(const Particles& particles, const Cutoff& cutoff, const DensityOptions& options)
+    : options_(options),
+      sources_(points_of<d>(particles)),
+      weights_(Eigen::Map<const Eigen::VectorXd>(particles.alpha.data(), static_cast<Eigen::Index>(particles.size()))),
+      groups_(group_by_width(cutoff)) {}
+
+template <int d>
+std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cutoff& cutoff) {
+  std::map<double, WidthGroup> groups;
+  for (const CutoffTerm& term : cutoff) {
+    WidthGroup& group = groups[term.width];
+    group.sigma = 1 / (term.width * term.width);
+    fgtd::Derivative<d> alpha{};
+    for (int k = 0; k < d; ++k) alpha[static_cast<std::size_t>(k)] = term.derivative[static_cast<std::size_t>(k)];
+    group.combination.push_back({alpha, term.coefficient});
+    group.derivative_order = std::max(group.derivative_order, std::accumulate(alpha.begin(), alpha.end(), 0));
+    group.scale += std::abs(term.coefficient) * fgtd::derivative_scale<d>(alpha, group.sigma);
+  }
+  std::vector<WidthGroup> list;
+  for (auto& [width, group] : groups) list.push_back(std::move(group));
+  return list;
+}
+
+template <int d>
+double BlobSum<d>::error_of_unit_tolerance(const Particles& particles) const {
+  double error = 0;
+  for (const WidthGroup& group : groups_) {
+    const double reach = std::sqrt((2 * std::log(1 / options_.tolerance) + 40) / group.sigma);
+    error += group.scale * largest_weight_within(particles.view(), particles.alpha.data(), reach);
+  }
+  return error;
+}
+
+// The promise of fgtd is tolerance * N * (weight around the target); the simulator's is relative to max |rho|.
+template <int d>
+void BlobSum<d>::choose_tolerance(double unit_error, double maximum, DensityReport& report) {
+  constexpr double coarsest = 0.1;  // nothing is gained above
+  const double wanted = unit_error > 0 ? options_.tolerance * maximum / unit_error : coarsest;
+  tolerance_ = std::clamp(wanted, fgtd::smallest_tolerance, coarsest);
+  report.requested_tolerance = tolerance_;
+  report.achievable = wanted >= fgtd::smallest_tolerance || maximum == 0
+                          ? options_.tolerance
+                          : fgtd::smallest_tolerance * unit_error / maximum;
+}
+
+template <int d>
+DensityWork BlobSum<d>::predict(const fgtd::TensorGrid& grid) const {
+  DensityWork work;
+  for (const WidthGroup& group : groups_) {
+    fgtd::Options options = options_for(group, grid);
+    options.most_seconds = 0;  // any work is more, so the plan tells how much and does nothing
+    try {
+      fgtd::Plan<d>(sources_, weights_, group.sigma, options);
+    } catch (const fgtd::TimeLimitError& limit) {
+      work.seconds += limit.seconds;
+      work.method = to_string(limit.method);
+    }
+  }
+  return work;
+}
+
+template <int d>
+Eigen::VectorXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
+  report.choice.clear();
+  Eigen::VectorXd rho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
+  for (const WidthGroup& group : groups_) {
+    const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options_for(group, grid));
+    rho += plan.evaluate_combination(grid, group.combination);
+    std::ostringstream text;
+    text << plan.choice();
+    if (!report.choice.empty()) report.choice += '\n';
+    report.choice += text.str();
+  }
+  return rho;
+}
+
+template <int d>
+Eigen::VectorXd BlobSum<d>::direct(const fgtd::Points<d>& targets) const {
+  Eigen::VectorXd rho = Eigen::VectorXd::Zero(targets.cols());
+  for (const WidthGroup& group : groups_) {
+    fgtd::Options options;
+    options.method = fgtd::Method::direct;
+    options.derivative_order = group.derivative_order;
+    options.threads = options_.threads;
+    rho += fgtd::Plan<d>(sources_, weights_, group.sigma, options).evaluate_combination(targets, group.combination);
+  }
+  return rho;
+}
+
+template <int d>
+fgtd::Options BlobSum<d>::options_for(const WidthGroup& group, const fgtd::TensorGrid& grid) const {
+  fgtd::Options options;
+  options.tolerance = tolerance_;
+  options.derivative_order = group.derivative_order;
+  options.method = method_by_name(options_.method);
+  options.threads = options_.threads;
+  options.expected_grid = grid;
+  return options;
+}
+
+fgtd::TensorGrid nodes_of(const Lattice& lattice, const std::array<std::size_t, max_dimension>& first,
+                          const std::array<std::size_t, max_dimension>& count) {
+  fgtd::TensorGrid nodes;
+  for (int k = 0; k < lattice.dimension; ++k) {
+    std::vector<double>& axis = nodes.axes.emplace_back(count[k]);
+    for (std::size_t i = 0; i < axis.size(); ++i) axis[i] = lattice.coordinate(k, first[k] + i);
+  }
+  return nodes;
+}
+
+template class BlobSum<2>;
+template class BlobSum<3>;
+
+}  // namespace gaussdrift

@@ -1,0 +1,65 @@
+// The blobs of some particles as sums of Gaussians that fgtd computes, in d = 2 or 3 dimensions.
+#pragma once
+
+#include <fgtd/fgtd.hpp>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "gaussdrift/particles.hpp"
+#include "particle/cutoff.hpp"
+#include "sim/transform.hpp"
+
+namespace gaussdrift {
+
+template <int d>
+class BlobSum {
+ public:
+  /// Copies what it needs of the particles. The options must outlive it. Throws InputError for an unknown method.
+  BlobSum(const Particles& particles, const Cutoff& cutoff, const DensityOptions& options);
+
+  /// The largest error that a tolerance of 1 in each term gives, anywhere: fgtd promises tolerance * N * weight around.
+  /// For the particles that this was made of.
+  double error_of_unit_tolerance(const Particles& particles) const;
+
+  /// Sets the tolerance a term with which the error stays below options.tolerance * maximum, and reports it.
+  void choose_tolerance(double unit_error, double maximum, DensityReport& report);
+
+  /// What transform() would take.
+  DensityWork predict(const fgtd::TensorGrid& grid) const;
+
+  /// The density on a grid. Reports what fgtd chose.
+  Eigen::VectorXd transform(const fgtd::TensorGrid& grid, DensityReport& report) const;
+
+  /// The density at some points, pair by pair.
+  Eigen::VectorXd direct(const fgtd::Points<d>& targets) const;
+
+  /// Number of particles.
+  std::size_t size() const { return static_cast<std::size_t>(sources_.cols()); }
+  const fgtd::Points<d>& sources() const { return sources_; }
+
+ private:
+  // All terms of one Gaussian width: one prepared transform, evaluated with derivatives.
+  struct WidthGroup {
+    double sigma = 0;  // 1 / width^2
+    fgtd::Combination<d> combination;
+    int derivative_order = 0;
+    double scale = 0;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight
+  };
+  static std::vector<WidthGroup> group_by_width(const Cutoff& cutoff);
+  fgtd::Options options_for(const WidthGroup& group, const fgtd::TensorGrid& grid) const;
+
+  const DensityOptions& options_;
+  fgtd::Points<d> sources_;
+  Eigen::MatrixXd weights_;
+  std::vector<WidthGroup> groups_;
+  double tolerance_ = 0;
+};
+
+/// The points of a lattice with these indices on each axis: `count` from `first` on.
+fgtd::TensorGrid nodes_of(const Lattice& lattice, const std::array<std::size_t, max_dimension>& first,
+                          const std::array<std::size_t, max_dimension>& count);
+
+}  // namespace gaussdrift
