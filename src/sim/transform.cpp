@@ -12,6 +12,8 @@
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
 #include "sim/blob_sum.hpp"
+#include "sim/tiled_density.hpp"
+#include "sim/transform_errors.hpp"
 
 namespace gaussdrift {
 
@@ -118,24 +120,12 @@ void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, Den
   }
 }
 
-/// Errors of fgtd in the words of a case.
-template <class Work>
-auto in_words_of_a_case(const Work& work) {
-  try {
-    return work();
-  } catch (const fgtd::MemoryLimitError& error) {
-    throw InputError(
-        fmt::format("summing the density would take {:.3g} GB, at most {:.3g} GB are used; lower "
-                    "evaluate.per_axis or particles.per_axis",
-                    error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
-  } catch (const fgtd::Error& error) {
-    throw InputError("the density cannot be summed: " +
-                     base::in_users_words(error.what(), {{"Options::tolerance = ", "evaluate.tolerance = "}}) +
-                     "; check the size of the domain, particles.per_axis and particles.overlap");
-  }
-}
-
 }  // namespace
+
+Tiles tiles_of(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
+               const Tiles::SumOverProcesses& sum) {
+  return {lattice, reach_of_blob(cutoff), particles.view(), options.tiles.value_or(usual_tiles(lattice.dimension)), sum};
+}
 
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report) {
@@ -146,6 +136,15 @@ DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, c
   if (particles.size() == 0) {
     grid.rho.assign(lattice.size(), 0.0);
     filled.choice = "no particles carry weight";
+    return grid;
+  }
+  if (const Tiles tiles = tiles_of(particles, cutoff, lattice, options); tiles.list().size() > 1) {
+    const std::vector<char> all(tiles.list().size(), 1);
+    grid.rho.resize(lattice.size());
+    base::Communicator alone;
+    for (const auto& [tile, rho] :
+         evaluate_tiles({&particles, particles.size()}, tiles, all, cutoff, lattice, options, alone, filled))
+      place(rho, tiles.list()[tile], lattice, grid.rho);
     return grid;
   }
   in_words_of_a_case([&] {
@@ -160,7 +159,9 @@ DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, c
 DensityWork predict_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                             const DensityOptions& options) {
   if (particles.size() == 0) return {};
+  const Tiles tiles = tiles_of(particles, cutoff, lattice, options);
   return in_words_of_a_case([&] {
+    if (tiles.list().size() > 1) return predict_tiles(particles, tiles, cutoff, lattice, options);
     return lattice.dimension == 2 ? predict_in_dimension<2>(particles, cutoff, lattice, options)
                                   : predict_in_dimension<3>(particles, cutoff, lattice, options);
   });

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/frame.hpp"
 #include "particle/cutoff.hpp"
+#include "particle/tiles.hpp"
 
 namespace gaussdrift {
 
@@ -17,6 +19,7 @@ struct DensityOptions {
   std::string method = "auto";  // auto, or a method of fgtd by name
   int threads = 0;              // 0: all
   bool measure = true;          // compare with `direct` on a sample of the grid
+  std::optional<TileLimits> tiles = {};  // usual_tiles() where none are given
 };
 
 /// What one evaluation did.
@@ -31,9 +34,14 @@ struct DensityReport {
   std::string choice;  // what fgtd chose, one line a Gaussian width
 };
 
-/// The density of the particles on the lattice. Without particles it is 0.
+/// The density of the particles on the lattice. Without particles it is 0. A large one is summed tile by tile, see
+/// tiled_density.hpp.
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report = nullptr);
+
+/// The tiles of a density.
+Tiles tiles_of(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
+               const Tiles::SumOverProcesses& sum = {});
 
 /// What fgtd predicts for a density on one thread.
 struct DensityWork {

@@ -1,0 +1,168 @@
+#include "particle/placing.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace gaussdrift {
+
+namespace {
+
+// Calls use(column) for every array of the particles. Ids stand beside, because they are whole numbers.
+template <class SomeParticles, class Use>
+void each_column(SomeParticles& particles, const Use& use) {
+  for (int k = 0; k < particles.dimension; ++k) use(particles.position[k]);
+  use(particles.alpha);
+  for (auto& integral : particles.path) use(integral);
+  if (!particles.volume.empty()) use(particles.volume);
+}
+
+template <class T>
+void permute(std::vector<T>& column, const std::vector<std::size_t>& order) {
+  std::vector<T> sorted(column.size());
+  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = column[order[i]];
+  column = std::move(sorted);
+}
+
+Vector place_of(const Particles& particles, std::size_t j) {
+  Vector x{};
+  for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
+  return x;
+}
+
+// The same columns, without particles.
+Particles empty_like(const Particles& particles) {
+  Particles none;
+  none.dimension = particles.dimension;
+  none.path.resize(particles.path.size());
+  none.spread = particles.spread;
+  return none;
+}
+
+Particles exchange(const Particles& particles, const std::vector<std::vector<std::size_t>>& chosen,
+                   base::Communicator& ranks) {
+  std::vector<base::Bytes> out;
+  for (const auto& for_rank : chosen) out.push_back(pack(particles, for_rank));
+  Particles arrived = empty_like(particles);
+  for (base::Bytes& bytes : ranks.exchange(std::move(out))) {
+    unpack(bytes, arrived);
+    bytes = {};
+  }
+  sort_by_id(arrived);
+  return arrived;
+}
+
+}  // namespace
+
+std::vector<int> share_tiles(const std::vector<double>& work, int ranks) {
+  const double all = std::accumulate(work.begin(), work.end(), 0.0);
+  std::vector<int> owner(work.size(), 0);
+  double before = 0;
+  for (std::size_t t = 0; t < work.size(); ++t) {
+    const double middle = before + work[t] / 2;
+    if (all > 0) owner[t] = std::min(ranks - 1, static_cast<int>(middle / all * ranks));
+    before += work[t];
+  }
+  return owner;
+}
+
+base::Bytes pack(const Particles& particles, const std::vector<std::size_t>& chosen) {
+  if (chosen.empty()) return {};
+  std::size_t columns = 1;
+  each_column(particles, [&](const auto&) { ++columns; });
+  const std::size_t length = 8 * chosen.size();
+  base::Bytes bytes(8 * (1 + columns * chosen.size()));
+  const auto has_volume = static_cast<std::int64_t>(!particles.volume.empty());
+  std::byte* to = bytes.data();
+  std::memcpy(to, &has_volume, 8), to += 8;
+  const auto put = [&](const auto& column) {
+    for (std::size_t i = 0; i < chosen.size(); ++i) std::memcpy(to + 8 * i, &column[chosen[i]], 8);
+    to += length;
+  };
+  put(particles.id);
+  each_column(particles, put);
+  return bytes;
+}
+
+void unpack(std::span<const std::byte> bytes, Particles& particles) {
+  if (bytes.empty()) return;
+  std::int64_t has_volume = 0;
+  std::memcpy(&has_volume, bytes.data(), 8);
+  const std::size_t columns =
+      2 + static_cast<std::size_t>(particles.dimension) + particles.path.size() + static_cast<std::size_t>(has_volume);
+  const std::size_t count = (bytes.size() - 8) / 8 / columns, before = particles.size();
+  if (bytes.size() != 8 * (1 + columns * count)) throw std::logic_error("unpack(): these are not such particles");
+  const std::byte* from = bytes.data() + 8;
+  const auto take = [&](auto& column) {
+    column.resize(before + count);
+    std::memcpy(column.data() + before, from, 8 * count);
+    from += 8 * count;
+  };
+  take(particles.id);
+  for (int k = 0; k < particles.dimension; ++k) take(particles.position[k]);
+  take(particles.alpha);
+  for (auto& integral : particles.path) take(integral);
+  if (has_volume != 0) take(particles.volume);
+}
+
+void sort_by_id(Particles& particles) {
+  if (std::is_sorted(particles.id.begin(), particles.id.end())) return;
+  std::vector<std::size_t> order(particles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
+  each_column(particles, [&](auto& column) { permute(column, order); });
+  permute(particles.id, order);
+}
+
+void place_particles(Particles& particles, const Tiles& tiles, const std::vector<int>& owner,
+                     base::Communicator& ranks) {
+  if (ranks.size() == 1) return;
+  std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(ranks.size()));
+  for (std::size_t j = 0; j < particles.size(); ++j)
+    chosen[static_cast<std::size_t>(owner[tiles.of(place_of(particles, j))])].push_back(j);
+  particles = exchange(particles, chosen, ranks);
+}
+
+Particles felt_from_elsewhere(const Particles& particles, const Tiles& tiles, const std::vector<int>& owner,
+                              base::Communicator& ranks) {
+  Particles bare;  // what a sum of blobs needs
+  bare.dimension = particles.dimension;
+  if (ranks.size() == 1) return bare;
+  std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(ranks.size()));
+  for (std::size_t j = 0; j < particles.size(); ++j)
+    tiles.within_reach(place_of(particles, j), [&](std::size_t tile) {
+      const int rank = owner[tile];
+      if (rank == ranks.rank()) return;
+      auto& list = chosen[static_cast<std::size_t>(rank)];
+      if (list.empty() || list.back() != j) list.push_back(j);
+    });
+  std::vector<base::Bytes> out;
+  for (const auto& list : chosen) {
+    Particles some;
+    some.dimension = particles.dimension;
+    for (const std::size_t j : list) {
+      for (int k = 0; k < particles.dimension; ++k) some.position[k].push_back(particles.position[k][j]);
+      some.alpha.push_back(particles.alpha[j]);
+      some.id.push_back(particles.id[j]);
+    }
+    std::vector<std::size_t> all(list.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    out.push_back(pack(some, all));
+  }
+  for (const base::Bytes& bytes : ranks.exchange(std::move(out))) unpack(bytes, bare);
+  sort_by_id(bare);
+  return bare;
+}
+
+Particles gather_particles(const Particles& particles, base::Communicator& ranks) {
+  std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(ranks.size()));
+  chosen.front().resize(particles.size());
+  std::iota(chosen.front().begin(), chosen.front().end(), std::size_t{0});
+  return exchange(particles, chosen, ranks);
+}
+
+}  // namespace gaussdrift

@@ -1,0 +1,357 @@
+#include "sim/tiled_density.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "base/stopwatch.hpp"
+#include "sim/blob_sum.hpp"
+#include "sim/transform_errors.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+constexpr std::size_t most_candidates = 16;  // of each kind: the heaviest, and one of each of the fullest tiles
+
+/// A particle where the density is probably large.
+struct Candidate {
+  double weight = 0;
+  std::int64_t id = 0;
+  bool operator<(const Candidate& other) const {
+    return weight != other.weight ? weight > other.weight : id < other.id;
+  }
+};
+
+Particles places_and_weights(const Particles& all, const std::vector<std::size_t>& chosen) {
+  Particles some;
+  some.dimension = all.dimension;
+  for (int k = 0; k < all.dimension; ++k) {
+    some.position[k].resize(chosen.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i) some.position[k][i] = all.position[k][chosen[i]];
+  }
+  some.alpha.resize(chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) some.alpha[i] = all.alpha[chosen[i]];
+  return some;
+}
+
+Vector place_of(const Particles& particles, std::size_t j) {
+  Vector x{};
+  for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
+  return x;
+}
+
+// The heaviest of all processes.
+std::vector<Candidate> heaviest(const TileSources& sources, base::Communicator& ranks) {
+  std::vector<Candidate> best;
+  for (std::size_t j = 0; j < sources.own; ++j) {
+    const Candidate candidate{std::abs(sources.particles->alpha[j]), sources.particles->id[j]};
+    if (best.size() == most_candidates && !(candidate < best.back())) continue;
+    best.insert(std::upper_bound(best.begin(), best.end(), candidate), candidate);
+    if (best.size() > most_candidates) best.pop_back();
+  }
+  std::vector<Candidate> of_all;
+  for (const base::Bytes& bytes : ranks.gather(base::to_bytes(best))) {
+    const auto some = base::from_bytes<Candidate>(bytes);
+    of_all.insert(of_all.end(), some.begin(), some.end());
+  }
+  std::sort(of_all.begin(), of_all.end());
+  of_all.resize(std::min(of_all.size(), most_candidates));
+  base::Bytes chosen = base::to_bytes(of_all);
+  ranks.broadcast(chosen);
+  return base::from_bytes<Candidate>(chosen);
+}
+
+std::vector<std::size_t> fullest(const Tiles& tiles) {
+  std::vector<std::size_t> order(tiles.list().size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto count = static_cast<std::ptrdiff_t>(std::min(order.size(), most_candidates));
+  std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](std::size_t a, std::size_t b) {
+    const auto in_a = tiles.list()[a].particles, in_b = tiles.list()[b].particles;
+    return in_a != in_b ? in_a > in_b : a < b;
+  });
+  order.resize(static_cast<std::size_t>(count));
+  return order;
+}
+
+template <int d>
+class TileSums {
+ public:
+  TileSums(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
+           const Lattice& lattice, const DensityOptions& options)
+      : particles_(*sources.particles),
+        own_(sources.own),
+        tiles_(tiles),
+        owned_(owned),
+        cutoff_(cutoff),
+        lattice_(lattice),
+        options_(options),
+        fullest_(fullest(tiles).front()),
+        of_tile_(tiles.gather(particles_.view(), owned, options.threads)) {
+    // Sums are taken in the order of ids, whoever brought the particles.
+    for (auto& chosen : of_tile_) {
+      const auto foreign = std::lower_bound(chosen.begin(), chosen.end(), own_);
+      std::inplace_merge(chosen.begin(), foreign, chosen.end(),
+                         [&](std::size_t a, std::size_t b) { return particles_.id[a] < particles_.id[b]; });
+    }
+  }
+
+  // The largest |rho| at some promising particles: a lower bound of max |rho|.
+  double lower_bound_of_maximum(const std::vector<Candidate>& heaviest) const {
+    std::map<std::size_t, std::vector<Vector>> places;  // by tile
+    std::vector<std::int64_t> ids;
+    for (const Candidate& candidate : heaviest) ids.push_back(candidate.id);
+    std::sort(ids.begin(), ids.end());
+    for (std::size_t j = 0; j < own_; ++j)
+      if (std::binary_search(ids.begin(), ids.end(), particles_.id[j])) {
+        const Vector x = place_of(particles_, j);
+        places[tiles_.of(x)].push_back(x);
+      }
+    for (const std::size_t tile : fullest(tiles_)) {
+      if (!owned_[tile]) continue;
+      const auto& chosen = of_tile_[tile];
+      for (std::size_t i = chosen.size() / 2; i < chosen.size(); ++i) {
+        const Vector x = place_of(particles_, chosen[i]);
+        if (tiles_.of(x) != tile) continue;  // beyond the border, where not all that counts is known
+        places[tile].push_back(x);
+        break;
+      }
+    }
+    double largest = 0;
+    for (const auto& [tile, of_tile] : places)
+      if (owned_[tile]) largest = std::max(largest, largest_at(of_tile, of_tile_[tile]));
+    return largest;
+  }
+
+  // All tiles, to an error of options.tolerance * maximum.
+  void sum(double maximum, std::vector<TileDensity>& densities, DensityReport& report) {
+    densities.clear();
+    error_ = 0, largest_ = 0, sample_ = 0;
+    report.requested_tolerance = 1, report.achievable = 0, report.measure_seconds = 0;
+    choice_of_fullest_.clear();
+    const std::vector<std::vector<std::size_t>> samples = sample_of_tiles();
+    for (std::size_t tile = 0; tile < owned_.size(); ++tile) {
+      if (!owned_[tile]) continue;
+      TileDensity& density = densities.emplace_back(TileDensity{tile, {}});
+      const Tile& where = tiles_.list()[tile];
+      if (of_tile_[tile].empty()) {
+        density.rho.assign(where.size(), 0.0);
+        continue;
+      }
+      const Particles some = places_and_weights(particles_, of_tile_[tile]);
+      BlobSum<d> blobs(some, cutoff_, options_);
+      DensityReport of_tile;
+      blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, of_tile);
+      const Eigen::VectorXd rho = blobs.transform(nodes_of(lattice_, where.first, where.points), of_tile);
+      density.rho.assign(rho.data(), rho.data() + rho.size());
+      report.requested_tolerance = std::min(report.requested_tolerance, of_tile.requested_tolerance);
+      report.achievable = std::max(report.achievable, of_tile.achievable);
+      if (tile == fullest_) choice_of_fullest_ = of_tile.choice;
+      largest_ = std::max(largest_, rho.cwiseAbs().maxCoeff());
+      if (!options_.measure) continue;
+      const base::Stopwatch measuring;
+      measure(blobs, where, density.rho, samples[tile]);
+      report.measure_seconds += measuring.seconds();
+    }
+  }
+
+  // The work of sum(), predicted and not done.
+  DensityWork predict(double maximum) const {
+    std::map<std::string, double> seconds;  // of each method
+    for (std::size_t tile = 0; tile < owned_.size(); ++tile) {
+      if (!owned_[tile] || of_tile_[tile].empty()) continue;
+      const Tile& where = tiles_.list()[tile];
+      const Particles some = places_and_weights(particles_, of_tile_[tile]);
+      BlobSum<d> blobs(some, cutoff_, options_);
+      DensityReport ignored;
+      blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, ignored);
+      const DensityWork work = blobs.predict(nodes_of(lattice_, where.first, where.points));
+      seconds[work.method] += work.seconds;
+    }
+    DensityWork all;
+    double most = -1;
+    for (const auto& [method, of_method] : seconds) {
+      all.seconds += of_method;
+      if (of_method > most) most = of_method, all.method = method;
+    }
+    return all;
+  }
+
+  double largest() const { return largest_; }  // |rho| on the grid
+  double error() const { return error_; }      // on the sample
+  std::int64_t sample() const { return sample_; }
+  /// What fgtd chose for the fullest tile, if this process has it.
+  const std::string& choice_of_fullest() const { return choice_of_fullest_; }
+
+ private:
+  // By pairs within reach, because only these count.
+  double largest_at(const std::vector<Vector>& places, const std::vector<std::size_t>& chosen) const {
+    const double reach = reach_of_blob(cutoff_);
+    double largest = 0;
+    for (const Vector& x : places) {
+      std::vector<std::size_t> near;
+      for (const std::size_t j : chosen) {
+        bool within = true;
+        for (int k = 0; k < d; ++k) within = within && std::abs(particles_.position[k][j] - x[k]) <= reach;
+        if (within) near.push_back(j);
+      }
+      fgtd::Points<d> target(d, 1);
+      for (int k = 0; k < d; ++k) target(k, 0) = x[static_cast<std::size_t>(k)];
+      const BlobSum<d> blobs(places_and_weights(particles_, near), cutoff_, options_);
+      largest = std::max(largest, std::abs(blobs.direct(target)(0)));
+    }
+    return largest;
+  }
+
+  // Grid points to compare with pairs: a low-discrepancy choice over the whole grid, numbers within the tile for each.
+  std::vector<std::vector<std::size_t>> sample_of_tiles() const {
+    std::vector<std::vector<std::size_t>> samples(owned_.size());
+    if (!options_.measure) return samples;
+    std::int64_t count = 0, filled = 0;
+    for (const Tile& tile : tiles_.list()) count += tile.particles, filled += tile.particles > 0;
+    // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
+    const std::int64_t wanted = std::clamp<std::int64_t>(20'000'000 * filled / std::max<std::int64_t>(1, count), 4, 200);
+    constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
+    for (std::int64_t i = 1; i < wanted; ++i) {
+      const double fraction = std::fmod(static_cast<double>(i) * golden, 1.0);
+      const std::size_t last = lattice_.size() - 1;
+      std::size_t rest = std::min(last, static_cast<std::size_t>(fraction * static_cast<double>(lattice_.size())));
+      std::array<std::size_t, max_dimension> index{};
+      Vector x{};
+      for (int k = 0; k < d; ++k) {
+        index[k] = rest % lattice_.points[k], rest /= lattice_.points[k];
+        x[k] = lattice_.coordinate(k, index[k]) + 0.5 * lattice_.spacing;  // safely in the cell above the point
+      }
+      const std::size_t tile = tiles_.of(x);
+      const Tile& where = tiles_.list()[tile];
+      std::size_t number = 0;
+      for (int k = d - 1; k >= 0; --k) number = number * where.points[k] + (index[k] - where.first[k]);
+      samples[tile].push_back(number);
+    }
+    return samples;
+  }
+
+  // At the sample of this tile, and where |rho| is largest in it.
+  void measure(const BlobSum<d>& blobs, const Tile& where, const std::vector<double>& rho,
+               std::vector<std::size_t> sample) {
+    const auto top = std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    sample.push_back(static_cast<std::size_t>(top - rho.begin()));
+    fgtd::Points<d> targets(d, static_cast<Eigen::Index>(sample.size()));
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+      std::size_t rest = sample[i];
+      for (int k = 0; k < d; ++k) {
+        targets(k, static_cast<Eigen::Index>(i)) = lattice_.coordinate(k, where.first[k] + rest % where.points[k]);
+        rest /= where.points[k];
+      }
+    }
+    const Eigen::VectorXd exact = blobs.direct(targets);
+    for (std::size_t i = 0; i < sample.size(); ++i)
+      error_ = std::max(error_, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[sample[i]]));
+    sample_ += static_cast<std::int64_t>(sample.size());
+  }
+
+  const Particles& particles_;
+  std::size_t own_;
+  const Tiles& tiles_;
+  const std::vector<char>& owned_;
+  const Cutoff& cutoff_;
+  const Lattice& lattice_;
+  const DensityOptions& options_;
+  std::size_t fullest_;
+  std::vector<std::vector<std::size_t>> of_tile_;  // numbers of the particles that count, by id
+  double error_ = 0, largest_ = 0;
+  std::int64_t sample_ = 0;
+  std::string choice_of_fullest_;
+};
+
+double largest_of(base::Communicator& ranks, double number) {
+  ranks.max(std::span(&number, 1));
+  return number;
+}
+
+std::string told_by_whom_it_concerns(base::Communicator& ranks, const std::string& own) {
+  base::Bytes told;
+  for (const base::Bytes& bytes : ranks.gather(base::to_bytes(std::span<const char>(own))))
+    if (!bytes.empty()) told = bytes;
+  ranks.broadcast(told);
+  const auto letters = base::from_bytes<char>(told);
+  return {letters.begin(), letters.end()};
+}
+
+template <int d>
+std::vector<TileDensity> evaluate_in(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned,
+                                     const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
+                                     base::Communicator& ranks, DensityReport& report) {
+  const base::Stopwatch evaluating;
+  std::vector<TileDensity> densities;
+  std::optional<TileSums<d>> sums;
+  double expected = 0;
+  const std::vector<Candidate> candidates = heaviest(sources, ranks);
+  ranks.agree_on([&] {
+    sums.emplace(sources, tiles, owned, cutoff, lattice, options);
+    expected = sums->lower_bound_of_maximum(candidates);
+  });
+  expected = largest_of(ranks, expected);
+  const auto sum_to = [&](double maximum) {
+    ranks.agree_on([&] { in_words_of_a_case([&] { sums->sum(maximum, densities, report); }); });
+    return largest_of(ranks, sums->largest());
+  };
+  double found = sum_to(expected);
+  // Where most of the density has left the grid, the largest value on it decides, and the first tolerance was too
+  // coarse.
+  if (found > 0 && found < 0.5 * expected) found = sum_to(found);
+  report.requested_tolerance = -largest_of(ranks, -report.requested_tolerance);
+  report.achievable = largest_of(ranks, report.achievable);
+  const double error = largest_of(ranks, sums->error());
+  report.measured_error = found > 0 ? error / found : error;
+  std::int64_t sample = sums->sample();
+  ranks.sum(std::span(&sample, 1));
+  report.sample = static_cast<std::size_t>(sample);
+  report.choice = fmt::format("{} tiles, the fullest by {}", tiles.list().size(),
+                              told_by_whom_it_concerns(ranks, sums->choice_of_fullest()));
+  report.evaluate_seconds = evaluating.seconds() - report.measure_seconds;
+  return densities;
+}
+
+}  // namespace
+
+double reach_of_blob(const Cutoff& cutoff) { return reach(cutoff, 1e-14); }
+
+std::vector<TileDensity> evaluate_tiles(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned,
+                                        const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
+                                        base::Communicator& ranks, DensityReport& report) {
+  return lattice.dimension == 2 ? evaluate_in<2>(sources, tiles, owned, cutoff, lattice, options, ranks, report)
+                                : evaluate_in<3>(sources, tiles, owned, cutoff, lattice, options, ranks, report);
+}
+
+void place(const std::vector<double>& rho, const Tile& tile, const Lattice& lattice, std::vector<double>& whole) {
+  for (std::size_t l = 0; l < tile.points[2]; ++l)
+    for (std::size_t j = 0; j < tile.points[1]; ++j) {
+      const std::size_t line = (tile.first[2] + l) * lattice.points[1] + tile.first[1] + j;
+      std::copy_n(rho.begin() + static_cast<std::ptrdiff_t>((l * tile.points[1] + j) * tile.points[0]), tile.points[0],
+                  whole.begin() + static_cast<std::ptrdiff_t>(line * lattice.points[0] + tile.first[0]));
+    }
+}
+
+DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const Cutoff& cutoff, const Lattice& lattice,
+                          const DensityOptions& options) {
+  const std::vector<char> all(tiles.list().size(), 1);
+  const TileSources sources{&particles, particles.size()};
+  base::Communicator alone;
+  const auto predict = [&](auto sums) {
+    return sums.predict(sums.lower_bound_of_maximum(heaviest(sources, alone)));
+  };
+  return lattice.dimension == 2
+             ? predict(TileSums<2>(sources, tiles, all, cutoff, lattice, options))
+             : predict(TileSums<3>(sources, tiles, all, cutoff, lattice, options));
+}
+
+}  // namespace gaussdrift
