@@ -16,7 +16,8 @@ namespace gaussdrift {
 std::vector<int> share_tiles(const std::vector<double>& work, int ranks);
 
 /// Moves every particle to the owner of its tile. Afterwards ids ascend on each rank.
-void place_particles(Particles& particles, const Tiles& tiles, const std::vector<int>& owner, base::Communicator& ranks);
+void place_particles(Particles& particles, const Tiles& tiles, const std::vector<int>& owner,
+                     base::Communicator& ranks);
 
 /// Positions, weights and ids of the particles of other ranks that are felt in the tiles of this one; ids ascend.
 Particles felt_from_elsewhere(const Particles& particles, const Tiles& tiles, const std::vector<int>& owner,

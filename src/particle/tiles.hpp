@@ -115,8 +115,8 @@ void Tiles::within_reach(const Vector& x, const Use& use) const {
     for (std::size_t j = low[1]; j <= high[1]; ++j)
       for (std::size_t i = low[0]; i <= high[0]; ++i) {
         const std::uint32_t tile = tile_at(i, j, l);
-        const bool seen = (i > low[0] && tile_at(i - 1, j, l) == tile) || (j > low[1] && tile_at(i, j - 1, l) == tile) ||
-                          (l > low[2] && tile_at(i, j, l - 1) == tile);
+        const bool seen = (i > low[0] && tile_at(i - 1, j, l) == tile) ||
+                          (j > low[1] && tile_at(i, j - 1, l) == tile) || (l > low[2] && tile_at(i, j, l - 1) == tile);
         if (!seen) use(tile);
       }
 }

@@ -218,7 +218,8 @@ class TileSums {
     std::int64_t count = 0, filled = 0;
     for (const Tile& tile : tiles_.list()) count += tile.particles, filled += tile.particles > 0;
     // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
-    const std::int64_t wanted = std::clamp<std::int64_t>(20'000'000 * filled / std::max<std::int64_t>(1, count), 4, 200);
+    const std::int64_t wanted =
+        std::clamp<std::int64_t>(20'000'000 * filled / std::max<std::int64_t>(1, count), 4, 200);
     constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
     for (std::int64_t i = 1; i < wanted; ++i) {
       const double fraction = std::fmod(static_cast<double>(i) * golden, 1.0);
@@ -242,7 +243,8 @@ class TileSums {
   // At the sample of this tile, and where |rho| is largest in it.
   void measure(const BlobSum<d>& blobs, const Tile& where, const std::vector<double>& rho,
                std::vector<std::size_t> sample) {
-    const auto top = std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto top =
+        std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
     sample.push_back(static_cast<std::size_t>(top - rho.begin()));
     fgtd::Points<d> targets(d, static_cast<Eigen::Index>(sample.size()));
     for (std::size_t i = 0; i < sample.size(); ++i) {
@@ -346,12 +348,9 @@ DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const 
   const std::vector<char> all(tiles.list().size(), 1);
   const TileSources sources{&particles, particles.size()};
   base::Communicator alone;
-  const auto predict = [&](auto sums) {
-    return sums.predict(sums.lower_bound_of_maximum(heaviest(sources, alone)));
-  };
-  return lattice.dimension == 2
-             ? predict(TileSums<2>(sources, tiles, all, cutoff, lattice, options))
-             : predict(TileSums<3>(sources, tiles, all, cutoff, lattice, options));
+  const auto predict = [&](auto sums) { return sums.predict(sums.lower_bound_of_maximum(heaviest(sources, alone))); };
+  return lattice.dimension == 2 ? predict(TileSums<2>(sources, tiles, all, cutoff, lattice, options))
+                                : predict(TileSums<3>(sources, tiles, all, cutoff, lattice, options));
 }
 
 }  // namespace gaussdrift

@@ -88,8 +88,7 @@ DensityWork predict_in_dimension(const Particles& particles, const Cutoff& cutof
                                  const DensityOptions& options) {
   DensityReport ignored;
   BlobSum<d> blobs(particles, cutoff, options);
-  blobs.choose_tolerance(blobs.error_of_unit_tolerance(particles),
-                              lower_bound_of_maximum(blobs, particles), ignored);
+  blobs.choose_tolerance(blobs.error_of_unit_tolerance(particles), lower_bound_of_maximum(blobs, particles), ignored);
   return blobs.predict(nodes_of(lattice, {}, lattice.points));
 }
 
@@ -124,7 +123,8 @@ void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, Den
 
 Tiles tiles_of(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
                const Tiles::SumOverProcesses& sum) {
-  return {lattice, reach_of_blob(cutoff), particles.view(), options.tiles.value_or(usual_tiles(lattice.dimension)), sum};
+  return {lattice, reach_of_blob(cutoff), particles.view(), options.tiles.value_or(usual_tiles(lattice.dimension)),
+          sum};
 }
 
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,

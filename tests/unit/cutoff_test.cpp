@@ -176,5 +176,21 @@ TEST(Peak, IsTheLargestValueOfEveryCutoff) {
       }
 }
 
+TEST(Reach, IsWhereEveryCutoffHasFallenToThatPart) {
+  for (const NamedCutoff& named : cutoffs())
+    for (const int dimension : {2, 3})
+      for (const double part : {1e-3, 1e-14}) {
+        const Cutoff cutoff = make_cutoff(named.name, dimension, 0.3);
+        const double distance = reach(cutoff, part), allowed = part * peak(cutoff);
+        for (int i = 0; i < 50; ++i) {
+          const double r = distance * (1 + 0.02 * i);
+          EXPECT_LE(std::abs(value(cutoff, {r, 0, 0})), allowed) << named.name;
+          EXPECT_LE(std::abs(value(cutoff, {0.6 * r, 0.8 * r, 0})), allowed) << named.name;
+        }
+        // The bound is coarse where polynomials are high, and still not much further than needed.
+        EXPECT_GT(std::abs(value(cutoff, {0.65 * distance, 0, 0})), allowed) << named.name << " " << part;
+      }
+}
+
 }  // namespace
 }  // namespace gaussdrift
