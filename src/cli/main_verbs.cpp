@@ -1,10 +1,7 @@
 // The program: its verbs, its command line, and its exit codes.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -12,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/short_memory.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "cli/wrong_words.hpp"
@@ -78,29 +76,11 @@ ExitCode dispatch(int argc, char** argv) {
       ->run();
 }
 
-constexpr std::string_view out_of_memory = "error: out of memory; lower particles.per_axis or evaluate.per_axis\n";
-
-std::terminate_handler usual_end = nullptr;
-
-/// Memory may be short where nothing may be thrown: destructors of the JSON library allocate, and threads do.
-[[noreturn]] void end_by_terminate() {
-  try {
-    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) {
-    [[maybe_unused]] const ssize_t lost = ::write(STDERR_FILENO, out_of_memory.data(), out_of_memory.size());
-    ::_exit(exit_code(ExitCode::input));
-  } catch (...) {
-    usual_end();  // an error in the program: it names it
-  }
-  std::abort();
-}
-
 }  // namespace
 
 int main_verbs(int argc, char** argv) {
-  usual_end = std::set_terminate(end_by_terminate);
-  write::prepare_vtk();
   try {
+    write::prepare_vtk();
     const ExitCode code = dispatch(argc, argv);
     const Delivery delivered = delivery();
     if (delivered == Delivery::lost)
@@ -113,8 +93,7 @@ int main_verbs(int argc, char** argv) {
     note("error: {}\n", error.what());
     return exit_code(error.code());
   } catch (const std::bad_alloc&) {
-    note("{}", out_of_memory);
-    return exit_code(ExitCode::input);
+    return exit_code(out_of_memory());
   } catch (const std::exception& error) {
     note("internal error: {}\n", error.what());
     return exit_code(ExitCode::internal);

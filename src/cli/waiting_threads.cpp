@@ -4,14 +4,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace gaussdrift::cli {
 
 namespace {
+
+constexpr std::size_t most_threads = 1024;
 
 /// How many threads the run may want: all of the machine, or what --threads says.
 std::size_t wanted_threads(char** argv) {
@@ -21,25 +23,24 @@ std::size_t wanted_threads(char** argv) {
     if (text == "--threads" && word[1]) most = std::max(most, std::strtol(word[1], nullptr, 10));
     if (text.starts_with("--threads=")) most = std::max(most, std::strtol(*word + 10, nullptr, 10));
   }
-  return static_cast<std::size_t>(std::min(most, 1024L));
+  return static_cast<std::size_t>(std::min(most, static_cast<long>(most_threads)));
 }
 
 /// How many of them can be had, this one among them. They live at the same time.
 std::size_t threads_to_be_had(std::size_t wanted) {
   pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER;
   pthread_mutex_lock(&gate);
-  std::vector<pthread_t> started;
-  started.reserve(wanted);
+  std::array<pthread_t, most_threads> started;
+  std::size_t count = 0;
   const auto wait = [](void* at) -> void* {
     pthread_mutex_lock(static_cast<pthread_mutex_t*>(at));
     pthread_mutex_unlock(static_cast<pthread_mutex_t*>(at));
     return nullptr;
   };
-  for (pthread_t one{}; started.size() + 1 < wanted && pthread_create(&one, nullptr, wait, &gate) == 0;)
-    started.push_back(one);
+  while (count + 1 < wanted && pthread_create(&started[count], nullptr, wait, &gate) == 0) ++count;
   pthread_mutex_unlock(&gate);
-  for (const pthread_t one : started) pthread_join(one, nullptr);
-  return started.size() + 1;
+  for (std::size_t k = 0; k < count; ++k) pthread_join(started[k], nullptr);
+  return count + 1;
 }
 
 }  // namespace

@@ -97,27 +97,29 @@ namespace named {
 
 NamedEffect charge() {
   return {
-      .about = {.name = "charge",
-                .meaning = "the particles are charged and repel each other: X' = u + mobility E(X) with E = sum_k q_k "
-                           "(X - X_k) / r^d. `reference.kind` is then `none`, unless it is `exact`",
-                .parameters = {{.name = "mobility",
-                                .unit = "length^d / (charge time)",
-                                .symbol = "mu",
-                                .meaning = "velocity of a particle in a field of size 1. Equal charges attract each "
-                                           "other where it is negative"},
-                               {.name = "density",
-                                .kind = NamedParameter::Kind::expression,
-                                .unit = "charge / length^d",
-                                .symbol = "rho_q",
-                                .meaning = "density of charge at the start, an expression in x, y, z and params. Every "
-                                           "particle keeps its charge. Without this key the charge of a particle is "
-                                           "its weight",
-                                .optional = true},
-                               {.name = "tolerance",
-                                .fallback = "1e-06",
-                                .range = {1e-14, 0.1},
-                                .meaning = "error allowed in E, relative to the sum of the sizes of all single fields "
-                                           "at that place. The library farfield promises it"}}},
+      .about =
+          NamedFormula{
+              .name = "charge",
+              .meaning = "the particles are charged and repel each other: X' = u + mobility E(X) with E = sum_k q_k "
+                         "(X - X_k) / r^d. `reference.kind` is then `none`, unless it is `exact`",
+              .parameters = {{.name = "mobility",
+                              .unit = "length^d / (charge time)",
+                              .symbol = "mu",
+                              .meaning = "velocity of a particle in a field of size 1. Equal charges attract each "
+                                         "other where it is negative"},
+                             {.name = "density",
+                              .kind = NamedParameter::Kind::expression,
+                              .unit = "charge / length^d",
+                              .symbol = "rho_q",
+                              .meaning = "density of charge at the start, an expression in x, y, z and params. Every "
+                                         "particle keeps its charge. Without this key the charge of a particle is "
+                                         "its weight",
+                              .optional = true},
+                             {.name = "tolerance",
+                              .fallback = "1e-06",
+                              .range = {1e-14, 0.1},
+                              .meaning = "error allowed in E, relative to the sum of the sizes of all single fields "
+                                         "at that place. The library farfield promises it"}}},
       .traits = {.particles_interact = true,
                  .moved_by_weights = {.words = "these are the charges that move the particles",
                                       .unless = "the charge has a density of its own",

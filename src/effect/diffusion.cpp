@@ -76,28 +76,30 @@ std::unique_ptr<Effect> make(const EffectSpec& effect, const EffectScene& scene)
 
 NamedEffect diffusion() {
   return {
-      .about = {.name = "diffusion",
-                .meaning =
-                    "the density diffuses: d_t rho + div(rho u) = D Laplacian rho. `reference.kind` is then `none`, "
-                    "unless it is `exact`",
-                .parameters = {{.name = "D",
-                                .range = positive,
-                                .unit = "length^2 / time",
-                                .symbol = "D",
-                                .meaning = "coefficient of diffusion, constant in space and time"},
-                               {.name = "method",
-                                .kind = NamedParameter::Kind::choice,
-                                .fallback = "core-spreading",
-                                .meaning = "how the density diffuses",
-                                .choices = methods},
-                               {.name = "tolerance",
-                                .fallback = "1e-06",
-                                .range = {1e-10, 0.1},
-                                .meaning =
-                                    "for `method = \"particle-exchange\"`: a particle with more than this part of the "
-                                    "largest density is surrounded with others, which receive what diffuses",
-                                .with = "method",
-                                .value = particle_exchange}}},
+      .about =
+          NamedFormula{
+              .name = "diffusion",
+              .meaning =
+                  "the density diffuses: d_t rho + div(rho u) = D Laplacian rho. `reference.kind` is then `none`, "
+                  "unless it is `exact`",
+              .parameters = {{.name = "D",
+                              .range = positive,
+                              .unit = "length^2 / time",
+                              .symbol = "D",
+                              .meaning = "coefficient of diffusion, constant in space and time"},
+                             {.name = "method",
+                              .kind = NamedParameter::Kind::choice,
+                              .fallback = "core-spreading",
+                              .meaning = "how the density diffuses",
+                              .choices = methods},
+                             {.name = "tolerance",
+                              .fallback = "1e-06",
+                              .range = {1e-10, 0.1},
+                              .meaning =
+                                  "for `method = \"particle-exchange\"`: a particle with more than this part of the "
+                                  "largest density is surrounded with others, which receive what diffuses",
+                              .with = "method",
+                              .value = particle_exchange}}},
       .traits = {.adds_particles = {.words = "particle-exchange adds particles during the run",
                                     .unless = by_spreading,
                                     .remedy = spreading_instead,

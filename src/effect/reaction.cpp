@@ -38,27 +38,29 @@ constexpr std::string_view nothing_enters =
 namespace named {
 
 NamedEffect reaction() {
-  return {.about = {.name = "reaction",
-                    .meaning = "the weights of the particles decay or grow along their paths: alpha' = -rate alpha. "
-                               "The density then obeys d_t rho + div(rho u) + rate rho = 0",
-                    .parameters = {{.name = "rate",
-                                    .kind = NamedParameter::Kind::expression_in_time,
-                                    .unit = "1 / time",
-                                    .symbol = "u_0",
-                                    .meaning = "rate of decay, an expression in x, y, z, t and params; weights grow "
-                                               "where it is negative"}}},
-          .traits = {.grows_weights = {.words = "the reaction changes the weights"}},
-          .decay_rate = "rate",
-          .elsewhere = {{"decay", "[effects.reaction] with its rate"},
-                        {"inflow", nothing_enters},
-                        {"inlet", nothing_enters},
-                        {"source", nothing_enters},
-                        {"sources", nothing_enters},
-                        {"sink", nothing_enters},
-                        {"emission", nothing_enters},
-                        {"emissions", nothing_enters}},
-          .memory = [](const EffectSpec&, int) { return EffectMemory{.integrals = 1}; },
-          .make = [](const EffectSpec&, const EffectScene& scene) { return std::make_unique<Reaction>(*scene.decay); }};
+  return {
+      .about =
+          NamedFormula{.name = "reaction",
+                       .meaning = "the weights of the particles decay or grow along their paths: alpha' = -rate alpha. "
+                                  "The density then obeys d_t rho + div(rho u) + rate rho = 0",
+                       .parameters = {{.name = "rate",
+                                       .kind = NamedParameter::Kind::expression_in_time,
+                                       .unit = "1 / time",
+                                       .symbol = "u_0",
+                                       .meaning = "rate of decay, an expression in x, y, z, t and params; weights grow "
+                                                  "where it is negative"}}},
+      .traits = {.grows_weights = {.words = "the reaction changes the weights"}},
+      .decay_rate = "rate",
+      .elsewhere = {{"decay", "[effects.reaction] with its rate"},
+                    {"inflow", nothing_enters},
+                    {"inlet", nothing_enters},
+                    {"source", nothing_enters},
+                    {"sources", nothing_enters},
+                    {"sink", nothing_enters},
+                    {"emission", nothing_enters},
+                    {"emissions", nothing_enters}},
+      .memory = [](const EffectSpec&, int) { return EffectMemory{.integrals = 1}; },
+      .make = [](const EffectSpec&, const EffectScene& scene) { return std::make_unique<Reaction>(*scene.decay); }};
 }
 
 }  // namespace named

@@ -258,43 +258,44 @@ namespace named {
 
 NamedEffect remesh() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  return {
-      .about = {.name = "remesh",
-                .meaning = "the weights move to particles on a fresh lattice: whenever old neighbours have drifted "
-                           "apart, or every so many steps",
-                .parameters = {{.name = "every",
-                                .kind = NamedParameter::Kind::whole,
-                                .range = {1, 1e9},
-                                .meaning = "number of steps from one remeshing to the next. Without it, `stretch` "
-                                           "decides",
-                                .optional = true},
-                               {.name = "stretch",
-                                .fallback = "1.5",
-                                .range = {1, infinity, true},
-                                .meaning = "remesh as soon as particles that were neighbours are farther apart than "
-                                           "this many spacings h. The overlap has then fallen to `particles.overlap` "
-                                           "divided by this number. A case gives either this or `every`",
-                                .replaced_by = "every"},
-                               {.name = "kernel",
-                                .kind = NamedParameter::Kind::choice,
-                                .fallback = remesh_kernels().front().name,
-                                .meaning = "how weights are shared among the new nodes",
-                                .choices = kernel_choices},
-                               {.name = "tolerance",
-                                .fallback = "1e-09",
-                                .range = {0, 0.01},
-                                .meaning = "nodes with less than this part of the largest weight are left out. Their "
-                                           "weight goes to the others"}}},
-      .traits = {.replaces_particles = {.words = "remeshing makes new particles"},
-                 .moves_weight = {.words = "remeshing moves weight between particles"},
-                 .keeps_density = true,
-                 .restores_overlap = true},
-      // The table of neighbours; the nodes.
-      .memory =
-          [](const EffectSpec&, int dimension) {
-            return EffectMemory{.kept = 16.0 * dimension, .step = dimension == 3 ? 150.0 : 100.0};
-          },
-      .make = make_remesh};
+  return {.about =
+              NamedFormula{
+                  .name = "remesh",
+                  .meaning = "the weights move to particles on a fresh lattice: whenever old neighbours have drifted "
+                             "apart, or every so many steps",
+                  .parameters = {{.name = "every",
+                                  .kind = NamedParameter::Kind::whole,
+                                  .range = {1, 1e9},
+                                  .meaning = "number of steps from one remeshing to the next. Without it, `stretch` "
+                                             "decides",
+                                  .optional = true},
+                                 {.name = "stretch",
+                                  .fallback = "1.5",
+                                  .range = {1, infinity, true},
+                                  .meaning = "remesh as soon as particles that were neighbours are farther apart than "
+                                             "this many spacings h. The overlap has then fallen to `particles.overlap` "
+                                             "divided by this number. A case gives either this or `every`",
+                                  .replaced_by = "every"},
+                                 {.name = "kernel",
+                                  .kind = NamedParameter::Kind::choice,
+                                  .fallback = remesh_kernels().front().name,
+                                  .meaning = "how weights are shared among the new nodes",
+                                  .choices = kernel_choices},
+                                 {.name = "tolerance",
+                                  .fallback = "1e-09",
+                                  .range = {0, 0.01},
+                                  .meaning = "nodes with less than this part of the largest weight are left out. Their "
+                                             "weight goes to the others"}}},
+          .traits = {.replaces_particles = {.words = "remeshing makes new particles"},
+                     .moves_weight = {.words = "remeshing moves weight between particles"},
+                     .keeps_density = true,
+                     .restores_overlap = true},
+          // The table of neighbours; the nodes.
+          .memory =
+              [](const EffectSpec&, int dimension) {
+                return EffectMemory{.kept = 16.0 * dimension, .step = dimension == 3 ? 150.0 : 100.0};
+              },
+          .make = make_remesh};
 }
 
 }  // namespace named

@@ -68,16 +68,18 @@ std::unique_ptr<Effect> make_vortex(const EffectSpec& effect, const EffectScene&
 namespace named {
 
 NamedEffect vortex() {
-  return {.about = {.name = "vortex",
-                    .meaning = "the density is a vorticity, and its blobs move each other as vortices do. It needs two "
-                               "dimensions and `cutoff = \"gauss2\"`. `reference.kind` is then `none`, unless it is "
-                               "`exact`",
-                    .most_dimension = 2,
-                    .parameters = {{.name = "tolerance",
-                                    .fallback = "1e-06",
-                                    .range = {1e-14, 0.1},
-                                    .meaning = "error allowed in the velocity, relative to the sum of the sizes of all "
-                                               "single velocities at that place. The library farfield promises it"}}},
+  return {.about =
+              NamedFormula{
+                  .name = "vortex",
+                  .meaning = "the density is a vorticity, and its blobs move each other as vortices do. It needs two "
+                             "dimensions and `cutoff = \"gauss2\"`. `reference.kind` is then `none`, unless it is "
+                             "`exact`",
+                  .most_dimension = 2,
+                  .parameters = {{.name = "tolerance",
+                                  .fallback = "1e-06",
+                                  .range = {1e-14, 0.1},
+                                  .meaning = "error allowed in the velocity, relative to the sum of the sizes of all "
+                                             "single velocities at that place. The library farfield promises it"}}},
           .traits = {.particles_interact = true,
                      .moved_by_weights = {.words = "these are the circulations that move the particles"},
                      .flat_patches_ripple = true},

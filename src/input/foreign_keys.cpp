@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <iterator>
 #include <string>
 
 #include "base/catalogue.hpp"
@@ -31,7 +30,12 @@ constexpr const char* no_random = "nothing is random here: the same case gives t
 constexpr const char* again =
     "[density] file = \"density/density_0004.vti\" starts from the density that an earlier run wrote";
 
-const ForeignKey written[] = {
+/// Without a string that is allocated before main.
+struct Written {
+  std::string_view word, key, answer;
+};
+
+constexpr Written written[] = {
     {"boundary", "", no_walls},
     {"boundaries", "", no_walls},
     {"boundarycondition", "", no_walls},
@@ -104,7 +108,8 @@ const ForeignKey written[] = {
 constexpr std::string_view steps[] = {"dt", "deltat", "timestep", "stepsize", "cfl", "courant"};
 
 std::vector<ForeignKey> all_keys() {
-  std::vector<ForeignKey> all(std::begin(written), std::end(written));
+  std::vector<ForeignKey> all;
+  for (const auto& [word, key, answer] : written) all.push_back({word, key, std::string(answer)});
   const std::string answer =
       fmt::format("time.step is the time step; method = {} chooses its own", time::adaptive_names());
   for (const std::string_view word : steps) all.push_back({word, "time.step", answer});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "base/stopwatch.hpp"
@@ -110,8 +111,8 @@ void break_even(const Maker& make) {
   const double even = p * p * sources / (sources - (2 * n + 1) * (2 * n + 1) * p * p);
   render::draw_chart(
       {.title = "Cost with 10 000 sources, d = 2",
-       .x = {.name = "evaluations M"},
-       .y = {.name = "million operations"},
+       .x = render::ChartAxis{.name = "evaluations M"},
+       .y = render::ChartAxis{.name = "million operations"},
        .series = {fast, pairs},
        .conclusion = fmt::format("The fast transform pays from {:.0f} evaluations on.", std::ceil(even))},
       make.file("3.7"));
@@ -129,8 +130,8 @@ void performance(const Maker& make) {
     std::string column, name;
   };
   render::Chart chart{.title = "Seconds over the number of points, N = M, d = 3",
-                      .x = {.name = "points N", .logarithmic = true},
-                      .y = {.name = "seconds", .logarithmic = true},
+                      .x = render::ChartAxis{.name = "points N", .logarithmic = true},
+                      .y = render::ChartAxis{.name = "seconds", .logarithmic = true},
                       .series = {}};
   double slowest = 0, fastest = 0;
   for (const Curve& curve : {Curve{"direct", "pair by pair"}, Curve{"p=8 nu=2 seconds", "p = 8, ν = 2"},
@@ -200,7 +201,7 @@ void disk_with_gap(const Maker& make) {
              frames.back(), watch, true);
 }
 
-const std::vector<std::pair<std::string, void (*)(const Maker&)>> makers{
+constexpr std::pair<std::string_view, void (*)(const Maker&)> makers[]{
     {"3.6", cost_of_parameters}, {"3.7", break_even},        {"4.2", performance},  {"5.1", cone_of_widths},
     {"5.2", turning_cone},       {"5.3", lines_of_the_cone}, {"5.4", disk_with_gap}};
 
@@ -208,8 +209,8 @@ const std::vector<std::pair<std::string, void (*)(const Maker&)>> makers{
 
 std::vector<std::string> figure_numbers() {
   std::vector<std::string> numbers;
-  for (const auto& [number, make] : makers) numbers.push_back(number);
-  numbers.push_back("5.5");  // made with 5.4
+  for (const auto& [number, make] : makers) numbers.emplace_back(number);
+  numbers.emplace_back("5.5");  // made with 5.4
   return numbers;
 }
 
@@ -224,7 +225,7 @@ std::vector<Figure> reproduce_figures(const FiguresOptions& options,
   std::vector<Figure> made;
   for (const auto& [number, make] : makers) {
     if (!wanted.empty() && wanted != number) continue;
-    if (progress) progress("Figure " + number);
+    if (progress) progress(fmt::format("Figure {}", number));
     make({options, made});
   }
   return made;

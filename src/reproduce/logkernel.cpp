@@ -109,8 +109,8 @@ std::string times_csv(const LogKernelReproduction& result) {
 
 void draw_storage(const LogKernelReproduction& result, const std::filesystem::path& file) {
   render::Chart chart{.title = "Storage of ln|x - y| in blocks",
-                      .x = {.name = "N", .logarithmic = true},
-                      .y = {.name = "numbers", .logarithmic = true},
+                      .x = render::ChartAxis{.name = "N", .logarithmic = true},
+                      .y = render::ChartAxis{.name = "numbers", .logarithmic = true},
                       .series = {},
                       .footer = write::made_by()};
   render::ChartSeries full{.name = "all entries, N^2", .look = render::ChartSeries::Look::dashed};
@@ -134,8 +134,8 @@ void draw_storage(const LogKernelReproduction& result, const std::filesystem::pa
 
 void draw_errors(const LogKernelReproduction& result, const std::filesystem::path& file) {
   render::Chart chart{.title = "Error of ln|x - y| in blocks",
-                      .x = {.name = "degree n", .range = {-0.2, degrees - 0.8}},
-                      .y = {.name = "squared Frobenius error", .logarithmic = true},
+                      .x = render::ChartAxis{.name = "degree n", .range = {-0.2, degrees - 0.8}},
+                      .y = render::ChartAxis{.name = "squared Frobenius error", .logarithmic = true},
                       .series = {},
                       .footer = write::made_by()};
   std::vector<std::size_t> sizes;

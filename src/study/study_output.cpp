@@ -170,11 +170,11 @@ std::string to_markdown(const Study& study) {
 void draw_charts(const Study& study, const std::filesystem::path& folder) {
   if (!render::unavailable_reason().empty()) return;
   for (const Experiment& experiment : study.experiments) {
-    render::Chart chart{
-        .title = experiment.title,
-        .x = {.name = "seconds", .logarithmic = true},
-        .y = {.name = experiment.error_is.substr(0, experiment.error_is.find(',')), .logarithmic = true},
-        .series = {}};
+    render::Chart chart{.title = experiment.title,
+                        .x = render::ChartAxis{.name = "seconds", .logarithmic = true},
+                        .y = render::ChartAxis{.name = experiment.error_is.substr(0, experiment.error_is.find(',')),
+                                               .logarithmic = true},
+                        .series = {}};
     // One series for each combination of all keys but the last. The front is drawn behind them.
     std::vector<render::ChartPoint> front;
     for (const Sample& sample : experiment.samples) {

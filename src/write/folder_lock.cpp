@@ -36,6 +36,17 @@ std::string holder(int descriptor) {
   return words.empty() ? "another process" : words;
 }
 
+constexpr int deepest = 2;  // state/0 in the folder of a run
+
+/// Of what killed processes left in the folder, and so many levels below. Links are not followed.
+void clear(const fs::path& folder, int levels) {
+  remove_what_killed_processes_left(folder);
+  std::error_code problem;
+  for (auto entry = fs::directory_iterator(folder, problem);
+       levels > 0 && !problem && entry != fs::directory_iterator(); entry.increment(problem))
+    if (!entry->is_symlink(problem) && entry->is_directory(problem)) clear(entry->path(), levels - 1);
+}
+
 }  // namespace
 
 std::string host_name() {
@@ -71,10 +82,7 @@ FolderLock::FolderLock(fs::path folder) {
   if (::ftruncate(descriptor_, 0) != 0 ||  // what it says is for people: a full disk is met by others
       ::pwrite(descriptor_, words.data(), words.size(), 0) < 0)
     problem.clear();
-  remove_what_killed_processes_left(folder);
-  for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
-       entry.increment(problem))
-    if (!entry->is_symlink(problem) && entry->is_directory(problem)) remove_what_killed_processes_left(entry->path());
+  clear(folder, deepest);
 }
 
 FolderLock::~FolderLock() {

@@ -73,6 +73,17 @@ TEST(RunFolder, IsOfOneProcessAtATime) {
   EXPECT_EQ(read_file(folder / "r/status.json"), before);
 }
 
+TEST(FolderLock, ClearsWhatKilledProcessesLeftInAllFoldersOfARun) {
+  const ScratchFolder folder;
+  for (const char* name : {".gaussdrift-7-1.part", "density/.gaussdrift-7-2.part", "state/1/.gaussdrift-7-3.part"})
+    write_text(folder / name, "half");
+  write_text(folder / "state/1/manifest.json", "whole");
+  const FolderLock lock(folder.path());
+  for (const char* name : {".gaussdrift-7-1.part", "density/.gaussdrift-7-2.part", "state/1/.gaussdrift-7-3.part"})
+    EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+  EXPECT_TRUE(std::filesystem::exists(folder / "state/1/manifest.json"));
+}
+
 TEST(RunFolder, KeepsTheEarlierRunUntilTheNewOneHasAnOutput) {
   const ScratchFolder folder;
   run_in(folder / "r", "old", false, 3, true);

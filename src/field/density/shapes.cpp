@@ -19,7 +19,7 @@ const NamedParameter height{.name = "height", .fallback = "1", .meaning = "densi
 
 NamedShape radial(std::string_view name, RadialDensity::Profile profile, std::string_view meaning,
                   std::string_view formula) {
-  return {{.name = name, .meaning = meaning, .formula = formula, .parameters = {center, radius, height}},
+  return {NamedFormula{.name = name, .meaning = meaning, .formula = formula, .parameters = {center, radius, height}},
           [profile](int dimension, const Arguments& arguments) {
             return std::make_unique<RadialDensity>(profile, dimension, point(arguments, "center"),
                                                    number(arguments, "radius"), number(arguments, "height"));
@@ -28,23 +28,24 @@ NamedShape radial(std::string_view name, RadialDensity::Profile profile, std::st
 
 NamedShape slotted_disk() {
   return {
-      {.name = "slotted_disk",
-       .meaning =
-           "Zalesak's disk with a slot that opens downwards. In 3D it is a ball, and the slot runs through it along z",
-       .formula = "height for s < 1, but 0 in the slot |x - c_x| < slot_width / 2, y - c_y < slot_length - radius",
-       .parameters = {center,
-                      radius,
-                      {.name = "slot_width", .range = positive, .unit = "length", .meaning = "width of the slot"},
-                      {.name = "slot_length",
-                       .range = positive,
-                       .unit = "length",
-                       .meaning = "length of the slot, from the lowest point of the disk"},
-                      {.name = "height", .fallback = "1", .meaning = "density outside the slot"}},
-       .problem = [](int, const Arguments& a) -> std::string {
-         return SlottedDisk::fits(number(a, "radius"), number(a, "slot_width"), number(a, "slot_length"))
-                    ? ""
-                    : "the slot cuts the disk in two: its inner corners must lie inside the disk";
-       }},
+      NamedFormula{
+          .name = "slotted_disk",
+          .meaning = "Zalesak's disk with a slot that opens downwards. In 3D it is a ball, and the slot runs through "
+                     "it along z",
+          .formula = "height for s < 1, but 0 in the slot |x - c_x| < slot_width / 2, y - c_y < slot_length - radius",
+          .parameters = {center,
+                         radius,
+                         {.name = "slot_width", .range = positive, .unit = "length", .meaning = "width of the slot"},
+                         {.name = "slot_length",
+                          .range = positive,
+                          .unit = "length",
+                          .meaning = "length of the slot, from the lowest point of the disk"},
+                         {.name = "height", .fallback = "1", .meaning = "density outside the slot"}},
+          .problem = [](int, const Arguments& a) -> std::string {
+            return SlottedDisk::fits(number(a, "radius"), number(a, "slot_width"), number(a, "slot_length"))
+                       ? ""
+                       : "the slot cuts the disk in two: its inner corners must lie inside the disk";
+          }},
       [](int dimension, const Arguments& a) {
         return std::make_unique<SlottedDisk>(dimension, point(a, "center"), number(a, "radius"),
                                              number(a, "slot_width"), number(a, "slot_length"), number(a, "height"));
@@ -52,16 +53,16 @@ NamedShape slotted_disk() {
 }
 
 NamedShape box() {
-  return {{.name = "box",
-           .meaning = "constant inside a rectangle, in 3D inside a cuboid. It jumps at the edge",
-           .formula = "height where |x_k - center_k| < lengths_k / 2 on every axis k, else 0",
-           .parameters = {center,
-                          {.name = "lengths",
-                           .kind = Kind::point,
-                           .range = positive,
-                           .unit = "length",
-                           .meaning = "length of each side"},
-                          {.name = "height", .fallback = "1", .meaning = "density inside"}}},
+  return {NamedFormula{.name = "box",
+                       .meaning = "constant inside a rectangle, in 3D inside a cuboid. It jumps at the edge",
+                       .formula = "height where |x_k - center_k| < lengths_k / 2 on every axis k, else 0",
+                       .parameters = {center,
+                                      {.name = "lengths",
+                                       .kind = Kind::point,
+                                       .range = positive,
+                                       .unit = "length",
+                                       .meaning = "length of each side"},
+                                      {.name = "height", .fallback = "1", .meaning = "density inside"}}},
           [](int dimension, const Arguments& a) {
             return std::make_unique<BoxDensity>(dimension, point(a, "center"), point(a, "lengths"),
                                                 number(a, "height"));

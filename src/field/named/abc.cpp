@@ -33,22 +33,24 @@ NamedField abc() {
   const auto strength = [](std::string_view name, std::string_view fallback) {
     return NamedParameter{.name = name, .fallback = fallback, .unit = "length / time", .meaning = "strength of a wave"};
   };
-  return {.about = {.name = "abc",
-                    .meaning = "the flow of Arnold, Beltrami and Childress",
-                    .formula = "with k = 2 pi / wavelength: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + "
-                               "B cos kx)",
-                    .least_dimension = 3,
-                    .parameters = {strength("A", "1.7320508075688772"),
-                                   strength("B", "1.4142135623730951"),
-                                   strength("C", "1"),
-                                   {.name = "wavelength",
-                                    .fallback = "6.283185307179586",
-                                    .range = positive,
-                                    .unit = "length",
-                                    .meaning = "distance after which the flow repeats, on every axis"}}},
-          .divergence = "0",
-          .exact_flow = "not known: paths are chaotic",
-          .make = [](int, const Arguments& arguments) { return std::make_unique<Abc>(arguments); }};
+  return {
+      .about = NamedFormula{.name = "abc",
+                            .meaning = "the flow of Arnold, Beltrami and Childress",
+                            .formula =
+                                "with k = 2 pi / wavelength: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + "
+                                "B cos kx)",
+                            .least_dimension = 3,
+                            .parameters = {strength("A", "1.7320508075688772"),
+                                           strength("B", "1.4142135623730951"),
+                                           strength("C", "1"),
+                                           {.name = "wavelength",
+                                            .fallback = "6.283185307179586",
+                                            .range = positive,
+                                            .unit = "length",
+                                            .meaning = "distance after which the flow repeats, on every axis"}}},
+      .divergence = "0",
+      .exact_flow = "not known: paths are chaotic",
+      .make = [](int, const Arguments& arguments) { return std::make_unique<Abc>(arguments); }};
 }
 
 }  // namespace gaussdrift::named

@@ -48,29 +48,31 @@ class Burgers : public SolenoidalField {
 }  // namespace
 
 NamedField burgers() {
-  return {.about = {.name = "burgers",
-                    .meaning = "a vortex along z. The flow draws it in from the sides and stretches it [Bur48]",
-                    .formula = "with r the distance from the axis through center: u_r = -strain r / 2, u_z = strain (z "
+  return {.about =
+              NamedFormula{.name = "burgers",
+                           .meaning = "a vortex along z. The flow draws it in from the sides and stretches it [Bur48]",
+                           .formula =
+                               "with r the distance from the axis through center: u_r = -strain r / 2, u_z = strain (z "
                                "- center_z), u_theta = circulation / (2 pi r) (1 - exp(-strain r^2 / (4 viscosity)))",
-                    .least_dimension = 3,
-                    .parameters = {center_parameter("the point at rest"),
-                                   {.name = "strain",
-                                    .fallback = "1",
-                                    .range = positive,
-                                    .unit = "1 / time",
-                                    .symbol = "alpha",
-                                    .meaning = "rate of stretching along z"},
-                                   {.name = "circulation",
-                                    .fallback = "1",
-                                    .unit = "length^2 / time",
-                                    .symbol = "Gamma",
-                                    .meaning = "circulation of the vortex, counter-clockwise"},
-                                   {.name = "viscosity",
-                                    .fallback = "1",
-                                    .range = positive,
-                                    .unit = "length^2 / time",
-                                    .symbol = "nu",
-                                    .meaning = "sets the radius of the core, 2 sqrt(viscosity / strain)"}}},
+                           .least_dimension = 3,
+                           .parameters = {center_parameter("the point at rest"),
+                                          {.name = "strain",
+                                           .fallback = "1",
+                                           .range = positive,
+                                           .unit = "1 / time",
+                                           .symbol = "alpha",
+                                           .meaning = "rate of stretching along z"},
+                                          {.name = "circulation",
+                                           .fallback = "1",
+                                           .unit = "length^2 / time",
+                                           .symbol = "Gamma",
+                                           .meaning = "circulation of the vortex, counter-clockwise"},
+                                          {.name = "viscosity",
+                                           .fallback = "1",
+                                           .range = positive,
+                                           .unit = "length^2 / time",
+                                           .symbol = "nu",
+                                           .meaning = "sets the radius of the core, 2 sqrt(viscosity / strain)"}}},
           .divergence = "0",
           .exact_flow =
               "r exp(-strain (t - s) / 2), z exp(strain (t - s)), and an angle in closed form with the "

@@ -37,15 +37,17 @@ class Deformation : public SolenoidalField {
 
 NamedField deformation() {
   return {
-      .about = {.name = "deformation",
-                .meaning = "a flow in a box that deforms a ball and restores it [LeV96], [EFFM02]. T = 3 is usual for "
+      .about =
+          NamedFormula{.name = "deformation",
+                       .meaning =
+                           "a flow in a box that deforms a ball and restores it [LeV96], [EFFM02]. T = 3 is usual for "
                            "the unit cube",
-                .formula = "with xi, eta, zeta = 0 ... 1 across the box: u = (2 L_x sin^2(pi xi) sin(2 pi eta) "
-                           "sin(2 pi zeta), -L_y sin(2 pi xi) sin^2(pi eta) sin(2 pi zeta), -L_z sin(2 pi xi) "
-                           "sin(2 pi eta) sin^2(pi zeta)) cos(pi t / T)",
-                .least_dimension = 3,
-                .parameters = {min_parameter(), max_parameter(), period_parameter()},
-                .problem = empty_box},
+                       .formula = "with xi, eta, zeta = 0 ... 1 across the box: u = (2 L_x sin^2(pi xi) sin(2 pi eta) "
+                                  "sin(2 pi zeta), -L_y sin(2 pi xi) sin^2(pi eta) sin(2 pi zeta), -L_z sin(2 pi xi) "
+                                  "sin(2 pi eta) sin^2(pi zeta)) cos(pi t / T)",
+                       .least_dimension = 3,
+                       .parameters = {min_parameter(), max_parameter(), period_parameter()},
+                       .problem = empty_box},
       .divergence = "0",
       .exact_flow = "back where it was when sin(pi t / T) = sin(pi s / T), for example after T; not known in between",
       .make = [](int, const Arguments& arguments) { return std::make_unique<Deformation>(arguments); }};

@@ -19,20 +19,22 @@ struct Omega {
 }  // namespace
 
 NamedField doswell() {
-  return {.about = {.name = "doswell",
-                    .meaning = "a vortex that rolls up a front [Dos84]. In 3D its axis is along z",
-                    .formula = "with s = |x - center| / radius: circles at the speed (3 sqrt(3) / 2) speed sech^2(s) "
-                               "tanh(s), counter-clockwise",
-                    .parameters = {center_parameter("centre of the vortex"),
-                                   {.name = "radius",
-                                    .fallback = "1",
-                                    .range = positive,
-                                    .unit = "length",
-                                    .meaning = "size of the vortex. The wind is strongest at 0.66 times this distance"},
-                                   {.name = "speed",
-                                    .fallback = "1",
-                                    .unit = "length / time",
-                                    .meaning = "speed of the strongest wind"}}},
+  return {.about =
+              NamedFormula{
+                  .name = "doswell",
+                  .meaning = "a vortex that rolls up a front [Dos84]. In 3D its axis is along z",
+                  .formula = "with s = |x - center| / radius: circles at the speed (3 sqrt(3) / 2) speed sech^2(s) "
+                             "tanh(s), counter-clockwise",
+                  .parameters = {center_parameter("centre of the vortex"),
+                                 {.name = "radius",
+                                  .fallback = "1",
+                                  .range = positive,
+                                  .unit = "length",
+                                  .meaning = "size of the vortex. The wind is strongest at 0.66 times this distance"},
+                                 {.name = "speed",
+                                  .fallback = "1",
+                                  .unit = "length / time",
+                                  .meaning = "speed of the strongest wind"}}},
           .divergence = "0",
           .exact_flow = "rotation about center by the angle omega(r) (t - s)",
           .make = [](int, const Arguments& a) {

@@ -33,29 +33,31 @@ class DoubleGyre : public SolenoidalField {
 
 NamedField double_gyre() {
   return {
-      .about = {.name = "double_gyre",
-                .meaning = "two vortices side by side, whose border sways [SLM05]. The usual domain is [0, 2] x [0, 1]",
-                .formula = "with xi = 0 ... 2, eta = 0 ... 1 across the box and f = a xi^2 + (1 - 2 a) xi, "
-                           "a = sway sin(2 pi t / period): u = pi amplitude (-L_x/2 sin(pi f) cos(pi eta), "
-                           "L_y cos(pi f) sin(pi eta) df/dxi)",
-                .parameters = {min_parameter(),
-                               max_parameter(),
-                               {.name = "amplitude",
-                                .fallback = "0.1",
-                                .unit = "1 / time",
-                                .symbol = "A",
-                                .meaning = "strength of the vortices"},
-                               {.name = "sway",
-                                .fallback = "0.25",
-                                .symbol = "eps",
-                                .meaning = "how far the border sways; 0 makes the flow steady"},
-                               {.name = "period",
-                                .fallback = "10",
-                                .range = positive,
-                                .unit = "time",
-                                .symbol = "2 pi / omega",
-                                .meaning = "time in which the border sways to and fro once"}},
-                .problem = empty_box},
+      .about =
+          NamedFormula{
+              .name = "double_gyre",
+              .meaning = "two vortices side by side, whose border sways [SLM05]. The usual domain is [0, 2] x [0, 1]",
+              .formula = "with xi = 0 ... 2, eta = 0 ... 1 across the box and f = a xi^2 + (1 - 2 a) xi, "
+                         "a = sway sin(2 pi t / period): u = pi amplitude (-L_x/2 sin(pi f) cos(pi eta), "
+                         "L_y cos(pi f) sin(pi eta) df/dxi)",
+              .parameters = {min_parameter(),
+                             max_parameter(),
+                             {.name = "amplitude",
+                              .fallback = "0.1",
+                              .unit = "1 / time",
+                              .symbol = "A",
+                              .meaning = "strength of the vortices"},
+                             {.name = "sway",
+                              .fallback = "0.25",
+                              .symbol = "eps",
+                              .meaning = "how far the border sways; 0 makes the flow steady"},
+                             {.name = "period",
+                              .fallback = "10",
+                              .range = positive,
+                              .unit = "time",
+                              .symbol = "2 pi / omega",
+                              .meaning = "time in which the border sways to and fro once"}},
+              .problem = empty_box},
       .divergence = "0",
       .exact_flow = "not known: paths are chaotic",
       .make = [](int, const Arguments& arguments) { return std::make_unique<DoubleGyre>(arguments); }};

@@ -18,28 +18,29 @@ struct Omega {
 }  // namespace
 
 NamedField lamb_oseen() {
-  return {
-      .about = {.name = "lamb_oseen",
-                .meaning = "a vortex with a Gaussian core, frozen in time. In 3D its axis is along z",
-                .formula = "circles at the speed circulation / (2 pi r) (1 - exp(-r^2 / radius^2)), r = |x - center|",
-                .parameters = {center_parameter("centre of the vortex"),
-                               {.name = "circulation",
-                                .fallback = "1",
-                                .unit = "length^2 / time",
-                                .symbol = "Gamma",
-                                .meaning = "circulation of the vortex, counter-clockwise"},
-                               {.name = "radius",
-                                .fallback = "1",
-                                .range = positive,
-                                .unit = "length",
-                                .symbol = "2 sqrt(nu t)",
-                                .meaning = "radius of the core"}}},
-      .divergence = "0",
-      .exact_flow = "rotation about center by the angle omega(r) (t - s)",
-      .make = [](int, const Arguments& a) {
-        return std::make_unique<CircularField<Omega>>(point(a, "center"),
-                                                      Omega{number(a, "circulation"), number(a, "radius")});
-      }};
+  return {.about =
+              NamedFormula{
+                  .name = "lamb_oseen",
+                  .meaning = "a vortex with a Gaussian core, frozen in time. In 3D its axis is along z",
+                  .formula = "circles at the speed circulation / (2 pi r) (1 - exp(-r^2 / radius^2)), r = |x - center|",
+                  .parameters = {center_parameter("centre of the vortex"),
+                                 {.name = "circulation",
+                                  .fallback = "1",
+                                  .unit = "length^2 / time",
+                                  .symbol = "Gamma",
+                                  .meaning = "circulation of the vortex, counter-clockwise"},
+                                 {.name = "radius",
+                                  .fallback = "1",
+                                  .range = positive,
+                                  .unit = "length",
+                                  .symbol = "2 sqrt(nu t)",
+                                  .meaning = "radius of the core"}}},
+          .divergence = "0",
+          .exact_flow = "rotation about center by the angle omega(r) (t - s)",
+          .make = [](int, const Arguments& a) {
+            return std::make_unique<CircularField<Omega>>(point(a, "center"),
+                                                          Omega{number(a, "circulation"), number(a, "radius")});
+          }};
 }
 
 }  // namespace gaussdrift::named

@@ -36,15 +36,15 @@ class Rotation : public SolenoidalField {
 }  // namespace
 
 NamedField rotation() {
-  return {.about = {.name = "rotation",
-                    .meaning = "rigid rotation. One turn takes 2 pi / rate. In 3D its axis is along z",
-                    .formula = "u = rate (-(y - center_y), x - center_x)",
-                    .parameters = {center_parameter("centre of the rotation"),
-                                   {.name = "rate",
-                                    .fallback = "1",
-                                    .unit = "radians / time",
-                                    .symbol = "omega",
-                                    .meaning = "angular velocity, counter-clockwise"}}},
+  return {.about = NamedFormula{.name = "rotation",
+                                .meaning = "rigid rotation. One turn takes 2 pi / rate. In 3D its axis is along z",
+                                .formula = "u = rate (-(y - center_y), x - center_x)",
+                                .parameters = {center_parameter("centre of the rotation"),
+                                               {.name = "rate",
+                                                .fallback = "1",
+                                                .unit = "radians / time",
+                                                .symbol = "omega",
+                                                .meaning = "angular velocity, counter-clockwise"}}},
           .divergence = "0",
           .exact_flow = "rotation about center by the angle rate (t - s)",
           .make = [](int, const Arguments& arguments) { return std::make_unique<Rotation>(arguments); }};

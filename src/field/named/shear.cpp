@@ -26,15 +26,15 @@ class Shear : public SolenoidalField {
 }  // namespace
 
 NamedField shear() {
-  return {.about = {.name = "shear",
-                    .meaning = "plane shear along x",
-                    .formula = "u = (rate (y - center_y), 0)",
-                    .parameters = {center_parameter("a point of the layer at rest"),
-                                   {.name = "rate",
-                                    .fallback = "1",
-                                    .unit = "1 / time",
-                                    .symbol = "gamma",
-                                    .meaning = "shear rate du/dy"}}},
+  return {.about = NamedFormula{.name = "shear",
+                                .meaning = "plane shear along x",
+                                .formula = "u = (rate (y - center_y), 0)",
+                                .parameters = {center_parameter("a point of the layer at rest"),
+                                               {.name = "rate",
+                                                .fallback = "1",
+                                                .unit = "1 / time",
+                                                .symbol = "gamma",
+                                                .meaning = "shear rate du/dy"}}},
           .divergence = "0",
           .exact_flow = "(x + rate (y - center_y) (t - s), y)",
           .make = [](int, const Arguments& arguments) { return std::make_unique<Shear>(arguments); }};

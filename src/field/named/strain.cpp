@@ -35,14 +35,14 @@ class Strain : public NamedVelocityField {
 }  // namespace
 
 NamedField strain() {
-  return {.about = {.name = "strain",
-                    .meaning = "stretching along the axes: [1, -1] is plane strain, [1, 1] an expansion",
-                    .formula = "u_k = rates_k (x_k - center_k)",
-                    .parameters = {center_parameter("the point at rest"),
-                                   {.name = "rates",
-                                    .kind = Kind::point,
-                                    .unit = "1 / time",
-                                    .meaning = "rate of stretching along each axis"}}},
+  return {.about = NamedFormula{.name = "strain",
+                                .meaning = "stretching along the axes: [1, -1] is plane strain, [1, 1] an expansion",
+                                .formula = "u_k = rates_k (x_k - center_k)",
+                                .parameters = {center_parameter("the point at rest"),
+                                               {.name = "rates",
+                                                .kind = Kind::point,
+                                                .unit = "1 / time",
+                                                .meaning = "rate of stretching along each axis"}}},
           .divergence = "the sum of the rates",
           .exact_flow = "center_k + (x_k - center_k) exp(rates_k (t - s))",
           .make = [](int, const Arguments& arguments) { return std::make_unique<Strain>(arguments); }};

@@ -32,12 +32,13 @@ class Swirl : public SolenoidalField {
 
 NamedField swirl() {
   return {
-      .about = {.name = "swirl",
-                .meaning = "a single vortex in a box [LeV96], [RK98]. T = 8 is usual for the unit square",
-                .formula = "with xi, eta = 0 ... 1 across the box L_x x L_y: u = (L_x sin^2(pi xi) sin(2 pi eta), "
-                           "-L_y sin^2(pi eta) sin(2 pi xi)) cos(pi t / T)",
-                .parameters = {min_parameter(), max_parameter(), period_parameter()},
-                .problem = empty_box},
+      .about = NamedFormula{.name = "swirl",
+                            .meaning = "a single vortex in a box [LeV96], [RK98]. T = 8 is usual for the unit square",
+                            .formula =
+                                "with xi, eta = 0 ... 1 across the box L_x x L_y: u = (L_x sin^2(pi xi) sin(2 pi eta), "
+                                "-L_y sin^2(pi eta) sin(2 pi xi)) cos(pi t / T)",
+                            .parameters = {min_parameter(), max_parameter(), period_parameter()},
+                            .problem = empty_box},
       .divergence = "0",
       .exact_flow = "back where it was when sin(pi t / T) = sin(pi s / T), for example after T; not known in between",
       .make = [](int, const Arguments& arguments) { return std::make_unique<Swirl>(arguments); }};

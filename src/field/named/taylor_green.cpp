@@ -129,35 +129,36 @@ class TaylorGreen : public SolenoidalField {
 }  // namespace
 
 NamedField taylor_green() {
-  return {
-      .about = {.name = "taylor_green",
-                .meaning = "the vortices of Taylor and Green [TG37] on a lattice. In 3D they are the same at every z",
-                .formula = "with k = 2 pi / wavelength, a = k (x - corner_x), b = k (y - corner_y): u = speed "
-                           "exp(-decay t) (sin a cos b, -cos a sin b)",
-                .parameters = {{.name = "corner",
-                                .kind = Kind::point,
-                                .fallback = "origin",
-                                .unit = "length",
-                                .meaning = "a point where four vortices meet"},
-                               {.name = "speed",
-                                .fallback = "1",
-                                .unit = "length / time",
-                                .meaning = "speed of the strongest wind at t = 0"},
-                               {.name = "wavelength",
-                                .fallback = "6.283185307179586",
-                                .range = positive,
-                                .unit = "length",
-                                .meaning = "distance after which the flow repeats: two vortices"},
-                               {.name = "decay",
-                                .fallback = "0",
-                                .unit = "1 / time",
-                                .symbol = "2 nu k^2",
-                                .meaning = "rate at which the flow dies away"}}},
-      .divergence = "0",
-      .exact_flow =
-          "in Jacobi's elliptic functions; one turn takes 4 K(m) / (k speed), m^2 = 1 - sin^2 a sin^2 b, "
-          "without decay",
-      .make = [](int, const Arguments& arguments) { return std::make_unique<TaylorGreen>(arguments); }};
+  return {.about =
+              NamedFormula{
+                  .name = "taylor_green",
+                  .meaning = "the vortices of Taylor and Green [TG37] on a lattice. In 3D they are the same at every z",
+                  .formula = "with k = 2 pi / wavelength, a = k (x - corner_x), b = k (y - corner_y): u = speed "
+                             "exp(-decay t) (sin a cos b, -cos a sin b)",
+                  .parameters = {{.name = "corner",
+                                  .kind = Kind::point,
+                                  .fallback = "origin",
+                                  .unit = "length",
+                                  .meaning = "a point where four vortices meet"},
+                                 {.name = "speed",
+                                  .fallback = "1",
+                                  .unit = "length / time",
+                                  .meaning = "speed of the strongest wind at t = 0"},
+                                 {.name = "wavelength",
+                                  .fallback = "6.283185307179586",
+                                  .range = positive,
+                                  .unit = "length",
+                                  .meaning = "distance after which the flow repeats: two vortices"},
+                                 {.name = "decay",
+                                  .fallback = "0",
+                                  .unit = "1 / time",
+                                  .symbol = "2 nu k^2",
+                                  .meaning = "rate at which the flow dies away"}}},
+          .divergence = "0",
+          .exact_flow =
+              "in Jacobi's elliptic functions; one turn takes 4 K(m) / (k speed), m^2 = 1 - sin^2 a sin^2 b, "
+              "without decay",
+          .make = [](int, const Arguments& arguments) { return std::make_unique<TaylorGreen>(arguments); }};
 }
 
 }  // namespace gaussdrift::named

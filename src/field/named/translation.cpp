@@ -28,13 +28,13 @@ class Translation : public SolenoidalField {
 }  // namespace
 
 NamedField translation() {
-  return {.about = {.name = "translation",
-                    .meaning = "uniform wind",
-                    .formula = "u = velocity",
-                    .parameters = {{.name = "velocity",
-                                    .kind = Kind::point,
-                                    .unit = "length / time",
-                                    .meaning = "the wind, the same everywhere"}}},
+  return {.about = NamedFormula{.name = "translation",
+                                .meaning = "uniform wind",
+                                .formula = "u = velocity",
+                                .parameters = {{.name = "velocity",
+                                                .kind = Kind::point,
+                                                .unit = "length / time",
+                                                .meaning = "the wind, the same everywhere"}}},
           .divergence = "0",
           .exact_flow = "x + velocity (t - s)",
           .make = [](int, const Arguments& arguments) { return std::make_unique<Translation>(arguments); }};

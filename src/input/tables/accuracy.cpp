@@ -10,9 +10,9 @@ namespace gaussdrift::input {
 
 Section accuracy_section() {
   return {
-      {.name = "accuracy",
-       .required = false,
-       .meaning = "how accurate the run has to be, and whether its error is split by cause"},
+      Table{.name = "accuracy",
+            .required = false,
+            .meaning = "how accurate the run has to be, and whether its error is split by cause"},
       {{.name = "target",
         .type = Type::number,
         .range = {1e-9, 0.5},

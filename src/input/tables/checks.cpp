@@ -10,11 +10,12 @@
 namespace gaussdrift::input {
 
 Section checks_section() {
-  return {{.name = "check",
-           .required = false,
-           .meaning = "a bound that the results have to keep. If they break it, the run ends with exit code 5. Several "
-                      "`[[check]]` are possible",
-           .kinds = {"what"}},
+  return {Table{.name = "check",
+                .required = false,
+                .meaning =
+                    "a bound that the results have to keep. If they break it, the run ends with exit code 5. Several "
+                    "`[[check]]` are possible",
+                .kinds = {"what"}},
           {{.name = "what",
             .type = Type::choice,
             .required = true,

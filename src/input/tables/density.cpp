@@ -20,10 +20,10 @@ Section density_section() {
   const std::vector<Key> of_file =
       grid_file_keys("zero", "what to do where the file has no value. The choices are those of `velocity.missing`");
   keys.insert(keys.end(), of_file.begin(), of_file.end());
-  return {{.name = "density",
-           .required = true,
-           .meaning = "the density rho_0 at time 0. Several `[[density]]` add up",
-           .kinds = {"expression", "shape", "file"}},
+  return {Table{.name = "density",
+                .required = true,
+                .meaning = "the density rho_0 at time 0. Several `[[density]]` add up",
+                .kinds = {"expression", "shape", "file"}},
           keys};
 }
 

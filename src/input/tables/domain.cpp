@@ -8,9 +8,9 @@
 namespace gaussdrift::input {
 
 Section domain_section() {
-  return {{.name = "domain",
-           .required = true,
-           .meaning = "the box in which particles start and on which the density is evaluated"},
+  return {Table{.name = "domain",
+                .required = true,
+                .meaning = "the box in which particles start and on which the density is evaluated"},
           {{.name = "min",
             .type = Type::numbers,
             .required = true,

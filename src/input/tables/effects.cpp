@@ -11,7 +11,7 @@
 namespace gaussdrift::input {
 
 Section effect_section(const NamedEffect& effect) {
-  Section section{{.name = table_of(effect), .required = false, .meaning = std::string(effect.about.meaning)}, {}};
+  Section section{Table{.name = table_of(effect), .required = false, .meaning = std::string(effect.about.meaning)}, {}};
   for (const NamedParameter& parameter : effect.about.parameters) section.keys.push_back(key_of(parameter));
   return section;
 }

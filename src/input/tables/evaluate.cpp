@@ -26,7 +26,7 @@ std::vector<std::string_view> summation_methods() {
 
 Section evaluate_section() {
   return {
-      {.name = "evaluate", .required = false, .meaning = "the lattice on which the density is summed for output"},
+      Table{.name = "evaluate", .required = false, .meaning = "the lattice on which the density is summed for output"},
       {{.name = "per_axis",
         .type = Type::whole,
         .fallback = "200",

@@ -15,7 +15,7 @@ Key version_key() {
 }
 
 Section case_section() {
-  return {{.name = "case", .required = false, .meaning = "the title of the case and where it comes from"},
+  return {Table{.name = "case", .required = false, .meaning = "the title of the case and where it comes from"},
           {{.name = "title", .meaning = "one line of text for pictures and reports"},
            {.name = "cite", .meaning = "where the case comes from, for example a paper"}}};
 }

@@ -51,9 +51,9 @@ std::string meaning_of_images() {
 
 Section output_section() {
   return {
-      {.name = "output",
-       .required = false,
-       .meaning = "what is written, and when. The times are given by `times` or by `frames`"},
+      Table{.name = "output",
+            .required = false,
+            .meaning = "what is written, and when. The times are given by `times` or by `frames`"},
       {{.name = "times",
         .type = Type::numbers,
         .range = {0, infinity},

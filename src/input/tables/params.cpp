@@ -11,9 +11,9 @@
 namespace gaussdrift::input {
 
 Section params_section() {
-  return {{.name = "params",
-           .required = false,
-           .meaning = "names for numbers, such as `R = 0.25`. A parameter may use those above it"},
+  return {Table{.name = "params",
+                .required = false,
+                .meaning = "names for numbers, such as `R = 0.25`. A parameter may use those above it"},
           {}};
 }
 

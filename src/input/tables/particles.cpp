@@ -55,12 +55,12 @@ Section particles_section() {
            "particle. The run says how many they are and how much they would carry. With {}, which can raise small "
            "weights, the default is 0: every point that carries anything gets a particle",
            tables_that_grow_weights())});
-  return {
-      {.name = "particles",
-       .required = true,
-       .meaning = "the lattice on which particles start, and the blob that each of them carries. A blob is a smooth "
-                  "bump that spreads the weight of its particle"},
-      keys};
+  return {Table{.name = "particles",
+                .required = true,
+                .meaning =
+                    "the lattice on which particles start, and the blob that each of them carries. A blob is a smooth "
+                    "bump that spreads the weight of its particle"},
+          keys};
 }
 
 namespace {

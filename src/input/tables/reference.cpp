@@ -10,10 +10,11 @@ namespace gaussdrift::input {
 
 Section reference_section() {
   return {
-      {.name = "reference",
-       .required = false,
-       .meaning = "the exact density with which every output is compared. It gives the norms of the error, and the "
-                  "arrays `rho_exact` and `error` in the files"},
+      Table{.name = "reference",
+            .required = false,
+            .meaning =
+                "the exact density with which every output is compared. It gives the norms of the error, and the "
+                "arrays `rho_exact` and `error` in the files"},
       {{.name = "kind",
         .type = Type::choice,
         .fallback = "characteristics",

@@ -8,7 +8,7 @@ namespace gaussdrift::input {
 
 Section time_section() {
   return {
-      {.name = "time", .required = true, .meaning = "how long the run lasts, and in which steps"},
+      Table{.name = "time", .required = true, .meaning = "how long the run lasts, and in which steps"},
       {{.name = "end",
         .type = Type::number,
         .required = true,

@@ -90,10 +90,10 @@ Section velocity_section() {
       "1e20 or -9999, and numbers far outside the rest are missing too");
   of_file.insert(of_file.begin() + 1, arrays_key());
   for (const std::vector<Key>& more : {of_file, gaussian_keys()}) keys.insert(keys.end(), more.begin(), more.end());
-  return {{.name = "velocity",
-           .required = true,
-           .meaning = "the prescribed velocity u. Several `[[velocity]]` add up",
-           .kinds = {"u", "streamfunction", "field", "file", "gaussians"}},
+  return {Table{.name = "velocity",
+                .required = true,
+                .meaning = "the prescribed velocity u. Several `[[velocity]]` add up",
+                .kinds = {"u", "streamfunction", "field", "file", "gaussians"}},
           keys};
 }
 
