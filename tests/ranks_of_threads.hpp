@@ -83,12 +83,13 @@ class MeetingOfRanks {
 
 class RankOfThread : public base::Communicator {
  public:
-  /// `hosts`: how many machines the ranks are said to be on.
+  /// `hosts`: how many machines the ranks are said to be on, the first ranks on the first.
   RankOfThread(MeetingOfRanks& meeting, int rank, int size, int hosts)
       : meeting_(meeting), rank_(rank), size_(size), hosts_(hosts) {}
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   int hosts() const override { return hosts_; }
+  int host() const override { return rank_ * hosts_ / size_; }
 
   using Communicator::max;
   void sum(std::span<std::int64_t> numbers) override {

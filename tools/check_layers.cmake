@@ -2,11 +2,13 @@
 # keeps to itself:
 #   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
 #     -> (particle, read, field, blockmatrix, farfield) -> fgtd -> core -> base
+#   cli -> mpi -> base, and mpi alone includes <mpi.h>
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
 # What each module may include besides itself. "case" is include/gaussdrift/case.hpp, plain data that anybody above may read.
 set(may_base "")
 set(may_expression base)
+set(may_mpi base)
 set(may_core base/parallel.hpp)
 set(may_fgtd base/parallel.hpp core)
 set(may_farfield base/parallel.hpp core)
@@ -27,7 +29,7 @@ set(may_report base read sim render write case)
 set(may_study base expression fgtd field particle effect reference time sim accuracy write render input case)
 set(may_reproduce base fgtd farfield blockmatrix field particle time sim write render input case)
 set(may_sum base fgtd farfield input)
-set(may_cli base core expression reference accuracy report reproduce study sum sim write render read input time case fgtd)
+set(may_cli base mpi core expression reference accuracy report reproduce study sum sim write render read input time case fgtd)
 
 # The headers of include/gaussdrift/ belong to modules as those of src/ do.
 set(module_of_error base)
@@ -49,6 +51,7 @@ set(may_gaussdrift base particle case reference sim input accuracy)
 # Headers of src/ that other modules may include, by their names in the module's folder. All others are the module's own. Those of
 # base are for everybody. One that no other module includes any more must go from its list.
 set(public_expression expression foreign_names)
+set(public_mpi ranks)
 set(public_core arguments buffer dispatch simd/functions simd/product_block simd/pack)
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
@@ -96,6 +99,10 @@ foreach(file ${files})
   file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"]")
   foreach(line ${lines})
     string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]*)[>\"].*" "\\1" header "${line}")
+    if(header STREQUAL "mpi.h" AND NOT module STREQUAL "mpi")
+      list(APPEND failures "${file}: includes mpi.h; src/mpi alone knows MPI, others use base/communicator.hpp")
+      continue()
+    endif()
     if(header MATCHES "^gaussdrift/(.*)\\.hpp$")
       set(target "${module_of_${CMAKE_MATCH_1}}")
     elseif(header MATCHES "^\\.\\.?/")

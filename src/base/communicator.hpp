@@ -20,7 +20,7 @@ struct Traffic {
   std::uint64_t messages = 0;  // sent: one for each rank that was sent something, in each call
 };
 
-/// All functions but rank(), size(), hosts(), traffic() and failed_together() are called by all ranks, in the same
+/// All functions but rank(), size(), hosts(), host(), traffic() and failed_together() are called by all ranks, in the same
 /// order: a rank waits until the others have come. Results do not depend on who comes first. One thread of a rank calls
 /// them. Where something is thrown on one rank alone, the others wait for it: see agree().
 class Communicator {
@@ -32,8 +32,9 @@ class Communicator {
 
   virtual int rank() const { return 0; }
   virtual int size() const { return 1; }
-  /// Different machines that the ranks run on.
+  /// Different machines that the ranks run on, and the number of this one among them, from 0.
   virtual int hosts() const { return 1; }
+  virtual int host() const { return 0; }
 
   /// out[r] goes to rank r; what came from rank r is in result[r]. `out` has size() entries.
   std::vector<Bytes> exchange(std::vector<Bytes> out);

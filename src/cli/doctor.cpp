@@ -12,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/dispatch.hpp"
+#include "mpi/ranks.hpp"
 #include "read/grid_file.hpp"
 #include "render/styles.hpp"
 #include "write/vtk_files.hpp"
@@ -80,6 +81,8 @@ ExitCode doctor(const DoctorOptions& options) {
   const core::InstructionSet& vectors = core::fastest_instruction_set();
   findings.push_back(
       {"vectors", fmt::format("{}: {} numbers at once in the Gauss transform", vectors.name, vectors.lanes)});
+  findings.push_back({"ranks", mpi::library().empty() ? "one: built without MPI (Debian: libopenmpi-dev)"
+                                                      : fmt::format("several, by {}", mpi::library())});
   std::string pattern = (fs::temp_directory_path() / "gaussdrift-doctor.XXXXXX").string();
   if (!mkdtemp(pattern.data()))
     throw FileError(fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));

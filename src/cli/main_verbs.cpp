@@ -1,26 +1,28 @@
-// The program: its verbs, its command line, and its exit codes.
+// The program: its verbs and its command line, on one rank or several.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
-#include <new>
+#include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "cli/short_memory.hpp"
+#include "cli/ending.hpp"
+#include "cli/launcher.hpp"
+#include "cli/rank_threads.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "cli/wrong_words.hpp"
-#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/error.hpp"
 #include "write/vtk_library.hpp"
 
 namespace gaussdrift::cli {
 
 namespace {
-
-constexpr int exit_code(ExitCode code) { return static_cast<int>(code); }
 
 /// The command line in a form that a shell reads again: words with unusual characters stand in single quotes.
 std::string quoted(const std::string& word) {
@@ -43,7 +45,13 @@ std::vector<Verb> all_verbs(const std::string& command) {
           render_verb(), compare_verb(),    doctor_verb(),        sum_verb(),   reproduce_verb(), explain_verb()};
 }
 
-ExitCode dispatch(int argc, char** argv) {
+/// What the command line asks for: a verb, or an answer that is there already.
+struct Asked {
+  std::optional<Verb> verb;
+  std::string answer;
+};
+
+Asked parse(int argc, char** argv) {
   CLI::App app(
       "Moves a density with a flow that you prescribe, by smoothed particles, and says how accurate the result is.",
       "gaussdrift");
@@ -67,37 +75,52 @@ ExitCode dispatch(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream answer;
     app.exit(asked, answer, answer);
-    put(stdout, answer.str());
-    return ExitCode::ok;
+    return {.verb = {}, .answer = answer.str()};
   } catch (const CLI::ParseError& error) {
     throw CommandLineError(explained(app, error));
   }
-  return std::find_if(verbs.begin(), verbs.end(), [&](const Verb& verb) { return app.got_subcommand(verb.name); })
-      ->run();
+  return {.verb = *std::find_if(verbs.begin(), verbs.end(),
+                                [&](const Verb& verb) { return app.got_subcommand(verb.name); }),
+          .answer = {}};
+}
+
+ExitCode carry_out(const Verb& verb, base::Communicator& ranks, bool launched) {
+  if (verb.on_ranks == OnRanks::refused) {
+    if (launched && ranks.rank() == 0) note("{}\n", ranks_text(ranks));
+    if (ranks.size() > 1)
+      ranks.agree_on([&] {
+        throw InputError(
+            fmt::format("gaussdrift {} cannot share its work among {} ranks yet.\nStart it on one: "
+                        "gaussdrift {} without mpirun uses all cores of this machine.",
+                        verb.name, ranks.size(), verb.name));
+      });
+  }
+  ExitCode code = ExitCode::ok;
+  ranks.agree_on([&] {
+    if (ranks.rank() == 0) code = verb.run();
+  });
+  return code;
 }
 
 }  // namespace
 
 int main_verbs(int argc, char** argv) {
+  const Launcher launcher = find_launcher();
+  std::unique_ptr<base::Communicator> ranks;
   try {
-    write::prepare_vtk();
-    const ExitCode code = dispatch(argc, argv);
-    const Delivery delivered = delivery();
-    if (delivered == Delivery::lost)
-      note("error: standard output cannot be written, so what should stand there is lost\n");
-    return exit_code(code == ExitCode::ok && delivered != Delivery::all ? ExitCode::files : code);
-  } catch (const CaseError& error) {  // laid out already
-    note("{}\n", error.what());
-    return exit_code(error.code());
-  } catch (const Error& error) {
-    note("error: {}\n", error.what());
-    return exit_code(error.code());
-  } catch (const std::bad_alloc&) {
-    return exit_code(out_of_memory());
-  } catch (const std::exception& error) {
-    note("internal error: {}\n", error.what());
-    return exit_code(ExitCode::internal);
+    ranks = start_ranks(launcher);
+  } catch (const CommandLineError& error) {
+    return refuse(launcher, error.what());
   }
+  return end_of(*ranks, [&] {
+    write::prepare_vtk();
+    if (ranks->size() > 1) share_cores(*ranks);
+    Asked asked;
+    ranks->agree_on([&] { asked = parse(argc, argv); });
+    if (asked.verb) return carry_out(*asked.verb, *ranks, launcher.found);
+    if (ranks->rank() == 0) put(stdout, asked.answer);
+    return ExitCode::ok;
+  });
 }
 
 }  // namespace gaussdrift::cli

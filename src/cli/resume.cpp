@@ -172,8 +172,10 @@ ExitCode resume(const ResumeOptions& options) {
 }  // namespace
 
 Verb resume_verb(const std::string& typed) {
-  return make_verb<ResumeOptions>("resume", "go on with a run that was stopped or killed, or beyond its end", declare,
-                                  resume, {.command = typed});
+  Verb verb = make_verb<ResumeOptions>("resume", "go on with a run that was stopped or killed, or beyond its end",
+                                       declare, resume, {.command = typed});
+  verb.on_ranks = OnRanks::refused;
+  return verb;
 }
 
 }  // namespace gaussdrift::cli

@@ -42,8 +42,10 @@ ExitCode run(const RunOptions& options) {
 }  // namespace
 
 Verb run_verb(const std::string& typed) {
-  return make_verb<RunOptions>("run", "run a case: files, pictures and numbers in output/<name>/", declare, run,
-                               {.case_options = {}, .command = typed});
+  Verb verb = make_verb<RunOptions>("run", "run a case: files, pictures and numbers in output/<name>/", declare, run,
+                                    {.case_options = {}, .command = typed});
+  verb.on_ranks = OnRanks::refused;
+  return verb;
 }
 
 }  // namespace gaussdrift::cli

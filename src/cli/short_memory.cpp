@@ -7,6 +7,8 @@
 #include <new>
 #include <string_view>
 
+#include "mpi/ranks.hpp"
+
 namespace gaussdrift::cli {
 
 namespace {
@@ -18,7 +20,7 @@ std::terminate_handler usual_end = nullptr;
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
-    ::_exit(static_cast<int>(out_of_memory()));
+    mpi::end_all(static_cast<int>(out_of_memory()));
   } catch (...) {
     usual_end();  // an error in the program: it names it
   }

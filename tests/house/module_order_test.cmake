@@ -18,7 +18,7 @@ check(passes "the tree")
 foreach(pair
     "src/base/lattice.cpp|cli/verbs.hpp" "src/sim/simulation.cpp|cli/verbs.hpp" "src/fgtd/plan.cpp|gaussdrift/frame.hpp"
     "src/particle/seeding.cpp|field/velocity/velocity.hpp" "src/write/summary.cpp|gaussdrift/read_case.hpp"
-    "src/fgtd/plan.cpp|gaussdrift/error.hpp" "include/fgtd/fgtd.hpp|gaussdrift/case.hpp" "src/time/schedule.cpp|../sim/scene.hpp")
+    "src/fgtd/plan.cpp|gaussdrift/error.hpp" "include/fgtd/fgtd.hpp|gaussdrift/case.hpp" "src/time/schedule.cpp|../sim/scene.hpp" "src/sim/simulation.cpp|mpi/ranks.hpp" "src/cli/launcher.cpp|mpi.h" "src/mpi/ranks.cpp|sim/scene.hpp")
   string(REPLACE "|" ";" pair "${pair}")
   list(GET pair 0 file)
   list(GET pair 1 header)

@@ -20,14 +20,19 @@ struct Outcome {
   std::string out, err;
 };
 
+/// Of a command of the shell, called in the folder.
+inline Outcome outcome_of(const ScratchFolder& folder, const std::string& command) {
+  const fs::path out = folder / "stdout.txt", err = folder / "stderr.txt";
+  const std::string call = "cd '" + folder.path().string() + "' && { " + command + "; } >'" + out.string() + "' 2>'" +
+                           err.string() + "' </dev/null";
+  const int status = std::system(call.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(out), read_file(err)};
+}
+
 /// `before` is shell text ahead of the call: limits, environment.
 inline Outcome gaussdrift_in(const ScratchFolder& folder, const std::string& arguments,
                              const std::string& before = "") {
-  const fs::path out = folder / "stdout.txt", err = folder / "stderr.txt";
-  const std::string command = "cd '" + folder.path().string() + "' && { " + before + " '" PROGRAM "' " + arguments +
-                              "; } >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read_file(out), read_file(err)};
+  return outcome_of(folder, before + " '" PROGRAM "' " + arguments);
 }
 
 /// A cone that turns once, small enough for a test: a few hundredths of a second.

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <new>
-#include <random>
 #include <string>
 
+#include "communicator_laws.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "message_of.hpp"
@@ -18,127 +18,21 @@
 namespace gaussdrift::base {
 namespace {
 
-constexpr double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-
-/// Bytes that only `from` sends to `to`; none for some pairs.
-Bytes letter(int from, int to) {
-  std::mt19937 random(static_cast<unsigned>(1000 * from + to));
-  Bytes bytes((from + 2 * to) % 3 == 0 ? 0 : random() % 3000);
-  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
-  return bytes;
-}
+using laws::letter;
 
 class Ranks : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(OneToEight, Ranks, testing::Values(1, 2, 3, 8));
 
-TEST_P(Ranks, ExchangeBringsEachLetterToItsRank) {
-  on_ranks(GetParam(), [&](Communicator& ranks) {
-    ASSERT_EQ(ranks.size(), GetParam());
-    for (int time = 0; time < 3; ++time) {
-      std::vector<Bytes> out;
-      std::uint64_t sent = 0;
-      for (int to = 0; to < ranks.size(); ++to) {
-        out.push_back(letter(ranks.rank(), to));
-        sent += to == ranks.rank() ? 0 : out.back().size();
-      }
-      const Traffic before = ranks.traffic();
-      const std::vector<Bytes> in = ranks.exchange(out);
-      ASSERT_EQ(in.size(), out.size());
-      std::uint64_t received = 0;
-      for (int from = 0; from < ranks.size(); ++from) {
-        EXPECT_EQ(in[static_cast<std::size_t>(from)], letter(from, ranks.rank()));
-        received += from == ranks.rank() ? 0 : in[static_cast<std::size_t>(from)].size();
-      }
-      EXPECT_EQ(ranks.traffic().sent - before.sent, sent);
-      EXPECT_EQ(ranks.traffic().received - before.received, received);
-    }
-  });
-}
+TEST_P(Ranks, ExchangeBringsEachLetterToItsRank) { on_ranks(GetParam(), laws::exchange); }
+TEST_P(Ranks, SumAndMaximumAreThoseOfAll) { on_ranks(GetParam(), laws::sum_and_maximum); }
+TEST_P(Ranks, ExtremesOfDoublesKeepNaNAndInfinity) { on_ranks(GetParam(), laws::extremes_of_doubles); }
+TEST_P(Ranks, BroadcastComesFromAnyRankAndGatherGoesToTheFirst) { on_ranks(GetParam(), laws::broadcast_and_gather); }
+TEST_P(Ranks, ExactSumsHaveTheSameBits) { on_ranks(GetParam(), laws::exact_sums); }
+TEST_P(Ranks, AgreeThatNothingIsWrong) { on_ranks(GetParam(), laws::agreement_that_all_is_well); }
+TEST_P(Ranks, AgreeOnTheErrorOfTheLowestRankThatHasOne) { on_ranks(GetParam(), laws::agreement_on_trouble); }
 
-TEST_P(Ranks, SumAndMaximumAreThoseOfAll) {
-  const int n = GetParam();
-  on_ranks(n, [&](Communicator& ranks) {
-    std::vector<std::int64_t> numbers{1, ranks.rank(), std::int64_t{1} << 40};
-    ranks.sum(numbers);
-    EXPECT_EQ(numbers, (std::vector<std::int64_t>{n, n * (n - 1) / 2, n * (std::int64_t{1} << 40)}));
-    numbers = {-ranks.rank(), ranks.rank()};
-    ranks.max(numbers);
-    EXPECT_EQ(numbers, (std::vector<std::int64_t>{0, n - 1}));
-    numbers.clear();
-    ranks.sum(numbers);
-    ranks.barrier();
-  });
-}
-
-TEST_P(Ranks, ExtremesOfDoublesKeepNaNAndInfinity) {
-  const int n = GetParam();
-  on_ranks(n, [&](Communicator& ranks) {
-    const bool last = ranks.rank() == n - 1;
-    const auto of_last = [&](double there, double elsewhere) { return last ? there : elsewhere; };
-    std::vector<double> numbers{-1.5 - ranks.rank(), of_last(inf, 1), of_last(nan, inf), of_last(-nan, 0),
-                                of_last(-0.0, -0.0)};
-    std::vector<double> small = numbers;
-    ranks.max(numbers);
-    EXPECT_EQ(numbers[0], -1.5);
-    EXPECT_EQ(numbers[1], inf);
-    EXPECT_TRUE(std::isnan(numbers[2]) && std::isnan(numbers[3]));
-    EXPECT_TRUE(numbers[4] == 0 && std::signbit(numbers[4]));
-    ranks.min(small);
-    EXPECT_EQ(small[0], -1.5 - (n - 1));
-    EXPECT_EQ(small[1], n == 1 ? inf : 1);
-    EXPECT_TRUE(std::isnan(small[2]) && std::isnan(small[3]));
-    numbers = {of_last(5e-324, -5e-324), of_last(0.0, -0.0)};
-    ranks.max(numbers);
-    EXPECT_EQ(numbers[0], 5e-324);
-    EXPECT_FALSE(std::signbit(numbers[1]));
-  });
-}
-
-TEST_P(Ranks, BroadcastComesFromAnyRankAndGatherGoesToTheFirst) {
-  const int n = GetParam();
-  on_ranks(n, [&](Communicator& ranks) {
-    for (int from = 0; from < n; ++from) {
-      Bytes bytes = letter(ranks.rank(), 99);
-      ranks.broadcast(bytes, from);
-      EXPECT_EQ(bytes, letter(from, 99));
-    }
-    const std::vector<Bytes> all = ranks.gather(letter(ranks.rank(), 7));
-    ASSERT_EQ(all.size(), ranks.rank() == 0 ? n : 0);
-    for (std::size_t r = 0; r < all.size(); ++r) EXPECT_EQ(all[r], letter(static_cast<int>(r), 7));
-  });
-}
-
-TEST_P(Ranks, AgreeThatNothingIsWrong) {
-  on_ranks(GetParam(), [&](Communicator& ranks) {
-    ranks.agree(nullptr);
-    int done = 0;
-    ranks.agree_on([&] { ++done; });
-    EXPECT_EQ(done, 1);
-  });
-}
-
-TEST_P(Ranks, AgreeOnTheErrorOfTheLowestRankThatHasOne) {
-  const int n = GetParam();
-  for (int first = 0; first < n; ++first)
-    on_ranks(n, [&](Communicator& ranks) {
-      try {
-        ranks.agree_on([&] {
-          if (ranks.rank() == first) throw NumericalError("step 7 of " + std::to_string(ranks.rank()));
-          if (ranks.rank() > first) throw FileError("no room");
-        });
-        FAIL() << "rank " << ranks.rank() << " went on";
-      } catch (const NumericalError& error) {
-        EXPECT_EQ(error.what(), "step 7 of " + std::to_string(first));
-        EXPECT_EQ(error.code(), ExitCode::numerical);
-        EXPECT_TRUE(ranks.failed_together(std::current_exception()));
-      }
-      ranks.agree(nullptr);  // what was caught is over
-      try {
-        throw InputError("mine alone");
-      } catch (...) {
-        EXPECT_FALSE(ranks.failed_together(std::current_exception()));
-      }
-    });
+TEST_P(Ranks, AreAsManyAsWereAskedFor) {
+  on_ranks(GetParam(), [&](Communicator& ranks) { EXPECT_EQ(ranks.size(), GetParam()); });
 }
 
 /// What all of three ranks throw when rank 1 throws `error`.
@@ -211,7 +105,7 @@ TEST(RanksOfThreads, NoticeARankThatEndsOrCallsSomethingElse) {
 }
 
 TEST(Values, AsBytesAndBack) {
-  const std::vector<double> values{1.5, -2, nan};
+  const std::vector<double> values{1.5, -2, std::numeric_limits<double>::quiet_NaN()};
   const std::vector<double> back = from_bytes<double>(to_bytes(values));
   ASSERT_EQ(back.size(), 3u);
   EXPECT_EQ(back[1], -2);

@@ -1,0 +1,27 @@
+// Starts N ranks, as a user does.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "mpi/ranks.hpp"
+#include "program/program.hpp"
+
+namespace gaussdrift {
+
+/// For the beginning of a test.
+#define NEEDS_MPIRUN()                                                                                     \
+  if (std::string(MPIRUN).empty()) GTEST_SKIP() << "the program is built without MPI, or with sanitizers"; \
+  if (mpi::library().find("Open MPI") != 0) GTEST_SKIP() << "these tests know the mpirun of Open MPI alone"
+
+/// As root and in containers too. Without OMP_WAIT_POLICY, which ctest sets, so that the program starts itself again.
+inline Outcome on_ranks_of_mpi(int ranks, const std::string& command, const ScratchFolder& folder) {
+  const std::string environment =
+      "env -u OMP_WAIT_POLICY OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+      "OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 100 ";
+  return outcome_of(
+      folder, environment + MPIRUN + " -q --oversubscribe --bind-to none -n " + std::to_string(ranks) + " " + command);
+}
+
+}  // namespace gaussdrift
