@@ -125,6 +125,7 @@ struct EvaluateSpec {
   double spacing = 0;           ///< of the points on all axes; 0: per_axis says it
   double tolerance = 1e-8;      ///< of the Gauss transform, relative to max |rho| at that output
   std::string method = "auto";  ///< auto, or a method of fgtd by name
+  double tile_particles = 0;    ///< most particles of a tile; 0: 2^18 in the plane, 2^20 in space
   double most_seconds = 0;      ///< that a density may be predicted to take; 0: 300 for a named method, any for auto
 };
 

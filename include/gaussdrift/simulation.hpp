@@ -14,12 +14,20 @@
 
 namespace gaussdrift {
 
+namespace base {
+class Communicator;
+}
+
 /// One run of one case. It prints nothing and writes no file; observers see what comes out.
 class Simulation {
  public:
   /// Makes the fields and effects that the case names. The settings of the case count as they are: `accuracy.target`
   /// is not looked at (see choose_settings()). threads: 0 for all; results do not depend on it. Throws InputError.
   explicit Simulation(const Case& spec, int threads = 0);
+  /// The share of a rank, where N processes carry out one run together: all call the same functions in the same order,
+  /// and throw the same errors. Observers are added on rank 0 alone; frames, states and summaries are complete there.
+  /// `threads` counts for a rank. Throws InputError for a case that cannot be shared.
+  Simulation(const Case& spec, int threads, base::Communicator& ranks);
   Simulation(Simulation&&) noexcept;             ///< what is left may only be destroyed
   Simulation& operator=(Simulation&&) noexcept;  ///< what is left may only be destroyed
   ~Simulation();
@@ -59,8 +67,13 @@ class Simulation {
   /// What the run has done so far; callable wherever a progress function is called. Its seconds are those until now.
   RunSummary summary() const;
 
-  /// As they are now, without copies; empty before prepare(). Weights and widths are those of the last output.
+  /// As they are now, without copies; empty before prepare(). Weights and widths are those of the last output. Where
+  /// several ranks share the run these are the own ones.
   const Particles& particles() const;
+  /// Those of all ranks, by id, on rank 0; elsewhere none. Copies; all ranks call it together.
+  Particles all_particles() const;
+  /// The number of particles of all ranks.
+  std::size_t particle_count() const;
 
  private:
   class Parts;

@@ -28,10 +28,13 @@ std::string CoreSpreading::describe() const {
 
 void CoreSpreading::begin(Particles& particles, double time) {
   since_ = time - particles.spread / (4 * coefficient_);
-  if (time > 0 || end_ <= 0) return;  // the strain is that of the flow, sampled once
+}
+
+void CoreSpreading::look_at(const Particles& sample) {
+  if (end_ <= 0) return;
   constexpr std::size_t sampled_particles = 500;
-  const int dimension = particles.dimension;
-  const Columns x = sample_of(particles.view(), sampled_particles);
+  const int dimension = sample.dimension;
+  const Columns x = sample_of(sample.view(), sampled_particles);
   for (const double t : {0.0, 0.5 * end_, end_}) {
     const auto gradient = gradient_by_differences(velocity_, t, x, dimension, distance_);
     for (std::size_t j = 0; j < x[0].size(); ++j) {

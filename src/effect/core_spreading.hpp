@@ -21,6 +21,7 @@ class CoreSpreading : public Effect {
   Changes changes() const override { return {.width = true}; }
   std::string conserves() const override { return "every weight"; }
 
+  void look_at(const Particles& sample) override;
   void begin(Particles& particles, double time) override;
   void land(Particles& particles, double time) override;
 

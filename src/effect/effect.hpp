@@ -3,6 +3,7 @@
 // docs/method.md, section 8 has the equations.
 //
 // One run calls, in this order:
+//   look_at          once, with a sample of the particles
 //   begin            once the particles stand; again whenever another effect has replaced them
 //   for every step   exchange (half a step), the step itself with the path integrals, settle, land, rearrange, exchange
 //                    (half a step)
@@ -48,6 +49,8 @@ class Effect {
   /// The longest time step with which it is stable, for the particles seen by begin(); infinity if every one is.
   virtual double stable_step() const { return std::numeric_limits<double>::infinity(); }
 
+  /// Before the first begin(): some of the particles at the start, spread over those of all ranks.
+  virtual void look_at(const Particles& /*sample*/) {}
   virtual void begin(Particles& /*particles*/, double /*time*/) {}
 
   /// The velocity that it adds to the flow; null: none.

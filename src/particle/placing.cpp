@@ -87,6 +87,20 @@ base::Bytes pack(const Particles& particles, const std::vector<std::size_t>& cho
   return bytes;
 }
 
+base::Bytes pack_bare(const Particles& particles, const std::vector<std::size_t>& chosen) {
+  if (chosen.empty()) return {};
+  Particles some;
+  some.dimension = particles.dimension;
+  for (const std::size_t j : chosen) {
+    for (int k = 0; k < particles.dimension; ++k) some.position[k].push_back(particles.position[k][j]);
+    some.alpha.push_back(particles.alpha[j]);
+    some.id.push_back(particles.id[j]);
+  }
+  std::vector<std::size_t> all(chosen.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return pack(some, all);
+}
+
 void unpack(std::span<const std::byte> bytes, Particles& particles) {
   if (bytes.empty()) return;
   std::int64_t has_volume = 0;
@@ -141,18 +155,7 @@ Particles felt_from_elsewhere(const Particles& particles, const Tiles& tiles, co
       if (list.empty() || list.back() != j) list.push_back(j);
     });
   std::vector<base::Bytes> out;
-  for (const auto& list : chosen) {
-    Particles some;
-    some.dimension = particles.dimension;
-    for (const std::size_t j : list) {
-      for (int k = 0; k < particles.dimension; ++k) some.position[k].push_back(particles.position[k][j]);
-      some.alpha.push_back(particles.alpha[j]);
-      some.id.push_back(particles.id[j]);
-    }
-    std::vector<std::size_t> all(list.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    out.push_back(pack(some, all));
-  }
+  for (const auto& list : chosen) out.push_back(pack_bare(particles, list));
   for (const base::Bytes& bytes : ranks.exchange(std::move(out))) unpack(bytes, bare);
   sort_by_id(bare);
   return bare;

@@ -28,6 +28,8 @@ Particles gather_particles(const Particles& particles, base::Communicator& ranks
 
 /// The columns of some particles as bytes, and back: unpack() appends.
 base::Bytes pack(const Particles& particles, const std::vector<std::size_t>& chosen);
+/// Positions, weights and ids alone.
+base::Bytes pack_bare(const Particles& particles, const std::vector<std::size_t>& chosen);
 void unpack(std::span<const std::byte> bytes, Particles& particles);
 
 /// Orders all columns by id.

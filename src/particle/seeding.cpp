@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/parallel.hpp"
 #include "gaussdrift/error.hpp"
+#include "particle/placing.hpp"
 
 namespace gaussdrift {
 
@@ -89,20 +91,52 @@ Part seed_line(const Lattice& lattice, std::size_t number, const std::vector<Car
   return part;
 }
 
+// Which lines a rank has: every N-th one.
+struct Lines {
+  Lines(std::size_t lines, const base::Communicator& ranks)
+      : all(lines), first(static_cast<std::size_t>(ranks.rank())), step(static_cast<std::size_t>(ranks.size())) {
+    own = all > first ? (all - first - 1) / step + 1 : 0;
+  }
+  std::size_t number(std::size_t i) const { return first + i * step; }
+  double part() const { return static_cast<double>(own) / static_cast<double>(all); }
+
+  std::size_t all, first, step, own = 0;
+};
+
 // The smallest weight of each kind that is enough. Lines are weighed twice, so that what is left out is never kept.
 std::vector<double> least_weights(const Lattice& lattice, const std::vector<Carried>& carried, double threshold,
-                                  std::size_t lines, int threads) {
+                                  const Lines& lines, int threads) {
   std::vector<double> least(carried.size(), 0.0);
   if (!(threshold > 0)) return least;
-  std::vector<std::vector<double>> largest(lines, least);
-  base::parallel_for({lines, seeding_seconds(lattice, carried)}, threads, [&](std::size_t number) {
-    const Line line = weigh_line(lattice, number, carried);
+  std::vector<std::vector<double>> largest(lines.own, least);
+  base::parallel_for({lines.own, lines.part() * seeding_seconds(lattice, carried)}, threads, [&](std::size_t own) {
+    const Line line = weigh_line(lattice, lines.number(own), carried);
     for (std::size_t q = 0; q < carried.size(); ++q)
-      for (const double weight : line.weights[q]) largest[number][q] = std::max(largest[number][q], std::abs(weight));
+      for (const double weight : line.weights[q]) largest[own][q] = std::max(largest[own][q], std::abs(weight));
   });
   for (const auto& of_line : largest)
     for (std::size_t q = 0; q < carried.size(); ++q) least[q] = std::max(least[q], threshold * of_line[q]);
   return least;
+}
+
+// In the order of lines, so that it does not depend on who has which.
+SeedReport sum_of_lines(const std::vector<double>& columns, std::size_t kinds, const Lines& lines,
+                        base::Communicator& ranks) {
+  std::vector<std::vector<double>> of_ranks;
+  for (const base::Bytes& bytes : ranks.gather(base::to_bytes(columns)))
+    of_ranks.push_back(base::from_bytes<double>(bytes));
+  const std::size_t width = 1 + 2 * kinds;
+  std::vector<double> sums(width, 0.0);
+  if (ranks.rank() == 0)
+    for (std::size_t line = 0; line < lines.all; ++line)
+      for (std::size_t c = 0; c < width; ++c) sums[c] += of_ranks[line % lines.step][line / lines.step * width + c];
+  base::Bytes bytes = base::to_bytes(sums);
+  ranks.broadcast(bytes);
+  sums = base::from_bytes<double>(bytes);
+  SeedReport total;
+  total.left_out = static_cast<std::size_t>(sums[0]);
+  for (std::size_t q = 0; q < kinds; ++q) total.carried.push_back({sums[1 + 2 * q], sums[2 + 2 * q]});
+  return total;
 }
 
 template <class T>
@@ -114,27 +148,36 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, double threshold, int threads,
                SeedReport* report) {
-  const std::size_t lines = lattice.points[1] * lattice.points[2];
-  const std::vector<double> least = least_weights(lattice, carried, threshold, lines, threads);
-  std::vector<Part> parts(lines);
-  base::parallel_for({lines, seeding_seconds(lattice, carried)}, threads,
-                     [&](std::size_t number) { parts[number] = seed_line(lattice, number, carried, least); });
+  base::Communicator alone;
+  return seed(lattice, carried, threshold, threads, report, alone);
+}
+
+Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, double threshold, int threads,
+               SeedReport* report, base::Communicator& ranks) {
+  const Lines lines(lattice.points[1] * lattice.points[2], ranks);
+  std::vector<double> least;
+  ranks.agree_on([&] { least = least_weights(lattice, carried, threshold, lines, threads); });
+  ranks.max(std::span(least));
+  std::vector<Part> parts(lines.own);
+  ranks.agree_on([&] {
+    base::parallel_for({lines.own, lines.part() * seeding_seconds(lattice, carried)}, threads,
+                       [&](std::size_t own) { parts[own] = seed_line(lattice, lines.number(own), carried, least); });
+  });
   Particles all;
   all.dimension = lattice.dimension;
-  SeedReport total;
-  total.carried.resize(carried.size());
+  std::vector<double> columns;  // of the reports, line by line: points left out, then all and left_out of each kind
   for (Part& part : parts) {
     for (int a = 0; a < lattice.dimension; ++a) append(all.position[a], part.particles.position[a]);
     append(all.alpha, part.particles.alpha);
     append(all.id, part.particles.id);
-    total.left_out += part.report.left_out;
-    for (std::size_t q = 0; q < carried.size(); ++q) {
-      total.carried[q].all += part.report.carried[q].all;
-      total.carried[q].left_out += part.report.carried[q].left_out;
+    columns.push_back(static_cast<double>(part.report.left_out));
+    for (const LeftOut& kind : part.report.carried) {
+      columns.push_back(kind.all);
+      columns.push_back(kind.left_out);
     }
     part = {};
   }
-  if (report) *report = std::move(total);
+  if (report) *report = sum_of_lines(columns, carried.size(), lines, ranks);
   return all;
 }
 
@@ -142,18 +185,28 @@ Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads
   return seed(lattice, {{"the initial density", rho_0}}, 0, threads);
 }
 
-double largest_stretch(const Particles& particles, const Lattice& lattice) {
-  double heaviest = 0, longest = 0;
-  for (const double alpha : particles.alpha) heaviest = std::max(heaviest, std::abs(alpha));
-  const double light = 1e-6 * heaviest;
+namespace {
+
+// Squares of the distances of lattice neighbours that are both here. `light`: pairs of two weights below do not count.
+// Calls alone(j) for a particle without one of its neighbours on the lattice, if that is wanted.
+template <class Alone>
+double longest_square(const Particles& particles, const Lattice& lattice, double light, const Alone& alone) {
+  double longest = 0;
   std::size_t stride = 1;
+  std::vector<char> met;  // from below
   for (int k = 0; k < particles.dimension; ++k) {
     std::size_t next = 0;  // ids ascend, so that of the neighbour is found by going along
+    met.assign(particles.size(), 0);
     for (std::size_t j = 0; j < particles.size(); ++j) {
       const auto id = static_cast<std::size_t>(particles.id[j]);
+      if (!met[j] && id / stride % lattice.points[k] > 0) alone(j);
       if (id / stride % lattice.points[k] + 1 == lattice.points[k]) continue;
       while (next < particles.size() && static_cast<std::size_t>(particles.id[next]) < id + stride) ++next;
-      if (next == particles.size() || static_cast<std::size_t>(particles.id[next]) != id + stride) continue;
+      if (next == particles.size() || static_cast<std::size_t>(particles.id[next]) != id + stride) {
+        alone(j);
+        continue;
+      }
+      met[next] = 1;
       if (std::abs(particles.alpha[j]) < light && std::abs(particles.alpha[next]) < light) continue;
       double square = 0;
       for (int a = 0; a < particles.dimension; ++a) {
@@ -164,6 +217,50 @@ double largest_stretch(const Particles& particles, const Lattice& lattice) {
     }
     stride *= lattice.points[k];
   }
+  return longest;
+}
+
+double heaviest(const Particles& particles) {
+  double largest = 0;
+  for (const double alpha : particles.alpha) largest = std::max(largest, std::abs(alpha));
+  return largest;
+}
+
+}  // namespace
+
+double largest_stretch(const Particles& particles, const Lattice& lattice) {
+  return std::sqrt(longest_square(particles, lattice, 1e-6 * heaviest(particles), [](std::size_t) {})) /
+         lattice.spacing;
+}
+
+double largest_stretch(const Particles& particles, const Lattice& lattice, base::Communicator& ranks) {
+  if (ranks.size() == 1) return largest_stretch(particles, lattice);
+  double heavy = heaviest(particles);
+  ranks.max(std::span(&heavy, 1));
+  // Those without a neighbour here meet on the rank that has the range of its id: few, where tiles are compact.
+  const std::size_t range = lattice.size() / static_cast<std::size_t>(ranks.size()) + 1;
+  std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(ranks.size()));
+  const auto send = [&](std::size_t j, std::size_t id) {
+    auto& list = chosen[std::min(id / range, chosen.size() - 1)];
+    if (list.empty() || list.back() != j) list.push_back(j);
+  };
+  double longest = longest_square(particles, lattice, 1e-6 * heavy, [&](std::size_t j) {
+    // It may be the lower one or the upper one of a pair on any axis: the lower one says where they meet.
+    const auto id = static_cast<std::size_t>(particles.id[j]);
+    send(j, id);
+    for (std::size_t k = 0, stride = 1; k < static_cast<std::size_t>(particles.dimension); ++k) {
+      if (id / stride % lattice.points[k] > 0) send(j, id - stride);
+      stride *= lattice.points[k];
+    }
+  });
+  Particles bare;
+  bare.dimension = particles.dimension;
+  std::vector<base::Bytes> out;
+  for (const auto& list : chosen) out.push_back(pack_bare(particles, list));
+  for (const base::Bytes& bytes : ranks.exchange(std::move(out))) unpack(bytes, bare);
+  sort_by_id(bare);
+  longest = std::max(longest, longest_square(bare, lattice, 1e-6 * heavy, [](std::size_t) {}));
+  ranks.max(std::span(&longest, 1));
   return std::sqrt(longest) / lattice.spacing;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "gaussdrift/lattice.hpp"
 #include "gaussdrift/particles.hpp"
 
@@ -25,6 +26,11 @@ struct Carried {
 Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, double threshold, int threads,
                SeedReport* report = nullptr);
 
+/// The same on several ranks: each has the particles of every N-th line of the lattice, so that a small dense density is
+/// spread over all of them. The report is that of all.
+Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, double threshold, int threads,
+               SeedReport* report, base::Communicator& ranks);
+
 /// One density, and every point where it is not 0.
 Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads);
 
@@ -32,5 +38,8 @@ Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads
 /// width c h overlap as long as it is below c. Pairs that weigh less than a millionth of the heaviest particle do not
 /// count. `particles` as seeded, in that order. O(number of particles).
 double largest_stretch(const Particles& particles, const Lattice& lattice);
+
+/// The same where particles are on several ranks, in the order of ids on each.
+double largest_stretch(const Particles& particles, const Lattice& lattice, base::Communicator& ranks);
 
 }  // namespace gaussdrift

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "base/parallel.hpp"
@@ -92,9 +93,12 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
       step = left;
     else if (step > left / 2)
       step = left / 2;  // two equal steps rather than a long one and a crumb
-    const Largest worst = attempt(particles, time, step, results);
-    const double factor = factor_for(worst.error, tableau_.time_order);
-    if (worst.error <= 1) {
+    Largest worst;
+    ranks_.agree_on([&] { worst = attempt(particles, time, step, results); });
+    double error = worst.error;  // of any particle
+    ranks_.max(std::span(&error, 1));
+    const double factor = factor_for(error, tableau_.time_order);
+    if (error <= 1) {
       for (std::size_t b = 0; b < results.size(); ++b) {
         const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
         for (std::size_t k = 0; k < rows; ++k)
@@ -107,23 +111,31 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
     }
     ++rejected_;
     proposal_ = step * std::min(factor, 0.9);
-    if (time + proposal_ / 16 == time || proposal_ < 1e-13 * left) {
-      std::string place;
-      for (std::size_t k = 0; k < dimension; ++k)
-        place += fmt::format("{}{:.6g}", k ? ", " : "", particles.position[k][worst.particle]);
-      Vector x{};
-      for (std::size_t k = 0; k < dimension; ++k) x[k] = particles.position[k][worst.particle];
-      if (const std::string reason = why_path_ends(velocity_, time, particles.dimension, x, 1e-6 * options_.length);
-          !reason.empty())
-        throw NumericalError(
-            fmt::format("in step {} at t = {:.10g} particle {} at ({}) comes to a place without a velocity: {}",
-                        steps_before + 1, time, particles.id[worst.particle], place, reason));
-      throw NumericalError(fmt::format(
-          "no step is short enough for time.tolerance = {:g} in step {} at t = {:.10g}: particle {} at ({}) moves too "
-          "fast, or the velocity is not finite there; guard the expression, raise the tolerance or shorten time.end",
-          options_.tolerance, steps_before + 1, time, particles.id[worst.particle], place));
-    }
+    if (time + proposal_ / 16 != time && proposal_ >= 1e-13 * left) continue;
+    ranks_.agree_on([&] {
+      if (worst.error == error && particles.size() > 0)
+        throw NumericalError(why_no_step(particles, worst.particle, time, steps_before + 1));
+    });
   }
+}
+
+std::string AdaptiveStepper::why_no_step(const Particles& particles, std::size_t worst, double time,
+                                         std::size_t step) const {
+  std::string place;
+  Vector x{};
+  for (int k = 0; k < particles.dimension; ++k) {
+    x[k] = particles.position[k][worst];
+    place += fmt::format("{}{:.6g}", k ? ", " : "", x[k]);
+  }
+  const std::string reason = why_path_ends(velocity_, time, particles.dimension, x, 1e-6 * options_.length);
+  if (!reason.empty())
+    return fmt::format("in step {} at t = {:.10g} particle {} at ({}) comes to a place without a velocity: {}", step,
+                       time, particles.id[worst], place, reason);
+  return fmt::format(
+      "no step is short enough for time.tolerance = {:g} in step {} at t = {:.10g}: particle {} at ({}) moves too "
+      "fast, or "
+      "the velocity is not finite there; guard the expression, raise the tolerance or shorten time.end",
+      options_.tolerance, step, time, particles.id[worst], place);
 }
 
 }  // namespace gaussdrift

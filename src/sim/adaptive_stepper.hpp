@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "base/state_bytes.hpp"
 #include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
@@ -26,14 +28,16 @@ class AdaptiveStepper {
     double largest_step = 0;  // 0: none
     int threads = 0;          // 0: all
   };
-  /// The field, the integrals and the drifts must outlive the stepper.
+  /// The field, the integrals, the drifts and the ranks must outlive the stepper. All ranks take the same steps.
   AdaptiveStepper(const VelocityField& velocity, const time::Tableau& tableau,
-                  std::vector<const PathIntegral*> integrals, std::vector<const Drift*> drifts, const Options& options)
+                  std::vector<const PathIntegral*> integrals, std::vector<const Drift*> drifts, const Options& options,
+                  base::Communicator& ranks)
       : velocity_(velocity),
         tableau_(tableau),
         integrals_(std::move(integrals)),
         drifts_(std::move(drifts)),
-        options_(options) {}
+        options_(options),
+        ranks_(ranks) {}
 
   /// One step from `time` towards `end`; returns the time reached, exactly `end` if it is reached. Throws
   /// NumericalError naming step, time, particle and place where no step is short enough.
@@ -51,6 +55,7 @@ class AdaptiveStepper {
     double error = 0;          // relative to what is allowed
     std::size_t particle = 0;  // that has it
   };
+  std::string why_no_step(const Particles& particles, std::size_t worst, double time, std::size_t step) const;
   Largest attempt(const Particles& particles, double time, double step, std::vector<std::vector<double>>& results);
 
   const VelocityField& velocity_;
@@ -58,6 +63,7 @@ class AdaptiveStepper {
   std::vector<const PathIntegral*> integrals_;
   std::vector<const Drift*> drifts_;
   Options options_;
+  base::Communicator& ranks_;
   double proposal_ = 0;  // 0: none yet
   std::size_t rejected_ = 0;
   double drift_seconds_ = 0;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
 #include "base/longest_side.hpp"
 #include "base/number.hpp"
@@ -40,8 +42,11 @@ std::string stage_of(const Effect& effect) { return "effect " + effect.name(); }
 
 }  // namespace
 
-Carrier::Carrier(const Case& spec, const Scene& scene, int threads)
-    : effects_(make_effects(
+Carrier::Carrier(const Case& spec, const Scene& scene, int threads) : Carrier(spec, scene, threads, alone_) {}
+
+Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Communicator& ranks)
+    : ranks_(ranks),
+      effects_(make_effects(
           spec, scene, [this](Particles& particles) { follow(particles); }, threads)),
       integrating_(integrating(effects_)),
       drifts_(drifts_of(effects_)),
@@ -55,16 +60,19 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads)
   if (!time::is_adaptive(tableau_)) return;
   AdaptiveStepper::Options options{spec.time.tolerance, 0, spec.time.step, threads};
   options.length = longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max);
-  adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), drifts_, options);
+  adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), drifts_, options, ranks);
 }
 
-void Carrier::begin(Particles& particles) {
-  for (const auto& effect : effects_) effect->begin(particles, 0);
+void Carrier::begin(Particles& particles, const Particles& sample) {
+  for (const auto& effect : effects_) {
+    effect->look_at(sample);
+    effect->begin(particles, 0);
+  }
   particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
   if (is_adaptive() || case_.time.end <= 0) return;
-  flow_ = sample_flow_rates(*scene_.velocity, particles, case_.time.end, difference_length(scene_));
+  flow_ = sample_flow_rates(*scene_.velocity, sample, case_.time.end, difference_length(scene_));
   refuse_unstable_step();
-  warn_of_jumps(particles);
+  warn_of_jumps(sample);
 }
 
 double Carrier::longest_step(const time::Tableau& tableau, double step) const {
@@ -135,7 +143,7 @@ bool Carrier::carry(Particles& particles, Leg& leg, std::size_t steps_before, St
                     const std::function<bool(const Leg& leg)>& go_on) {
   const bool arrived = adaptive_ ? adapt(particles, leg, steps_before, stages, go_on)
                                  : step(particles, leg, steps_before, stages, go_on);
-  if (arrived) land(particles, leg.to, stages);
+  if (arrived) ranks_.agree_on([&] { land(particles, leg.to, stages); });
   return arrived;
 }
 
@@ -160,9 +168,16 @@ bool Carrier::adapt(Particles& particles, Leg& leg, std::size_t steps_before, St
       settle(particles, leg.now, stages);
       rearrange(particles, leg.now, stages);
     }
-    if (!go_on(leg) && leg.now < leg.to) return false;
+    if (!all_go_on(go_on, leg) && leg.now < leg.to) return false;
   }
   return true;
+}
+
+// Ranks stop together.
+bool Carrier::all_go_on(const std::function<bool(const Leg& leg)>& go_on, const Leg& leg) const {
+  std::int64_t stops = !go_on(leg);
+  ranks_.max(std::span(&stops, 1));
+  return stops == 0;
 }
 
 bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
@@ -170,16 +185,18 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
   const time::Interval interval(leg.from, leg.to, case_.time.step);
   // Batches are short enough for a lively progress line and long enough that threads start rarely.
   constexpr std::size_t stages_a_batch = 4'000'000;
+  auto most = static_cast<std::int64_t>(particles.size());  // of any rank: all take as many steps at a time
+  ranks_.max(std::span(&most, 1));
   const std::size_t stages_a_step =
-      std::max<std::size_t>(1, particles.size() * static_cast<std::size_t>(tableau_.stages));
+      std::max<std::size_t>(1, static_cast<std::size_t>(most) * static_cast<std::size_t>(tableau_.stages));
   const bool quick = drifts_.empty() && !between_steps_;
   const std::size_t batch = quick ? std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000) : 1;
   while (leg.steps < interval.steps()) {
     const std::size_t count = std::min(batch, interval.steps() - leg.steps);
-    advance(particles, interval, leg.steps, count, steps_before, stages);
+    ranks_.agree_on([&] { advance(particles, interval, leg.steps, count, steps_before, stages); });
     leg.steps += count;
     leg.now = interval.start(leg.steps);
-    if (!go_on(leg) && leg.steps < interval.steps()) return false;
+    if (!all_go_on(go_on, leg) && leg.steps < interval.steps()) return false;
   }
   return true;
 }

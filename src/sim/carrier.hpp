@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/stage_times.hpp"
 #include "sim/adaptive_stepper.hpp"
@@ -21,12 +22,17 @@ class Carrier {
  public:
   /// Constructs the effects that the case names. Case and scene must outlive the carrier. threads: 0 for all.
   Carrier(const Case& spec, const Scene& scene, int threads);
+  /// The same where other ranks carry the rest of the particles: all of them call what follows together, and throw the
+  /// same errors.
+  Carrier(const Case& spec, const Scene& scene, int threads, base::Communicator& ranks);
   Carrier(const Carrier&) = delete;  // effects refer to it
   Carrier& operator=(const Carrier&) = delete;
 
   /// Prepares the particles for the effects. Throws InputError if time.step is not stable for the flow or for an
   /// effect. The message names a step that is stable for all of them.
-  void begin(Particles& particles);
+  void begin(Particles& particles) { begin(particles, particles); }
+  /// The same from a sample of the particles of all ranks.
+  void begin(Particles& particles, const Particles& sample);
 
   /// The longest step <= `step` that begin() accepts with a method of fixed steps, for the particles that it saw last.
   /// begin() may have refused the step of the case before. Not for a case whose method chooses its steps.
@@ -85,6 +91,8 @@ class Carrier {
   bool step(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
             const std::function<bool(const Leg& leg)>& go_on);
 
+  bool all_go_on(const std::function<bool(const Leg& leg)>& go_on, const Leg& leg) const;
+
   // Brings weights and widths up to `time`, at which the positions are.
   void land(Particles& particles, double time, StageTimes& stages) const;
 
@@ -95,6 +103,8 @@ class Carrier {
   void follow(Particles& particles) const;
   void settle(Particles& particles, double time, StageTimes& stages) const;
 
+  base::Communicator alone_;
+  base::Communicator& ranks_;
   Effects effects_;
   std::vector<Effect*> integrating_;  // those with a path integral, in the order of Particles::path
   std::vector<const Drift*> drifts_;

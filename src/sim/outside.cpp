@@ -10,21 +10,25 @@
 
 namespace gaussdrift {
 
-double part_outside(const Particles& particles, const Domain& domain) {
+bool is_outside(const Particles& particles, std::size_t j, const Domain& domain) {
   // Particles that start on the edge stay there in many flows, but for rounding.
   constexpr double rounding = 1e-9;
   const double longest = longest_side(domain.dimension, domain.min, domain.max);
+  bool inside = true;
+  for (int k = 0; k < domain.dimension; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    const double x = particles.position[axis][j];
+    inside = inside && x >= domain.min[axis] - rounding * longest && x <= domain.max[axis] + rounding * longest;
+  }
+  return !inside;
+}
+
+double part_outside(const Particles& particles, const Domain& domain) {
   double all = 0, outside = 0;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     const double weight = std::abs(particles.alpha[j]);
-    bool inside = true;
-    for (int k = 0; k < domain.dimension; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      const double x = particles.position[axis][j];
-      inside = inside && x >= domain.min[axis] - rounding * longest && x <= domain.max[axis] + rounding * longest;
-    }
     all += weight;
-    if (!inside) outside += weight;
+    if (is_outside(particles, j, domain)) outside += weight;
   }
   return all > 0 ? outside / all : 0;
 }
@@ -71,25 +75,33 @@ std::string about_leaving(const std::vector<std::pair<double, FrameNumbers>>& fr
   return text + "; outputs show the density of what is inside";
 }
 
-double part_beyond(std::optional<double> mass, const Particles& particles, const Lattice& lattice) {
-  if (!mass || *mass == 0) return 0;
-  double heaviest = 0, at_edge = 0;
+Heaviest heaviest(const Particles& particles, const Lattice& lattice) {
+  Heaviest found;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     const double weight = std::abs(particles.alpha[j]);
-    heaviest = std::max(heaviest, weight);
+    found.anywhere = std::max(found.anywhere, weight);
     auto rest = static_cast<std::size_t>(particles.id[j]);
     for (int k = 0; k < particles.dimension; ++k) {
       const auto axis = static_cast<std::size_t>(k);
       const std::size_t i = rest % lattice.points[axis];
       rest /= lattice.points[axis];
-      if (i == 0 || i + 1 == lattice.points[axis]) at_edge = std::max(at_edge, weight);
+      if (i == 0 || i + 1 == lattice.points[axis]) found.at_edge = std::max(found.at_edge, weight);
     }
   }
+  return found;
+}
+
+double part_beyond(std::optional<double> mass, const Heaviest& heaviest, double carried) {
+  if (!mass || *mass == 0) return 0;
   // A sum over lattice points misses the mass of a shape with edges, too.
   constexpr double noticed = 1e-6;
-  if (at_edge < noticed * heaviest) return 0;
-  const double carried = std::accumulate(particles.alpha.begin(), particles.alpha.end(), 0.0);
+  if (heaviest.at_edge < noticed * heaviest.anywhere) return 0;
   return std::clamp(1 - carried / *mass, 0.0, 1.0);
+}
+
+double part_beyond(std::optional<double> mass, const Particles& particles, const Lattice& lattice) {
+  return part_beyond(mass, heaviest(particles, lattice),
+                     std::accumulate(particles.alpha.begin(), particles.alpha.end(), 0.0));
 }
 
 std::string about_beyond(double part) {

@@ -35,6 +35,18 @@ std::string about_leaving(const std::vector<std::pair<double, FrameNumbers>>& fr
 /// known, or if there is no density at the edge of the lattice. `particles` as seeded.
 double part_beyond(std::optional<double> mass, const Particles& particles, const Lattice& lattice);
 
+/// The largest |weight| of some particles, and of those that started at the edge of the lattice.
+struct Heaviest {
+  double anywhere = 0, at_edge = 0;
+};
+Heaviest heaviest(const Particles& particles, const Lattice& lattice);
+
+/// The same from what is known of the particles: `carried` is the sum of their weights.
+double part_beyond(std::optional<double> mass, const Heaviest& heaviest, double carried);
+
+/// The particle is outside the domain, by more than rounding.
+bool is_outside(const Particles& particles, std::size_t j, const Domain& domain);
+
 /// The warning about that; empty if less than a hundredth lies outside.
 std::string about_beyond(double part);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 
 #include "effect/catalogue.hpp"
 #include "gaussdrift/error.hpp"
@@ -58,18 +59,32 @@ bool has_smooth_paths(const Scene& scene) {
 }
 
 Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report) {
+  base::Communicator alone;
+  return seed_lattice(scene, lattice, threads, report, alone);
+}
+
+Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report,
+                       base::Communicator& ranks) {
   std::vector<Carried> carried{
       {"the initial density", [&](const PointsView& x, double* values) { scene.density->add(x, values); }}};
   for (const EffectFields& fields : scene.effect_fields)
     if (fields.carried)
       carried.push_back(
           {fields.carried_key, [&](const PointsView& x, double* values) { fields.carried->add(0, x, values); }});
-  return seed(lattice, carried, scene.threshold, threads, report);
+  return seed(lattice, carried, scene.threshold, threads, report, ranks);
 }
 
 Particles seed_scene(const Scene& scene, int threads, SeedReport* report) {
-  Particles particles = seed_lattice(scene, scene.seeding, threads, report);
-  if (std::all_of(particles.alpha.begin(), particles.alpha.end(), [](double alpha) { return alpha == 0; }))
+  base::Communicator alone;
+  return seed_scene(scene, threads, report, alone);
+}
+
+Particles seed_scene(const Scene& scene, int threads, SeedReport* report, base::Communicator& ranks) {
+  Particles particles = seed_lattice(scene, scene.seeding, threads, report, ranks);
+  std::int64_t some =
+      std::any_of(particles.alpha.begin(), particles.alpha.end(), [](double alpha) { return alpha != 0; });
+  ranks.max(std::span(&some, 1));
+  if (!some)
     throw InputError(
         "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or "
         "enlarge "

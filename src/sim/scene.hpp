@@ -51,10 +51,15 @@ bool has_smooth_paths(const Scene& scene);
 
 /// The same on any lattice, and none where there is nothing.
 Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report = nullptr);
+Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, SeedReport* report,
+                       base::Communicator& ranks);
 
 /// Particles of the scene at t = 0: every lattice point with density or charge that exceeds the threshold. The report
 /// tells of both, in that order. Throws NumericalError where one is not finite, InputError if rho_0 is 0 everywhere.
 Particles seed_scene(const Scene& scene, int threads, SeedReport* report = nullptr);
+
+/// The share of a rank, see seed(). All ranks throw the same.
+Particles seed_scene(const Scene& scene, int threads, SeedReport* report, base::Communicator& ranks);
 
 /// The largest density that the blobs of all points left out can have together, anywhere and at any time, if weights
 /// stay.

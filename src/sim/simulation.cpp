@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
 #include "base/state_bytes.hpp"
 #include "base/stopwatch.hpp"
 #include "effect/catalogue.hpp"
+#include "field/velocity/value_seconds.hpp"
 #include "gaussdrift/error.hpp"
 #include "reference/norms.hpp"
 #include "reference/reference.hpp"
@@ -24,29 +26,60 @@
 #include "sim/comparison.hpp"
 #include "sim/landings.hpp"
 #include "sim/outside.hpp"
+#include "sim/placement.hpp"
 #include "sim/scene.hpp"
+#include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
+#include "sim/tiled_density.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
 
 namespace {
 
-FrameNumbers measure_frame(const Particles& particles, const DensityGrid& density) {
+/// What a particle adds to the sums of a frame.
+enum Addend : std::size_t { mass, weight, outside, centroid, addends = centroid + max_dimension };
+
+FrameNumbers measure_particles(const Particles& particles, const Domain& domain, const Placement& place, int threads) {
+  const std::vector<double> sums = place.sums(particles, addends, threads, [&](std::size_t j, double* of_particle) {
+    const double alpha = particles.alpha[j];
+    of_particle[mass] = alpha;
+    of_particle[weight] = std::abs(alpha);
+    of_particle[outside] = is_outside(particles, j, domain) ? std::abs(alpha) : 0;
+    for (int k = 0; k < max_dimension; ++k)
+      of_particle[centroid + static_cast<std::size_t>(k)] =
+          k < particles.dimension ? alpha * particles.position[k][j] : 0;
+  });
   FrameNumbers numbers;
-  for (std::size_t j = 0; j < particles.size(); ++j) {
-    numbers.mass += particles.alpha[j];
-    numbers.weight += std::abs(particles.alpha[j]);
-    for (int k = 0; k < particles.dimension; ++k) numbers.centroid[k] += particles.alpha[j] * particles.position[k][j];
-  }
+  numbers.mass = sums[mass];
+  numbers.weight = sums[weight];
+  numbers.outside = sums[weight] > 0 ? sums[outside] / sums[weight] : 0;
   // Where positive and negative weights cancel there is no centre of mass.
   const bool cancelled = std::abs(numbers.mass) <= 1e-12 * numbers.weight;
   for (int k = 0; k < particles.dimension; ++k)
-    numbers.centroid[k] = cancelled ? std::numeric_limits<double>::quiet_NaN() : numbers.centroid[k] / numbers.mass;
-  const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
-  numbers.minimum = *low;
-  numbers.maximum = *high;
+    numbers.centroid[k] = cancelled ? std::numeric_limits<double>::quiet_NaN()
+                                    : sums[centroid + static_cast<std::size_t>(k)] / numbers.mass;
   return numbers;
+}
+
+/// What keeps ranks from sharing a case, for the user; empty: nothing.
+std::string why_not_shared(const Case& spec, const VelocityField& velocity) {
+  for (const auto& [effect, values] : effects_of(spec.effects)) {
+    const EffectTraits& traits = effect->traits;
+    const int dimension = spec.domain.dimension;
+    const bool by_widths = effect->spreading && effect->spreading(values) > 0;  // each blob spreads by itself
+    if (traits.particles_interact || traits.adds_particles.of(values, dimension) ||
+        traits.replaces_particles.of(values, dimension) || (traits.moves_weight.of(values, dimension) && !by_widths))
+      return fmt::format("[effects.{}] needs all particles in one process", values.name);
+  }
+  return velocity.evaluates_in_blocks() ? "" : "this velocity is evaluated at all particles at once";
+}
+
+// Numbers of an output, one by one: a new one must not be forgotten here.
+void pass(base::StateBytes& bytes, FrameNumbers& n) {
+  static_assert(sizeof(FrameNumbers) == 152 + sizeof(std::string), "a number is not passed yet");
+  bytes(n.mass, n.minimum, n.maximum, n.centroid, n.transform_error, n.transform_tolerance, n.evaluate_seconds,
+        n.seconds, n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
 }
 
 void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& summary) {
@@ -74,11 +107,13 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
   }
 }
 
-DensityOptions density_options(const EvaluateSpec& evaluate, int threads) {
+DensityOptions density_options(const EvaluateSpec& evaluate, int dimension, int threads) {
   DensityOptions options;
   options.tolerance = evaluate.tolerance;
   options.method = evaluate.method;
   options.threads = threads;
+  options.tiles = usual_tiles(dimension);
+  if (evaluate.tile_particles > 0) options.tiles->particles = static_cast<std::int64_t>(evaluate.tile_particles);
   return options;
 }
 
@@ -99,12 +134,19 @@ class FunctionObserver : public Observer {
 
 class Simulation::Parts {
  public:
-  Parts(const Case& spec, int threads)
+  Parts(const Case& spec, int threads, base::Communicator* ranks)
       : case_(spec),
         threads_(base::resolve_threads(threads)),
+        ranks_(ranks ? *ranks : alone_),
+        place_(ranks_),
         scene_(make_scene(case_, threads_)),
-        carrier_(case_, scene_, threads_),
-        landings_(landings(case_)) {}
+        carrier_(case_, scene_, threads_, ranks_),
+        landings_(landings(case_)) {
+    if (ranks_.size() == 1) return;
+    if (const std::string why = why_not_shared(case_, *scene_.velocity); !why.empty())
+      throw InputError(
+          fmt::format("{}, so that {} ranks cannot share this case; start it on one rank", why, ranks_.size()));
+  }
 
   void prepare();
   void restore(Particles particles, const std::string& bytes);
@@ -112,6 +154,8 @@ class Simulation::Parts {
   RunSummary summary();
   RunSummary run();
   const Particles& particles() const { return particles_; }
+  Particles all_particles() const { return gather_particles(particles_, ranks_); }
+  std::size_t particle_count() const;
 
   std::vector<std::unique_ptr<Observer>> observers;
   std::function<bool(const Progress&)> go_on;
@@ -126,8 +170,20 @@ class Simulation::Parts {
   std::size_t steps_to_end() const;
   std::vector<double> velocity_at_particles(double time) const;
   void check_density_seconds() const;
+  Cutoff blob() const;
+  void place(double from);
+  DensityGrid sum_density(DensityReport& report);
+  DensityGrid sum_tiles(DensityReport& report);
+  template <class Work>
+  void on_first(const Work& work) const {
+    ranks_.agree_on([&] {
+      if (place_.is_first()) work();
+    });
+  }
   bool carry();
   void show_frame(double time);
+  void tell_all(FrameNumbers& numbers) const;
+  std::string told_by_first(const std::string& text) const;
   void compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
   void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
   bool is_output(double time) const {
@@ -138,6 +194,9 @@ class Simulation::Parts {
 
   const Case case_;
   int threads_;
+  base::Communicator alone_;
+  base::Communicator& ranks_;
+  Placement place_;
   Scene scene_;
   Carrier carrier_;
   std::vector<double> landings_;
@@ -161,18 +220,47 @@ class Simulation::Parts {
 void Simulation::Parts::prepare() {
   if (stage_ != Stage::made) return;
   const base::Stopwatch seeding;
-  particles_ = seed_scene(scene_, threads_, &seeding_);
+  particles_ = seed_scene(scene_, threads_, &seeding_, ranks_);
   seed_seconds_ = seeding.seconds();
-  mass_at_start_ = std::accumulate(particles_.alpha.begin(), particles_.alpha.end(), 0.0);
-  for (const double alpha : particles_.alpha) largest_at_start_ = std::max(largest_at_start_, std::abs(alpha));
-  largest_at_start_ /= std::pow(scene_.seeding.spacing, scene_.seeding.dimension);
-  beyond_at_start_ = part_beyond(scene_.density->mass(), particles_, scene_.seeding);
-  carrier_.begin(particles_);
-  velocity_at_particles(0);
+  place(0);
+  mass_at_start_ = measure_particles(particles_, case_.domain, place_, threads_).mass;
+  Heaviest heavy = heaviest(particles_, scene_.seeding);
+  heavy = {place_.max(heavy.anywhere), place_.max(heavy.at_edge)};
+  largest_at_start_ = heavy.anywhere / std::pow(scene_.seeding.spacing, scene_.seeding.dimension);
+  beyond_at_start_ = part_beyond(scene_.density->mass(), heavy, mass_at_start_);
+  const Particles sample = place_.sample(particles_, sampled_particles);
+  ranks_.agree_on([&] { carrier_.begin(particles_, sample); });
+  ranks_.agree_on([&] { velocity_at_particles(0); });
   check_density_seconds();
-  compared_ = plan_comparison(case_, scene_, particles_.size(), threads_);
-  if (compared_.points > 0) reference_ = make_reference(case_, scene_, threads_, compared_.following);
+  on_first([&] { compared_ = plan_comparison(case_, scene_, particle_count(), threads_); });
+  on_first([&] {
+    if (compared_.points > 0) reference_ = make_reference(case_, scene_, threads_, compared_.following);
+  });
   stage_ = Stage::prepared;
+}
+
+std::size_t Simulation::Parts::particle_count() const { return place_.particle_count(); }
+
+Cutoff Simulation::Parts::blob() const {
+  return particles_.spread > 0 ? spread_cutoff(scene_.cutoff, particles_.dimension, particles_.spread) : scene_.cutoff;
+}
+
+// Particles to the ranks that carry them from `from` to the next landing, and sum the density at `from`.
+void Simulation::Parts::place(double from) {
+  const DensityOptions options = density_options(case_.evaluate, case_.domain.dimension, threads_);
+  Tiles tiles = tiles_of(particles_, blob(), scene_.evaluation, options,
+                         [&](std::vector<std::int64_t>& counts) { ranks_.sum(counts); });
+  const auto next = std::upper_bound(landings_.begin(), landings_.end(), from);
+  const double to = next == landings_.end() ? from : *next;
+  const double steps =
+      carrier_.is_adaptive() ? 20 : static_cast<double>(time::Interval(from, to, case_.time.step).steps());
+  const double carrying = steps * time::find_tableau(case_.time.method).stages * value_seconds(*scene_.velocity);
+  // Of a particle and a grid point in a Gauss transform, roughly; bench_tiles shows how evenly ranks are loaded.
+  const double of_particle = scene_.evaluation.dimension == 2 ? 0.13e-6 : 0.35e-6, of_point = 12e-9;
+  place_.renew(particles_, std::move(tiles), [&](const Tile& tile) {
+    const auto particles = static_cast<double>(tile.particles), points = static_cast<double>(tile.size());
+    return particles * (carrying + of_particle) + (tile.particles > 0 ? of_point : 0.1 * of_point) * points;
+  });
 }
 
 // [j][dimension]. Throws NumericalError where the field is not finite.
@@ -208,45 +296,130 @@ void Simulation::Parts::check_density_seconds() const {
   const EvaluateSpec& evaluate = case_.evaluate;
   if (!limits_seconds(evaluate)) return;
   const auto predicted = [&](const std::string& method) {
-    DensityOptions options = density_options(evaluate, threads_);
+    DensityOptions options = density_options(evaluate, case_.domain.dimension, threads_);
     options.method = method;
     return predict_density(particles_, scene_.cutoff, scene_.evaluation, options);
   };
-  check_seconds(evaluate, predicted(evaluate.method), base::resolve_threads(threads_),
-                [&] { return predicted("auto"); });
+  ranks_.agree_on([&] {
+    check_seconds(evaluate, predicted(evaluate.method), base::resolve_threads(threads_),
+                  [&] { return predicted("auto"); });
+  });
+}
+
+// On rank 0 the whole of it.
+DensityGrid Simulation::Parts::sum_density(DensityReport& report) {
+  if (!place_.one_tile()) return sum_tiles(report);
+  DensityGrid density;
+  on_first([&] {
+    density = evaluate_at_once(particles_, blob(), scene_.evaluation,
+                               density_options(case_.evaluate, case_.domain.dimension, threads_), &report);
+  });
+  return density;
+}
+
+DensityGrid Simulation::Parts::sum_tiles(DensityReport& report) {
+  const Particles felt = felt_from_elsewhere(particles_, place_.tiles(), place_.owner(), ranks_);
+  const std::vector<TileDensity> own =
+      evaluate_tiles({particles_, felt}, place_.tiles(), place_.owned(), blob(), scene_.evaluation,
+                     density_options(case_.evaluate, case_.domain.dimension, threads_), ranks_, report);
+  DensityGrid density{scene_.evaluation, {}};
+  const auto& tiles = place_.tiles().list();
+  if (place_.is_first()) density.rho.resize(scene_.evaluation.size());
+  std::vector<double> values;  // of the others, tile after tile
+  for (const auto& [tile, rho] : own)
+    if (place_.is_first())
+      gaussdrift::place(rho, tiles[tile], scene_.evaluation, density.rho);
+    else
+      values.insert(values.end(), rho.begin(), rho.end());
+  const std::vector<base::Bytes> arrived = ranks_.gather(base::to_bytes(values));
+  if (!place_.is_first()) return density;
+  std::vector<std::size_t> read(arrived.size(), 0);
+  std::vector<double> rho;
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
+    const auto from = static_cast<std::size_t>(place_.owner()[tile]);
+    if (from == 0) continue;
+    const std::size_t bytes = tiles[tile].size() * sizeof(double);
+    rho = base::from_bytes<double>(std::span(arrived[from]).subspan(read[from], bytes));
+    read[from] += bytes;
+    gaussdrift::place(rho, tiles[tile], scene_.evaluation, density.rho);
+  }
+  return density;
+}
+
+// Particles and velocities of all ranks, by id.
+std::pair<Particles, std::vector<double>> gathered(const Particles& particles, const std::vector<double>& velocity,
+                                                   base::Communicator& ranks) {
+  const auto dimension = static_cast<std::size_t>(particles.dimension);
+  Particles carrying = particles;  // velocities travel as further integrals
+  const std::size_t integrals = carrying.path.size();
+  for (std::size_t k = 0; k < dimension; ++k) {
+    std::vector<double>& column = carrying.path.emplace_back(particles.size());
+    for (std::size_t j = 0; j < column.size(); ++j) column[j] = velocity[j * dimension + k];
+  }
+  Particles all = gather_particles(carrying, ranks);
+  std::vector<double> of_all(all.size() * dimension);
+  for (std::size_t j = 0; j < all.size(); ++j)
+    for (std::size_t k = 0; k < dimension; ++k) of_all[j * dimension + k] = all.path[integrals + k][j];
+  all.path.resize(integrals);
+  return {std::move(all), std::move(of_all)};
 }
 
 void Simulation::Parts::show_frame(double time) {
   DensityReport report;
-  const DensityOptions options = density_options(case_.evaluate, threads_);
-  const Cutoff& start = scene_.cutoff;
-  const Cutoff blob = particles_.spread > 0 ? spread_cutoff(start, particles_.dimension, particles_.spread) : start;
-  const DensityGrid density = evaluate_density(particles_, blob, scene_.evaluation, options, &report);
+  place(time);
+  const DensityGrid density = sum_density(report);
   summary_.stages.add("density", report.evaluate_seconds);
   summary_.stages.add("measure transform error", report.measure_seconds);
   summary_.transform_choice = report.choice;
   summary_.transform_achievable = std::max(summary_.transform_achievable, report.achievable);
 
-  const std::vector<double> velocity = velocity_at_particles(time);
+  std::vector<double> velocity;
+  ranks_.agree_on([&] { velocity = velocity_at_particles(time); });
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
 
   Frame frame;
   frame.index = index_++;
   frame.time = time;
-  frame.particles = &particles_;
-  frame.velocity = velocity_wanted ? &velocity : nullptr;
+  frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
+  if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
+  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && velocity_wanted;
+  std::pair<Particles, std::vector<double>> all;
+  if (elsewhere) all = gathered(particles_, velocity, ranks_);
+  frame.particles = elsewhere ? &all.first : &particles_;
+  frame.velocity = !velocity_wanted ? nullptr : elsewhere ? &all.second : &velocity;
   frame.density = &density;
-  frame.numbers = measure_frame(particles_, density);
-  frame.numbers.outside = part_outside(particles_, case_.domain);
-  frame.numbers.transform_error = report.measured_error;
-  frame.numbers.transform_tolerance = report.requested_tolerance;
-  frame.numbers.evaluate_seconds = report.evaluate_seconds;
-  if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding);
   std::vector<double> exact;
-  if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
-  frame.numbers.seconds = seconds_before_ + watch_.seconds();
+  on_first([&] {
+    const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
+    frame.numbers.minimum = *low;
+    frame.numbers.maximum = *high;
+    frame.numbers.transform_error = report.measured_error;
+    frame.numbers.transform_tolerance = report.requested_tolerance;
+    frame.numbers.evaluate_seconds = report.evaluate_seconds;
+    if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
+    frame.numbers.seconds = seconds_before_ + watch_.seconds();
+  });
+  tell_all(frame.numbers);
   summary_.frames.emplace_back(time, frame.numbers);
-  for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
+  on_first([&] {
+    for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
+  });
+}
+
+// All ranks know what is known of the outputs, and judge the run alike.
+void Simulation::Parts::tell_all(FrameNumbers& numbers) const {
+  base::StateBytes said;
+  pass(said, numbers);
+  const std::string told = told_by_first(said.written());
+  base::StateBytes heard(told);
+  pass(heard, numbers);
+}
+
+std::string Simulation::Parts::told_by_first(const std::string& text) const {
+  base::Bytes bytes = base::to_bytes(std::span<const char>(text));
+  ranks_.broadcast(bytes);
+  const auto letters = base::from_bytes<char>(bytes);
+  return {letters.begin(), letters.end()};
 }
 
 // On the whole grid, or on a sample of it.
@@ -292,7 +465,7 @@ void Simulation::Parts::begin() {
   summary_.transform_tolerance = case_.evaluate.tolerance;
   summary_.stages.add("seed", seed_seconds_);
   summary_.lattice_points = scene_.seeding.size();
-  summary_.particles = particles_.size();
+  summary_.particles = particle_count();
   summary_.seeding = seeding_;
   summary_.beyond_at_start = beyond_at_start_;
   summary_.grid_points = scene_.evaluation.size();
@@ -300,13 +473,6 @@ void Simulation::Parts::begin() {
   summary_.core_radius = scene_.core_radius;
   leg_ = {0, landings_.front(), 0, 0};
   stage_ = Stage::under_way;
-}
-
-// Numbers of an output, one by one: a new one must not be forgotten here.
-void pass(base::StateBytes& bytes, FrameNumbers& n) {
-  static_assert(sizeof(FrameNumbers) == 152 + sizeof(std::string), "a number is not passed yet");
-  bytes(n.mass, n.minimum, n.maximum, n.centroid, n.transform_error, n.transform_tolerance, n.evaluate_seconds,
-        n.seconds, n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
 }
 
 // What the run has come to, beside the particles.
@@ -399,18 +565,39 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   prepare();
   begin();
   const auto misfit = [](const std::string& what) { return InputError("the state is not one of this case: " + what); };
-  if (particles.dimension != particles_.dimension || particles.path.size() != particles_.path.size())
-    throw misfit("it has other particles");
-  particles_ = std::move(particles);
-  try {
-    base::StateBytes state(bytes);
-    ObserverStates seen;
-    pass_state(state, seen);
-    plan_landings();
-    take_up_outputs(seen);
-  } catch (const std::out_of_range& error) {  // here or in an observer
-    throw misfit(error.what());
+  ranks_.agree_on([&] {
+    if (place_.is_first() &&
+        (particles.dimension != particles_.dimension || particles.path.size() != particles_.path.size()))
+      throw misfit("it has other particles");
+  });
+  if (place_.is_first()) {
+    particles_ = std::move(particles);
+  } else {
+    const std::size_t integrals = particles_.path.size();
+    particles_ = {};
+    particles_.dimension = scene_.seeding.dimension;
+    particles_.path.resize(integrals);
   }
+  particles_.spread = place_.max(particles_.spread);
+  const std::string of_all = told_by_first(bytes);
+  ObserverStates seen;
+  ranks_.agree_on([&] {
+    try {
+      base::StateBytes state(of_all);
+      pass_state(state, seen);
+      plan_landings();
+    } catch (const std::out_of_range& error) {
+      throw misfit(error.what());
+    }
+  });
+  place(leg_.now);
+  on_first([&] {
+    try {
+      take_up_outputs(seen);
+    } catch (const std::out_of_range& error) {  // in an observer
+      throw misfit(error.what());
+    }
+  });
   steps_total_ = steps_to_end();
 }
 
@@ -438,7 +625,9 @@ RunSummary Simulation::Parts::run() {
 void Simulation::Parts::end() {
   summary_.complete = landed_ == landings_.size();
   if (summary_.complete)
-    for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->finish(); });
+    on_first([&] {
+      for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->finish(); });
+    });
   else
     stage_ = Stage::under_way;
   sum_up();
@@ -464,7 +653,9 @@ RunSummary Simulation::Parts::summary() {
   return summary_;
 }
 
-Simulation::Simulation(const Case& spec, int threads) : parts_(std::make_unique<Parts>(spec, threads)) {}
+Simulation::Simulation(const Case& spec, int threads) : parts_(std::make_unique<Parts>(spec, threads, nullptr)) {}
+Simulation::Simulation(const Case& spec, int threads, base::Communicator& ranks)
+    : parts_(std::make_unique<Parts>(spec, threads, &ranks)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
@@ -482,5 +673,7 @@ void Simulation::restore(Particles particles, const std::string& state) {
 }
 RunSummary Simulation::run() { return parts_->run(); }
 const Particles& Simulation::particles() const { return parts_->particles(); }
+Particles Simulation::all_particles() const { return parts_->all_particles(); }
+std::size_t Simulation::particle_count() const { return parts_->particle_count(); }
 
 }  // namespace gaussdrift

@@ -8,12 +8,6 @@
 
 namespace gaussdrift {
 
-namespace {
-
-constexpr std::size_t sampled_particles = 500;
-
-}  // namespace
-
 FlowRates sample_flow_rates(const VelocityField& velocity, const Particles& particles, double length, double distance) {
   FlowRates flow;
   const int dimension = particles.dimension;

@@ -34,12 +34,15 @@ struct StableStep {
   std::optional<FlowRate> limited_by;  // nothing if that is stable
 };
 
+/// Particles at which rates are looked at, at most.
+constexpr std::size_t sampled_particles = 500;
+
 /// A motion that only turns or decays may grow by this part over a run. If it grows by more the step is unstable.
 /// euler and heun amplify a rotation with every step, however short, so they are judged by what they do in this
 /// run.
 constexpr double growth_allowed = 0.1;
 
-/// The eigenvalues of grad u (central differences over `distance`) at up to 500 particles, at the start, the middle
+/// The eigenvalues of grad u (central differences over `distance`) at up to sampled_particles particles, at the start, the middle
 /// and the end of the time `length`; particles stand where they start. Where grad u is not finite there are none.
 FlowRates sample_flow_rates(const VelocityField& velocity, const Particles& particles, double length, double distance);
 

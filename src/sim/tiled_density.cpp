@@ -31,29 +31,61 @@ struct Candidate {
   }
 };
 
-Particles places_and_weights(const Particles& all, const std::vector<std::size_t>& chosen) {
-  Particles some;
-  some.dimension = all.dimension;
-  for (int k = 0; k < all.dimension; ++k) {
-    some.position[k].resize(chosen.size());
-    for (std::size_t i = 0; i < chosen.size(); ++i) some.position[k][i] = all.position[k][chosen[i]];
-  }
-  some.alpha.resize(chosen.size());
-  for (std::size_t i = 0; i < chosen.size(); ++i) some.alpha[i] = all.alpha[chosen[i]];
-  return some;
-}
+// Particles by number: a process's own first, then those of others.
+class BothParts {
+ public:
+  explicit BothParts(const TileSources& sources) : sources_(sources), own_(sources.own.size()) {}
 
-Vector place_of(const Particles& particles, std::size_t j) {
-  Vector x{};
-  for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
-  return x;
+  std::size_t own() const { return own_; }
+  double weight(std::size_t j) const { return of(j).alpha[at(j)]; }
+  std::int64_t id(std::size_t j) const { return of(j).id[at(j)]; }
+  double coordinate(int axis, std::size_t j) const { return of(j).position[axis][at(j)]; }
+  Vector place(std::size_t j) const {
+    Vector x{};
+    for (int k = 0; k < sources_.own.dimension; ++k) x[k] = coordinate(k, j);
+    return x;
+  }
+  Particles places_and_weights(const std::vector<std::size_t>& chosen) const {
+    Particles some;
+    some.dimension = sources_.own.dimension;
+    for (int k = 0; k < some.dimension; ++k) {
+      some.position[k].resize(chosen.size());
+      for (std::size_t i = 0; i < chosen.size(); ++i) some.position[k][i] = coordinate(k, chosen[i]);
+    }
+    some.alpha.resize(chosen.size());
+    for (std::size_t i = 0; i < chosen.size(); ++i) some.alpha[i] = weight(chosen[i]);
+    return some;
+  }
+
+ private:
+  const Particles& of(std::size_t j) const { return j < own_ ? sources_.own : sources_.felt; }
+  std::size_t at(std::size_t j) const { return j < own_ ? j : j - own_; }
+
+  TileSources sources_;
+  std::size_t own_;
+};
+
+// For each tile that is wanted, the particles that reach it, by id: sums do not depend on who brought them.
+std::vector<std::vector<std::size_t>> sources_of_tiles(const TileSources& sources, const Tiles& tiles,
+                                                       const std::vector<char>& wanted, int threads) {
+  auto chosen = tiles.gather(sources.own.view(), wanted, threads);
+  if (sources.felt.size() == 0) return chosen;
+  const BothParts both(sources);
+  const auto felt = tiles.gather(sources.felt.view(), wanted, threads);
+  for (std::size_t t = 0; t < chosen.size(); ++t) {
+    const auto own = static_cast<std::ptrdiff_t>(chosen[t].size());
+    for (const std::size_t j : felt[t]) chosen[t].push_back(both.own() + j);
+    std::inplace_merge(chosen[t].begin(), chosen[t].begin() + own, chosen[t].end(),
+                       [&](std::size_t a, std::size_t b) { return both.id(a) < both.id(b); });
+  }
+  return chosen;
 }
 
 // The heaviest of all processes.
 std::vector<Candidate> heaviest(const TileSources& sources, base::Communicator& ranks) {
   std::vector<Candidate> best;
-  for (std::size_t j = 0; j < sources.own; ++j) {
-    const Candidate candidate{std::abs(sources.particles->alpha[j]), sources.particles->id[j]};
+  for (std::size_t j = 0; j < sources.own.size(); ++j) {
+    const Candidate candidate{std::abs(sources.own.alpha[j]), sources.own.id[j]};
     if (best.size() == most_candidates && !(candidate < best.back())) continue;
     best.insert(std::upper_bound(best.begin(), best.end(), candidate), candidate);
     if (best.size() > most_candidates) best.pop_back();
@@ -87,22 +119,14 @@ class TileSums {
  public:
   TileSums(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
            const Lattice& lattice, const DensityOptions& options)
-      : particles_(*sources.particles),
-        own_(sources.own),
+      : particles_(sources),
         tiles_(tiles),
         owned_(owned),
         cutoff_(cutoff),
         lattice_(lattice),
         options_(options),
         fullest_(fullest(tiles).front()),
-        of_tile_(tiles.gather(particles_.view(), owned, options.threads)) {
-    // Sums are taken in the order of ids, whoever brought the particles.
-    for (auto& chosen : of_tile_) {
-      const auto foreign = std::lower_bound(chosen.begin(), chosen.end(), own_);
-      std::inplace_merge(chosen.begin(), foreign, chosen.end(),
-                         [&](std::size_t a, std::size_t b) { return particles_.id[a] < particles_.id[b]; });
-    }
-  }
+        of_tile_(sources_of_tiles(sources, tiles, owned, options.threads)) {}
 
   // The largest |rho| at some promising particles: a lower bound of max |rho|.
   double lower_bound_of_maximum(const std::vector<Candidate>& heaviest) const {
@@ -110,16 +134,16 @@ class TileSums {
     std::vector<std::int64_t> ids;
     for (const Candidate& candidate : heaviest) ids.push_back(candidate.id);
     std::sort(ids.begin(), ids.end());
-    for (std::size_t j = 0; j < own_; ++j)
-      if (std::binary_search(ids.begin(), ids.end(), particles_.id[j])) {
-        const Vector x = place_of(particles_, j);
+    for (std::size_t j = 0; j < particles_.own(); ++j)
+      if (std::binary_search(ids.begin(), ids.end(), particles_.id(j))) {
+        const Vector x = particles_.place(j);
         places[tiles_.of(x)].push_back(x);
       }
     for (const std::size_t tile : fullest(tiles_)) {
       if (!owned_[tile]) continue;
       const auto& chosen = of_tile_[tile];
       for (std::size_t i = chosen.size() / 2; i < chosen.size(); ++i) {
-        const Vector x = place_of(particles_, chosen[i]);
+        const Vector x = particles_.place(chosen[i]);
         if (tiles_.of(x) != tile) continue;  // beyond the border, where not all that counts is known
         places[tile].push_back(x);
         break;
@@ -146,7 +170,7 @@ class TileSums {
         density.rho.assign(where.size(), 0.0);
         continue;
       }
-      const Particles some = places_and_weights(particles_, of_tile_[tile]);
+      const Particles some = particles_.places_and_weights(of_tile_[tile]);
       BlobSum<d> blobs(some, cutoff_, options_);
       DensityReport of_tile;
       blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, of_tile);
@@ -169,7 +193,7 @@ class TileSums {
     for (std::size_t tile = 0; tile < owned_.size(); ++tile) {
       if (!owned_[tile] || of_tile_[tile].empty()) continue;
       const Tile& where = tiles_.list()[tile];
-      const Particles some = places_and_weights(particles_, of_tile_[tile]);
+      const Particles some = particles_.places_and_weights(of_tile_[tile]);
       BlobSum<d> blobs(some, cutoff_, options_);
       DensityReport ignored;
       blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, ignored);
@@ -200,12 +224,12 @@ class TileSums {
       std::vector<std::size_t> near;
       for (const std::size_t j : chosen) {
         bool within = true;
-        for (int k = 0; k < d; ++k) within = within && std::abs(particles_.position[k][j] - x[k]) <= reach;
+        for (int k = 0; k < d; ++k) within = within && std::abs(particles_.coordinate(k, j) - x[k]) <= reach;
         if (within) near.push_back(j);
       }
       fgtd::Points<d> target(d, 1);
       for (int k = 0; k < d; ++k) target(k, 0) = x[static_cast<std::size_t>(k)];
-      const BlobSum<d> blobs(places_and_weights(particles_, near), cutoff_, options_);
+      const BlobSum<d> blobs(particles_.places_and_weights(near), cutoff_, options_);
       largest = std::max(largest, std::abs(blobs.direct(target)(0)));
     }
     return largest;
@@ -260,8 +284,7 @@ class TileSums {
     sample_ += static_cast<std::int64_t>(sample.size());
   }
 
-  const Particles& particles_;
-  std::size_t own_;
+  BothParts particles_;
   const Tiles& tiles_;
   const std::vector<char>& owned_;
   const Cutoff& cutoff_;
@@ -346,7 +369,8 @@ void place(const std::vector<double>& rho, const Tile& tile, const Lattice& latt
 DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const Cutoff& cutoff, const Lattice& lattice,
                           const DensityOptions& options) {
   const std::vector<char> all(tiles.list().size(), 1);
-  const TileSources sources{&particles, particles.size()};
+  const Particles none;
+  const TileSources sources{particles, none};
   base::Communicator alone;
   const auto predict = [&](auto sums) { return sums.predict(sums.lower_bound_of_maximum(heaviest(sources, alone))); };
   return lattice.dimension == 2 ? predict(TileSums<2>(sources, tiles, all, cutoff, lattice, options))

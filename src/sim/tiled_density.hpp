@@ -20,8 +20,8 @@ double reach_of_blob(const Cutoff& cutoff);
 
 /// The particles that a process needs for its tiles.
 struct TileSources {
-  const Particles* particles = nullptr;  // its own, then those of other processes; ids ascend in either part
-  std::size_t own = 0;                   // the number of its own
+  const Particles& own;   // in its tiles
+  const Particles& felt;  // those of other processes, whose blobs reach its tiles; ids ascend in either
 };
 
 /// What one tile has come to.

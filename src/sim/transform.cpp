@@ -127,7 +127,7 @@ Tiles tiles_of(const Particles& particles, const Cutoff& cutoff, const Lattice& 
           sum};
 }
 
-DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+DensityGrid evaluate_at_once(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report) {
   DensityReport ignored;
   DensityReport& filled = report ? *report : ignored;
@@ -138,21 +138,28 @@ DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, c
     filled.choice = "no particles carry weight";
     return grid;
   }
-  if (const Tiles tiles = tiles_of(particles, cutoff, lattice, options); tiles.list().size() > 1) {
-    const std::vector<char> all(tiles.list().size(), 1);
-    grid.rho.resize(lattice.size());
-    base::Communicator alone;
-    for (const auto& [tile, rho] :
-         evaluate_tiles({&particles, particles.size()}, tiles, all, cutoff, lattice, options, alone, filled))
-      place(rho, tiles.list()[tile], lattice, grid.rho);
-    return grid;
-  }
   in_words_of_a_case([&] {
     if (lattice.dimension == 2)
       evaluate_in_dimension<2>(particles, cutoff, grid, options, filled);
     else
       evaluate_in_dimension<3>(particles, cutoff, grid, options, filled);
   });
+  return grid;
+}
+
+DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+                             const DensityOptions& options, DensityReport* report) {
+  if (particles.size() == 0) return evaluate_at_once(particles, cutoff, lattice, options, report);
+  const Tiles tiles = tiles_of(particles, cutoff, lattice, options);
+  if (tiles.list().size() == 1) return evaluate_at_once(particles, cutoff, lattice, options, report);
+  DensityReport ignored;
+  DensityReport& filled = report ? *report : ignored;
+  filled = {};
+  DensityGrid grid{lattice, std::vector<double>(lattice.size())};
+  const std::vector<char> all(tiles.list().size(), 1);
+  base::Communicator alone;
+  for (const auto& [tile, rho] : evaluate_tiles({particles, {}}, tiles, all, cutoff, lattice, options, alone, filled))
+    place(rho, tiles.list()[tile], lattice, grid.rho);
   return grid;
 }
 

@@ -39,6 +39,10 @@ struct DensityReport {
 DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                              const DensityOptions& options, DensityReport* report = nullptr);
 
+/// The same in one sum, however large.
+DensityGrid evaluate_at_once(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
+                             const DensityOptions& options, DensityReport* report = nullptr);
+
 /// The tiles of a density.
 Tiles tiles_of(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
                const Tiles::SumOverProcesses& sum = {});

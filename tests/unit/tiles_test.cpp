@@ -231,16 +231,11 @@ TEST(TiledDensity, HasTheSameBitsOnAnyNumberOfRanks) {
             tiles_of(own, cutoff, lattice, options, [&](std::vector<std::int64_t>& counts) { ranks.sum(counts); });
         const std::vector<int> owner = share_tiles(std::vector<double>(tiles.list().size(), 1.0), size);
         place_particles(own, tiles, owner, ranks);
-        Particles all = own;
         const Particles felt = felt_from_elsewhere(own, tiles, owner, ranks);
-        std::vector<std::size_t> every(felt.size());
-        std::iota(every.begin(), every.end(), std::size_t{0});
-        unpack(pack(felt, every), all);
         std::vector<char> owned;
         for (const int rank : owner) owned.push_back(rank == ranks.rank());
         DensityReport report;
-        const auto densities =
-            evaluate_tiles({&all, own.size()}, tiles, owned, cutoff, lattice, options, ranks, report);
+        const auto densities = evaluate_tiles({own, felt}, tiles, owned, cutoff, lattice, options, ranks, report);
         for (const auto& [tile, rho] : densities) {
           std::vector<double> whole = expected.rho;
           place(rho, tiles.list()[tile], lattice, whole);

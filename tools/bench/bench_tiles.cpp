@@ -127,12 +127,8 @@ OfRanks on(int size, const Scene& scene) {
     ranks.barrier();
     const double begun = processor_seconds();
     const Particles felt = felt_from_elsewhere(own, tiles, owner, ranks);
-    const std::size_t count = own.size();
-    std::vector<std::size_t> every(felt.size());
-    for (std::size_t j = 0; j < every.size(); ++j) every[j] = j;
-    unpack(pack(felt, every), own);
     DensityReport report;
-    evaluate_tiles({&own, count}, tiles, owned, scene.cutoff, scene.lattice, scene.options, ranks, report);
+    evaluate_tiles({own, felt}, tiles, owned, scene.cutoff, scene.lattice, scene.options, ranks, report);
     const double seconds = processor_seconds() - begun;
     const std::lock_guard lock(mutex);
     all.sum += seconds, all.largest = std::max(all.largest, seconds), all.felt += felt.size();

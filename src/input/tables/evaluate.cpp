@@ -55,7 +55,13 @@ Section evaluate_section() {
         .range = {0, infinity, true},
         .unit = "s",
         .meaning = "most seconds that one density may be predicted to take; a case that takes longer is refused before "
-                   "its first step. Without this key 300 for a method that is named, and no limit for `auto`"}}};
+                   "its first step. Without this key 300 for a method that is named, and no limit for `auto`"},
+       {.name = "tile_particles",
+        .type = Type::whole,
+        .range = {1, infinity},
+        .meaning =
+            "most particles of a tile: a density with more is summed part by part. Smaller tiles take less "
+            "memory, and more ranks can share them. Without this key 262144 in the plane and 1048576 in space"}}};
 }
 
 namespace {
@@ -127,6 +133,7 @@ void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
   if (const auto tolerance = in.number("evaluate", "tolerance")) evaluate.tolerance = tolerance->number;
   evaluate.method = in.choice("evaluate", "method");
   if (const auto most = in.number("evaluate", "most_seconds")) evaluate.most_seconds = most->number;
+  if (const auto most = in.number("evaluate", "tile_particles")) evaluate.tile_particles = most->number;
 }
 
 void write_evaluate(Writer& out, const EvaluateSpec& evaluate) {
@@ -138,6 +145,7 @@ void write_evaluate(Writer& out, const EvaluateSpec& evaluate) {
   out.entry("tolerance", written(evaluate.tolerance));
   out.entry("method", written(evaluate.method));
   if (evaluate.most_seconds > 0) out.entry("most_seconds", written(evaluate.most_seconds));
+  if (evaluate.tile_particles > 0) out.entry("tile_particles", fmt::format("{:.0f}", evaluate.tile_particles));
 }
 
 }  // namespace gaussdrift::input

@@ -1,0 +1,190 @@
+// A run that several ranks share has the bits of a run on one: densities, particles and all numbers but seconds.
+#include <gtest/gtest.h>
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "effect/scene.hpp"
+#include "gaussdrift/error.hpp"
+#include "ranks_of_threads.hpp"
+
+namespace gaussdrift {
+namespace {
+
+struct Kind {
+  std::string name;
+  std::vector<std::string> overrides;
+  std::string refused = {};  // on several ranks, with these words
+};
+
+std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
+
+// A cone of 12 000 particles that turns and leaves its tiles; the smallest are sixteenths of the box.
+Case spec_of(const Kind& kind) {
+  std::vector<std::string> overrides = {
+      "particles.per_axis=601", "density.shape=\"wendland\"",       "density.center=[0.4, 0.05]",
+      "density.radius=0.2",     "velocity.u=[\"-y+0.1*x\", \"x\"]", "output.times=[0, 0.3, 0.5]",
+      "evaluate.per_axis=300",  "evaluate.tile_particles=500",      "output.vtk=[\"particles\"]"};
+  overrides.insert(overrides.end(), kind.overrides.begin(), kind.overrides.end());
+  return scene_of(overrides);
+}
+
+struct Seen {
+  double time = 0;
+  FrameNumbers numbers;
+  std::vector<double> rho, exact, velocity;
+  Particles particles;
+};
+
+void watch(Simulation& simulation, std::vector<Seen>& seen) {
+  simulation.observe("test", [&](const Frame& frame) {
+    seen.push_back({frame.time, frame.numbers, frame.density->rho, frame.exact ? *frame.exact : std::vector<double>(),
+                    frame.velocity ? *frame.velocity : std::vector<double>(), *frame.particles});
+  });
+}
+
+void expect_same(const Particles& a, const Particles& b) {
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.alpha, b.alpha);
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.volume, b.volume);
+  EXPECT_EQ(a.spread, b.spread);
+}
+
+void expect_same(const std::vector<Seen>& a, const std::vector<Seen>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].time, b[i].time);
+    EXPECT_EQ(a[i].rho, b[i].rho) << "output " << i;
+    EXPECT_EQ(a[i].exact, b[i].exact);
+    EXPECT_EQ(a[i].velocity, b[i].velocity);
+    expect_same(a[i].particles, b[i].particles);
+    const FrameNumbers &m = a[i].numbers, &n = b[i].numbers;
+    EXPECT_EQ(m.mass, n.mass);
+    EXPECT_EQ(m.minimum, n.minimum);
+    EXPECT_EQ(m.maximum, n.maximum);
+    EXPECT_EQ(m.centroid, n.centroid);
+    EXPECT_EQ(m.transform_error, n.transform_error);
+    EXPECT_EQ(m.transform_tolerance, n.transform_tolerance);
+    EXPECT_EQ(m.stretch, n.stretch);
+    EXPECT_EQ(m.weight, n.weight);
+    EXPECT_EQ(m.outside, n.outside);
+    ASSERT_EQ(m.error.has_value(), n.error.has_value());
+    if (m.error) {
+      EXPECT_EQ(m.error->l1, n.error->l1);
+      EXPECT_EQ(m.error->l2, n.error->l2);
+      EXPECT_EQ(m.error->linf, n.error->linf);
+    }
+    EXPECT_EQ(m.compared, n.compared);
+    EXPECT_EQ(m.untraced, n.untraced);
+  }
+}
+
+class SharedRun : public testing::TestWithParam<Kind> {};
+
+TEST_P(SharedRun, HasTheBitsOfOneRank) {
+  const Case spec = spec_of(GetParam());
+  Simulation alone(spec, 1);
+  std::vector<Seen> expected;
+  watch(alone, expected);
+  const RunSummary once = alone.run();
+  if (GetParam().refused.empty()) {
+    EXPECT_NE(once.transform_choice.find(" tiles"), std::string::npos);
+  }
+  for (const int size : {2, 3, 5}) {
+    std::vector<Seen> seen;
+    Particles at_end;
+    std::string told;
+    const auto ends = ends_on_ranks(size, [&](base::Communicator& ranks) {
+      Simulation simulation(spec, 1, ranks);
+      if (ranks.rank() == 0) watch(simulation, seen);
+      const RunSummary summary = simulation.run();
+      EXPECT_EQ(summary.steps, once.steps);
+      EXPECT_EQ(summary.particles, once.particles);
+      EXPECT_EQ(summary.seeding.carried.front().all, once.seeding.carried.front().all);
+      EXPECT_EQ(summary.beyond_at_start, once.beyond_at_start);
+      EXPECT_LT(simulation.particles().size(), once.particles) << "they are shared";
+      Particles all = simulation.all_particles();
+      if (ranks.rank() == 0) at_end = std::move(all);
+    });
+    for (const auto& end : ends) {
+      if (!end) {
+        EXPECT_TRUE(GetParam().refused.empty());
+        continue;
+      }
+      try {
+        std::rethrow_exception(end);
+      } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find(GetParam().refused), std::string::npos) << error.what();
+        EXPECT_FALSE(GetParam().refused.empty()) << error.what();
+      }
+    }
+    if (!GetParam().refused.empty()) continue;
+    expect_same(seen, expected);
+    expect_same(at_end, alone.particles());
+  }
+}
+
+const std::string characteristics = "reference.kind=\"characteristics\"";
+
+INSTANTIATE_TEST_SUITE_P(
+    , SharedRun,
+    testing::Values(Kind{"transport", {}}, Kind{"adaptive", {"time.method=\"dopri5\"", "time.tolerance=1e-6"}},
+                    Kind{"reaction", {"effects.reaction.rate=\"1+x\"", characteristics}},
+                    Kind{"spreading", {"effects.diffusion.D=1e-5", "effects.diffusion.method=\"core-spreading\""}},
+                    Kind{"compared", {characteristics}}, Kind{"sampled", {characteristics, "reference.points=500"}},
+                    Kind{"threshold", {"particles.threshold=0.01"}},
+                    Kind{"remesh", {"effects.remesh.every=2"}, "[effects.remesh] needs all particles"},
+                    Kind{"vortex", {"effects.vortex={}"}, "[effects.vortex] needs all particles"}),
+    [](const auto& kind) { return kind.param.name; });
+
+TEST(SharedRunToo, GoesOnWithAnyNumberOfRanks) {
+  const Case spec = spec_of({"reaction", {"effects.reaction.rate=\"1+x\"", "time.step=0.001"}});
+  Simulation alone(spec, 1);
+  std::vector<Seen> expected;
+  watch(alone, expected);
+  alone.run();
+  for (const auto& [before, after] : {std::pair{3, 2}, {1, 4}, {2, 1}}) {
+    std::vector<Seen> seen;
+    Particles kept;
+    std::string state;
+    on_ranks(before, [&](base::Communicator& ranks) {
+      Simulation simulation(spec, 1, ranks);
+      if (ranks.rank() == 0) watch(simulation, seen);
+      simulation.on_progress([](const Progress& progress) { return progress.time < 0.35; });
+      EXPECT_FALSE(simulation.run().complete);
+      Particles all = simulation.all_particles();
+      if (ranks.rank() == 0) kept = std::move(all), state = simulation.state();
+    });
+    on_ranks(after, [&](base::Communicator& ranks) {
+      Simulation simulation(spec, 1, ranks);
+      if (ranks.rank() == 0) watch(simulation, seen);
+      simulation.restore(ranks.rank() == 0 ? kept : Particles(), ranks.rank() == 0 ? state : "");
+      EXPECT_TRUE(simulation.run().complete);
+    });
+    expect_same(seen, expected);
+  }
+}
+
+TEST(SharedRunToo, EndsOnAllRanksWhereOneFails) {
+  const Case spec = spec_of({"blows up", {"velocity.u=[\"sqrt(0.601-x)\", \"0\"]", "time.step=0.01"}});
+  std::string alone;
+  try {
+    Simulation(spec, 1).run();
+  } catch (const NumericalError& error) {
+    alone = error.what();
+  }
+  ASSERT_FALSE(alone.empty());
+  for (const auto& end : ends_on_ranks(3, [&](base::Communicator& ranks) { Simulation(spec, 1, ranks).run(); })) {
+    ASSERT_TRUE(end);
+    try {
+      std::rethrow_exception(end);
+    } catch (const NumericalError& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, 12), alone.substr(0, 12));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gaussdrift
