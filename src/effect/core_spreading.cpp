@@ -26,9 +26,7 @@ std::string CoreSpreading::describe() const {
   return fmt::format("diffusion by core spreading, eps(t)^2 = eps^2 + 4 D t with D = {:g}", coefficient_);
 }
 
-void CoreSpreading::begin(Particles& particles, double time) {
-  since_ = time - particles.spread / (4 * coefficient_);
-}
+void CoreSpreading::begin(Particles& particles, double time) { since_ = time - particles.spread / (4 * coefficient_); }
 
 void CoreSpreading::look_at(const Particles& sample) {
   if (end_ <= 0) return;
