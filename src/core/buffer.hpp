@@ -1,9 +1,11 @@
-// Memory for millions of numbers. It is not set to zero before it is written, and lies on huge pages where the system
-// offers them. Otherwise fresh memory takes a large share of the fast methods' time.
+// Memory for numbers that kernels read. It is not set to zero before it is written. Millions of numbers lie on huge pages
+// where the system offers them: otherwise fresh memory takes a large share of the fast methods' time. Small tables begin
+// at a cache line: otherwise the seconds of a kernel depend on where the table happens to lie.
 #pragma once
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -13,7 +15,11 @@ namespace gaussdrift::core {
 /// nothing for blocks smaller than a huge page, and on systems that take no such advice.
 void prefer_huge_pages(void* begin, std::size_t bytes);
 
-/// Allocates with prefer_huge_pages(). Numbers are not initialised: they are written before they are read.
+constexpr std::size_t cache_line = 64;        // bytes, as many as the longest vector has
+constexpr std::size_t aligned_below = 1 << 18;  // bytes; in larger blocks few vectors are read again and again
+
+/// Allocates at a cache line, or with prefer_huge_pages(). Numbers are not initialised: they are written before they are
+/// read.
 template <class T>
 struct Uninitialised : std::allocator<T> {
   template <class U>
@@ -21,9 +27,18 @@ struct Uninitialised : std::allocator<T> {
     using other = Uninitialised<U>;
   };
   T* allocate(std::size_t count) {
+    if (count < aligned_below / sizeof(T))
+      return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t{cache_line}));
     T* const block = std::allocator<T>::allocate(count);
     prefer_huge_pages(block, count * sizeof(T));
     return block;
+  }
+  void deallocate(T* block, std::size_t count) {
+    if (count < aligned_below / sizeof(T)) {
+      ::operator delete(block, count * sizeof(T), std::align_val_t{cache_line});
+    } else {
+      std::allocator<T>::deallocate(block, count);
+    }
   }
   template <class U, class... Arguments>
   void construct(U* at, Arguments&&... arguments) {

@@ -200,7 +200,7 @@ void block_moments(const BoxLattice<d>& lattice, const BoxRange<d>& range, int n
   };
   const auto make_scratch = [&] {
     return Scratch{Block<d>(lattice, range, columns, nullptr, nullptr),
-                   Buffer<double>(moments_scratch(d, nodes, columns))};
+                   Buffer<double>(moments_scratch(d, nodes, columns), 0.0)};
   };
   gaussdrift::base::parallel_for(
       {pieces, at_points(d, p, points.count, static_cast<double>(columns) * cost::chebyshev_block_moment)}, threads,
@@ -247,6 +247,7 @@ void block_values(const BoxLattice<d>& lattice, const BoxRange<d>& range, const 
   const std::size_t p = static_cast<std::size_t>(nodes), box_numbers = to_power(p, d);
   const std::size_t boxes = static_cast<std::size_t>(range.count());
   Buffer<double> coefficients(boxes * outputs * box_numbers + chain_padding);
+  std::fill(coefficients.end() - static_cast<std::ptrdiff_t>(chain_padding), coefficients.end(), 0.0);
   const AxisTransform to_polynomials(d, nodes, false);
   const std::size_t share = std::min<std::size_t>(boxes, 64);
   gaussdrift::base::parallel_for({share, transforms(d, p, boxes * outputs)}, threads, [&](std::size_t part) {
@@ -262,7 +263,7 @@ void block_values(const BoxLattice<d>& lattice, const BoxRange<d>& range, const 
     Buffer<double> numbers, found;
   };
   const auto make_scratch = [&] {
-    return Scratch{Block<d>(lattice, range, 0, &least, &most), Buffer<double>(interpolate_scratch(d, nodes)),
+    return Scratch{Block<d>(lattice, range, 0, &least, &most), Buffer<double>(interpolate_scratch(d, nodes), 0.0),
                    Buffer<double>(outputs * run_points)};
   };
   gaussdrift::base::parallel_for(

@@ -36,7 +36,7 @@ constexpr std::size_t moments_chunk = 64;
 /// A point sorted by sort_block() is a record of so many numbers: its coordinates and, for d < 4, its first weight.
 constexpr std::size_t record_numbers = 4;
 constexpr bool record_has_weight(int dimension) { return dimension < static_cast<int>(record_numbers); }
-/// Products read so many numbers beyond a row.
+/// Products read so many numbers beyond a row. Set them: a denormal there takes a hundred times as long, though unused.
 constexpr std::size_t chain_padding = 8;
 
 /// moments[k][i] += sum_j weights[k][j] prod_l l_{i_l}(z_jl), first axis fastest.

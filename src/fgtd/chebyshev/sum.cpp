@@ -154,7 +154,7 @@ void ChebyshevSum<d>::sum_moments(const double* weights) {
   const double a_source = static_cast<double>(d * node_.size()) * cost::chebyshev_basis +
                           static_cast<double>(numbers) * cost::chebyshev_step;
   gaussdrift::base::parallel_for({pieces, static_cast<double>(count) * a_source}, threads_, [&](std::size_t piece) {
-    std::vector<double> scratch(moments_scratch(d, plan_.nodes, columns)), weight(columns * moments_chunk);
+    Buffer<double> scratch(moments_scratch(d, plan_.nodes, columns), 0.0), weight(columns * moments_chunk);
     const std::size_t begin = piece * piece_points, end = std::min(count, begin + piece_points);
     std::size_t box = first_box(begin);
     for (std::size_t j = begin; j < end; ++box) {
@@ -246,6 +246,7 @@ void ChebyshevSum<d>::evaluate_few(const Request<d>& request, const BoxRange<d>&
   const std::size_t outputs = request.combinations.size() * columns_;
   const std::vector<BoxIndex<d>> boxes = range.boxes();
   Buffer<double> coefficients(boxes.size() * outputs * box_numbers_ + chain_padding);
+  std::fill(coefficients.end() - static_cast<std::ptrdiff_t>(chain_padding), coefficients.end(), 0.0);
   translate(request, matrices_between_boxes(request), make_tree<d>(boxes, range.axis), 0, boxes.size(),
             coefficients.data());
   block_values<d>(plan_.lattice, range, least, most, plan_.nodes, {targets, 1, d, count}, outputs, coefficients.data(),
@@ -330,7 +331,7 @@ void ChebyshevSum<d>::evaluate_block(const Request<d>& request, const BoxRange<d
     gaussdrift::base::parallel_for(
         {(points + interpolate_points - 1) / interpolate_points, static_cast<double>(points) * a_target}, threads_,
         [&](std::size_t piece) {
-          std::vector<double> scratch(interpolate_scratch(d, plan_.nodes)), found(outputs * interpolate_run);
+          Buffer<double> scratch(interpolate_scratch(d, plan_.nodes), 0.0), found(outputs * interpolate_run);
           std::size_t j = first_point + piece * interpolate_points;
           const std::size_t last = std::min(first_point + points, j + interpolate_points);
           std::size_t box = static_cast<std::size_t>(std::upper_bound(sorted.first.begin(), sorted.first.end(), j) -

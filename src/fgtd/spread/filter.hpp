@@ -13,6 +13,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/buffer.hpp"
+
 namespace fgtd::detail {
 
 constexpr int smallest_window = 3, largest_window = 16;  // w
@@ -68,7 +70,7 @@ class SpreadFilter {
   int order_;
   double reach_ = 0;
   int degree_ = 0;
-  std::vector<double> coefficients_;
+  gaussdrift::core::Buffer<double> coefficients_;
   std::vector<std::vector<double>> filter_;   // [order + 1][panels of width H][filter_terms], t >= 0
   std::vector<std::vector<double>> lattice_;  // [order + 1][j]
   AxisError grid_axis_, point_axis_;
