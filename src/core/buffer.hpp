@@ -15,7 +15,7 @@ namespace gaussdrift::core {
 /// nothing for blocks smaller than a huge page, and on systems that take no such advice.
 void prefer_huge_pages(void* begin, std::size_t bytes);
 
-constexpr std::size_t cache_line = 64;        // bytes, as many as the longest vector has
+constexpr std::size_t cache_line = 64;          // bytes, as many as the longest vector has
 constexpr std::size_t aligned_below = 1 << 18;  // bytes; in larger blocks few vectors are read again and again
 
 /// Allocates at a cache line, or with prefer_huge_pages(). Numbers are not initialised: they are written before they are
@@ -28,14 +28,14 @@ struct Uninitialised : std::allocator<T> {
   };
   T* allocate(std::size_t count) {
     if (count < aligned_below / sizeof(T))
-      return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t{cache_line}));
+      return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{cache_line}));
     T* const block = std::allocator<T>::allocate(count);
     prefer_huge_pages(block, count * sizeof(T));
     return block;
   }
   void deallocate(T* block, std::size_t count) {
     if (count < aligned_below / sizeof(T)) {
-      ::operator delete(block, count * sizeof(T), std::align_val_t{cache_line});
+      ::operator delete (block, count * sizeof(T), std::align_val_t{cache_line});
     } else {
       std::allocator<T>::deallocate(block, count);
     }
