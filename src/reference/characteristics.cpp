@@ -65,24 +65,28 @@ class Characteristics : public Reference {
     const std::size_t points = lattice_.size(), blocks = (points + block_length_ - 1) / block_length_;
     rho.assign(points, 0.0);
     if (options_.steady && kept_.empty()) kept_.resize(blocks);
-    std::vector<ReferenceReport> reports(blocks);
-    base::parallel_for({blocks, seconds_of(points)}, options_.threads, [&](std::size_t b) {
+    const std::size_t own = blocks > options_.rank ? (blocks - options_.rank - 1) / options_.ranks + 1 : 0;
+    std::vector<ReferenceReport> reports(own);
+    base::parallel_for({own, seconds_of(own * block_length_)}, options_.threads, [&](std::size_t i) {
+      const std::size_t b = options_.rank + i * options_.ranks;
       const std::size_t first = b * block_length_, count = std::min(block_length_, points - first);
       Block block = start(b, first, count);
       // In a steady flow X(0) of x at t is that of X(t_before - t) at t_before.
       const double from = options_.steady ? time - kept_until_ : time;
-      trace(block.state, count, from, reports[b]);
+      trace(block.state, count, from, reports[i]);
       values(block, count, rho.data() + first);
-      if (reports[b].untraced > 0) {
+      if (reports[i].untraced > 0) {
         const auto lost = std::find_if(rho.begin() + static_cast<std::ptrdiff_t>(first), rho.end(),
                                        [](double value) { return std::isnan(value); });
-        reports[b].first_untraced = place(static_cast<std::size_t>(lost - rho.begin()));
+        reports[i].first_untraced = place(static_cast<std::size_t>(lost - rho.begin()));
       }
       if (options_.steady) kept_[b] = std::move(block);
     });
     if (options_.steady) kept_until_ = time;
     return sum_of(reports);
   }
+
+  std::size_t together() const override { return block_length_; }
 
   // In a steady flow each output goes on from the feet of the one before.
   void pass(const std::vector<double>& times) override {

@@ -25,6 +25,8 @@ struct CharacteristicsOptions {
   const time::Tableau* steps_by = nullptr;  // a method of fixed steps of length `step` instead, on any path
   double step = 0;
   int threads = 0;
+  // evaluate() follows every `ranks`-th block of points from this one on, and leaves 0 for the others.
+  std::size_t rank = 0, ranks = 1;
 };
 
 /// rho(x, t) = rho_0(X(0)) exp(-int_0^t g(X(s), s) ds),  X' = u(X, s),  X(t) = x,  g = div u + u_0, traced backwards

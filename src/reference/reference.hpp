@@ -24,6 +24,9 @@ class Reference {
   /// Makes ready for the outputs after these, which another process has evaluated: the next ones then have the same
   /// bits as there.
   virtual void pass(const std::vector<double>& /*times*/) {}
+  /// Points that are followed together, in the order of their numbers: their values depend on each other in the last
+  /// digits, and on no others.
+  virtual std::size_t together() const { return 1; }
   /// As evaluate(), at some of the lattice points alone, rho[i] at points[i]; at any time.
   virtual ReferenceReport evaluate_at(double time, const std::vector<std::size_t>& points,
                                       std::vector<double>& rho) const = 0;

@@ -48,7 +48,9 @@ std::unique_ptr<Reference> make_reference(const Case& spec, const Scene& scene, 
                               .most_steps = following.most_steps > 0 ? following.most_steps : usual_most_steps(spec),
                               .steps_by = by_steps ? &tableau : nullptr,
                               .step = by_steps ? spec.time.step / 2 : 0,
-                              .threads = threads});
+                              .threads = threads,
+                              .rank = following.rank,
+                              .ranks = following.ranks});
     }
   }
   return nullptr;

@@ -13,8 +13,9 @@ namespace gaussdrift {
 
 /// How paths are followed back where their work is bounded.
 struct Following {
-  std::size_t most_steps = 0;  // of a path; 0: far more than any usual one takes
-  bool by_half_steps = false;  // by the method of the case with steps half as long, for paths through kinks
+  std::size_t most_steps = 0;       // of a path; 0: far more than any usual one takes
+  bool by_half_steps = false;       // by the method of the case with steps half as long, for paths through kinks
+  std::size_t rank = 0, ranks = 1;  // the share of the paths, see CharacteristicsOptions
 };
 
 /// The exact density that the case asks for, on the evaluation lattice; null for none. The scene must outlive it.

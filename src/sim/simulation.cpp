@@ -28,6 +28,7 @@
 #include "sim/outside.hpp"
 #include "sim/placement.hpp"
 #include "sim/scene.hpp"
+#include "sim/shared_reference.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
 #include "sim/tiled_density.hpp"
@@ -80,6 +81,10 @@ void pass(base::StateBytes& bytes, FrameNumbers& n) {
   static_assert(sizeof(FrameNumbers) == 152 + sizeof(std::string), "a number is not passed yet");
   bytes(n.mass, n.minimum, n.maximum, n.centroid, n.transform_error, n.transform_tolerance, n.evaluate_seconds,
         n.seconds, n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
+}
+
+void pass(base::StateBytes& bytes, Comparison& plan) {
+  bytes(plan.points, plan.following.most_steps, plan.following.by_half_steps, plan.word, plan.left_out);
 }
 
 void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& summary) {
@@ -169,6 +174,7 @@ class Simulation::Parts {
   void take_up_outputs(const ObserverStates& seen);
   std::size_t steps_to_end() const;
   std::vector<double> velocity_at_particles(double time) const;
+  void plan_reference();
   void check_density_seconds() const;
   Cutoff blob() const;
   void place(double from);
@@ -202,6 +208,7 @@ class Simulation::Parts {
   std::vector<double> landings_;
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
+  bool shares_reference_ = false;
   SeedReport seeding_;
   double seed_seconds_ = 0, mass_at_start_ = 0, beyond_at_start_ = 0;
   double largest_at_start_ = 0;  // of |rho_0| on the lattice
@@ -232,11 +239,25 @@ void Simulation::Parts::prepare() {
   ranks_.agree_on([&] { carrier_.begin(particles_, sample); });
   ranks_.agree_on([&] { velocity_at_particles(0); });
   check_density_seconds();
-  on_first([&] { compared_ = plan_comparison(case_, scene_, particle_count(), threads_); });
-  on_first([&] {
-    if (compared_.points > 0) reference_ = make_reference(case_, scene_, threads_, compared_.following);
-  });
+  plan_reference();
   stage_ = Stage::prepared;
+}
+
+// Paths are shared; a formula is quick on rank 0.
+void Simulation::Parts::plan_reference() {
+  on_first([&] { compared_ = plan_comparison(case_, scene_, particle_count(), threads_); });
+  base::StateBytes said;
+  pass(said, compared_);
+  const std::string told = told_by_first(said.written());
+  base::StateBytes heard(told);
+  pass(heard, compared_);
+  shares_reference_ = ranks_.size() > 1 && case_.reference.kind == ReferenceSpec::Kind::characteristics;
+  if (compared_.points == 0 || !(place_.is_first() || shares_reference_)) return;
+  Following following = compared_.following;
+  if (shares_reference_)
+    following.rank = static_cast<std::size_t>(ranks_.rank()), following.ranks = static_cast<std::size_t>(ranks_.size());
+  reference_ = make_reference(case_, scene_, threads_, following);
+  if (shares_reference_) reference_ = shared_reference(std::move(reference_), scene_.evaluation, ranks_);
 }
 
 std::size_t Simulation::Parts::particle_count() const { return place_.particle_count(); }
@@ -389,6 +410,13 @@ void Simulation::Parts::show_frame(double time) {
   frame.velocity = !velocity_wanted ? nullptr : elsewhere ? &all.second : &velocity;
   frame.density = &density;
   std::vector<double> exact;
+  const auto compare = [&] {
+    if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
+  };
+  if (shares_reference_)
+    compare();
+  else
+    on_first(compare);
   on_first([&] {
     const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
     frame.numbers.minimum = *low;
@@ -396,7 +424,6 @@ void Simulation::Parts::show_frame(double time) {
     frame.numbers.transform_error = report.measured_error;
     frame.numbers.transform_tolerance = report.requested_tolerance;
     frame.numbers.evaluate_seconds = report.evaluate_seconds;
-    if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
     frame.numbers.seconds = seconds_before_ + watch_.seconds();
   });
   tell_all(frame.numbers);
@@ -422,17 +449,20 @@ std::string Simulation::Parts::told_by_first(const std::string& text) const {
   return {letters.begin(), letters.end()};
 }
 
-// On the whole grid, or on a sample of it.
+// On the whole grid, or on a sample of it. The density is on rank 0, and so is what comes out.
 void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact) {
   ReferenceReport traced;
-  if (compared_.points >= density.rho.size()) {
+  if (compared_.points >= scene_.evaluation.size()) {
     traced = reference_->evaluate(frame.time, exact);
+    if (!place_.is_first()) return;
     frame.exact = &exact;
     frame.numbers.error = compare(density.rho, exact);
     frame.numbers.compared = density.rho.size();
   } else {
-    const GridSample sample = sample_of_grid(scene_.evaluation, density.rho, compared_.points);
+    GridSample sample;
+    if (place_.is_first()) sample = sample_of_grid(scene_.evaluation, density.rho, compared_.points);
     traced = reference_->evaluate_at(frame.time, sample.points, exact);
+    if (!place_.is_first()) return;
     frame.numbers.error = compare(density.rho, sample, exact);
     frame.numbers.compared = sample.points.size();
   }
@@ -500,16 +530,13 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes, ObserverStates& seen
   seconds_before_ = seconds;
 }
 
-// Observers and reference as they were after the outputs so far.
+// Observers as they were after the outputs so far.
 void Simulation::Parts::take_up_outputs(const ObserverStates& seen) {
   for (const auto& observer : observers) {
     const auto same =
         std::find_if(seen.begin(), seen.end(), [&](const auto& other) { return other.first == observer->name(); });
     observer->restore(summary_.frames, same == seen.end() ? std::string() : same->second);
   }
-  std::vector<double> times;
-  for (const auto& [time, numbers] : summary_.frames) times.push_back(time);
-  if (reference_ && compared_.points >= scene_.evaluation.size()) reference_->pass(times);
 }
 
 std::string Simulation::Parts::state() {
@@ -598,6 +625,12 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
       throw misfit(error.what());
     }
   });
+  std::vector<double> times;
+  for (const auto& [time, numbers] : summary_.frames) times.push_back(time);
+  if (compared_.points >= scene_.evaluation.size())
+    ranks_.agree_on([&] {
+      if (reference_) reference_->pass(times);
+    });
   steps_total_ = steps_to_end();
 }
 
