@@ -2,6 +2,7 @@
 /// Settings for an accuracy, and what to know about a run before and after it.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,11 @@ namespace gaussdrift {
 /// where no budget covers the case, or where the target cannot be met, naming the error that can.
 Case choose_settings(const Case& spec, int threads = 0);
 
-/// Throws InputError if the run of this case would take more memory than there is, naming both. It looks at a sample of
-/// the particles, and at nothing where the lattices are small. threads: 0 for all.
-void refuse_what_does_not_fit(const Case& spec, int threads = 0);
+/// Throws InputError if the run of this case would take more memory than there is, naming both: the memory of the
+/// machine, limits of the process and of its control group, and most_memory, in bytes. It looks at a sample of the
+/// particles, and at nothing where the lattices are small. threads: 0 for all.
+void refuse_what_does_not_fit(const Case& spec, int threads = 0,
+                              double most_memory = std::numeric_limits<double>::infinity());
 
 /// Facts about a finished run that its numbers do not show by themselves: blobs that no longer overlap, mass that left
 /// the domain, a tolerance that cannot be promised. Sentences for people; empty: none.

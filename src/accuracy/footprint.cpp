@@ -1,22 +1,26 @@
 #include "accuracy/footprint.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/sysinfo.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "accuracy/budget.hpp"
+#include "accuracy/memory_limits.hpp"
 #include "accuracy/trial.hpp"
+#include "accuracy/trial_times.hpp"
+#include "base/size_text.hpp"
 #include "effect/catalogue.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "render/picture_series.hpp"
 #include "render/styles.hpp"
+#include "sim/carrier.hpp"
+#include "sim/comparison.hpp"
 #include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
@@ -25,22 +29,43 @@ namespace {
 
 constexpr double number = 8;  // bytes
 constexpr std::size_t trial_particles = 100'000;
+// Measured with cases/doswell.toml of 57 000 to 910 000 particles, in bytes.
+constexpr double budget_of_particle = 550, most_of_budget = 5e7;
 
 bool in_space(const Case& spec) { return spec.domain.dimension == 3; }
 
-double limit_of(int resource) {
-  rlimit limit{};
-  if (getrlimit(static_cast<__rlimit_resource_t>(resource), &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-    return std::numeric_limits<double>::infinity();
-  return static_cast<double>(limit.rlim_cur);
+/// At one stage of a run.
+RunMemory operator+(const RunMemory& a, const RunMemory& b) {
+  return {a.particles + b.particles, a.grid + b.grid, a.pictures + b.pictures};
 }
 
-/// Of the group of processes that this one is put into (a container); nothing is limited where it says "max".
-double limit_of_group() {
-  double bytes = 0;
-  for (const char* file : {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"})
-    if (std::ifstream(file) >> bytes && bytes > 0) return bytes;
-  return std::numeric_limits<double>::infinity();
+/// What a kind of file takes while it is made: its share that grows with the particles, and the other.
+RunMemory memory_of_file(const write::FileKind& kind, const Extent& extent) {
+  Extent without = extent;
+  without.particles = 0;
+  const double all = kind.memory(extent), grid = kind.memory(without);
+  return {.particles = all - grid, .grid = grid};
+}
+
+bool changes_particles(const Case& spec) {
+  const auto all = effects_of(spec.effects);
+  return std::any_of(all.begin(), all.end(), [&](const auto& one) {
+    const EffectTraits& traits = one.first->traits;
+    return traits.adds_particles.of(one.second, spec.domain.dimension) ||
+           traits.replaces_particles.of(one.second, spec.domain.dimension);
+  });
+}
+
+/// The particles at most: those that effects add are found by steps of a part of them.
+double particles_at_most(const Case& spec, Trial& trial) {
+  if (!changes_particles(spec)) return trial.carried;
+  const double seeded = static_cast<double>(trial.particles.size()), each = trial.carried / seeded;
+  Particles particles = trial.particles;
+  Carrier carrier(trial.spec, trial.scene, 1);
+  carrier.begin(particles);
+  const double at_start =
+      with_halo(trial.carried, static_cast<double>(particles.size()) - seeded, each, spec.domain.dimension);
+  return carrier.replaces_particles() && spec.time.end > 0 ? at_start * grow(spec, trial).most : at_start;
 }
 
 }  // namespace
@@ -54,7 +79,7 @@ double disk_of_run(const Case& spec, const Extent& extent) {
   return bytes;
 }
 
-double memory_of_run(const Case& spec, const Extent& extent) {
+RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   const double n = extent.particles, m = extent.grid_points, d = spec.domain.dimension,
                frames = static_cast<double>(spec.output.times.size());
   EffectMemory effects;  // of all, a particle
@@ -67,48 +92,69 @@ double memory_of_run(const Case& spec, const Extent& extent) {
   const bool pictures = !spec.output.images.empty();
 
   // What stays: positions, weights, ids, integrals, volumes; a halo's and a remeshing's tables of nodes.
-  double particle = number * (d + 2 + effects.integrals + effects.columns);
-  double stays = n * particle + n * effects.kept;
+  const double particle = number * (d + 2 + effects.integrals + effects.columns);
+  RunMemory stays{.particles = n * particle + n * effects.kept};
   // The last output is kept for the error budget and the page.
-  const bool kept = spec.output.report || (spec.reference.kind != ReferenceSpec::Kind::none &&
-                                           spec.accuracy.budget != AccuracySpec::Budget::none);
-  const double copy = kept ? n * particle + m * number * (extent.compared_everywhere ? 2 : 1) : 0;
+  const bool explained =
+      spec.reference.kind != ReferenceSpec::Kind::none && spec.accuracy.budget != AccuracySpec::Budget::none;
+  const bool kept = spec.output.report || explained;
+  const RunMemory copy =
+      kept ? RunMemory{.particles = n * particle, .grid = m * number * (extent.compared_everywhere ? 2 : 1)}
+           : RunMemory{};
   if (pictures)
-    stays +=
+    stays.pictures =
         std::min(frames * std::min(m, in_space(spec) ? 2.1e6 : m) * 4, static_cast<double>(render::most_kept_bytes));
 
   // Lines of the lattice are seeded one by one and joined.
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));
-  const double seed = 2 * n * particle + 450 * lines;
-  double step = stays + 2 * n * number * (d + effects.integrals) + n * effects.step;
+  const RunMemory seed{.particles = 2 * n * particle + 450 * lines},
+      step = stays + RunMemory{.particles = 2 * n * number * (d + effects.integrals) + n * effects.step};
 
   // The transform holds the points sorted, with its boxes; in space boxes have more neighbours.
-  const double density = stays + n * number * (in_space(spec) ? 20 : 11) + m * number * (in_space(spec) ? 4.5 : 3);
+  const RunMemory density = stays + RunMemory{.particles = n * number * (in_space(spec) ? 20 : 11),
+                                              .grid = m * number * (in_space(spec) ? 4.5 : 3)};
   // An output: density, velocity at the particles, exact density with the feet of its paths.
   const bool traced = spec.reference.kind == ReferenceSpec::Kind::characteristics && extent.compared_everywhere;
-  const double shown =
-      stays + m * number + n * number * d + (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0);
-  double output = shown + n * number * d;
+  const RunMemory shown =
+      stays +
+      RunMemory{.particles = n * number * d,
+                .grid = m * number + (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0)};
+  const auto larger = [](const RunMemory& a, const RunMemory& b) { return a.all() < b.all() ? b : a; };
+  RunMemory output = shown + RunMemory{.particles = n * number * d};
   for (const OutputFile& file : spec.output.files)
-    output = std::max(output, shown + write::find_output_file(file.name).memory(extent));
-  if (pictures) output = std::max(output, shown) + m * number;
+    output = larger(output, shown + memory_of_file(write::find_output_file(file.name), extent));
+  if (pictures) output = output + RunMemory{.grid = m * number};
+  // The error budget carries particles near a few probes once more, within a share of the run's work.
+  const RunMemory budget =
+      stays + copy + RunMemory{.particles = explained ? std::min(most_of_budget, budget_of_particle * n) : 0};
   // The drawing library stays once it has drawn.
-  const double drawing = pictures ? 1.4e8 : 0;
-  return drawing + std::max({seed, step, density + copy, output + copy});
+  const RunMemory drawing{.pictures = pictures ? 1.4e8 : 0};
+  return drawing + larger(larger(larger(seed, step), budget), larger(density + copy, output + copy));
 }
 
-double memory_of_this_process() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+std::string what_memory_is_for(const RunMemory& run, double program, const Extent& extent) {
+  std::vector<std::pair<double, std::string>> parts{
+      {run.particles, fmt::format("for {:.3g} particles", extent.particles)},
+      {run.grid, fmt::format("for {:.3g} grid points", extent.grid_points)},
+      {run.pictures, "for pictures"},
+      {program, "for the program"}};
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (const auto& [bytes, what] : parts)
+    if (bytes > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", base::size_text(bytes), what);
+  return text;
 }
 
-double memory_of_this_machine() {
-  struct sysinfo machine {};
-  double bytes = std::numeric_limits<double>::infinity();
-  if (sysinfo(&machine) == 0)
-    bytes = (static_cast<double>(machine.totalram) + static_cast<double>(machine.totalswap)) * machine.mem_unit;
-  return std::min({bytes, limit_of(RLIMIT_AS), limit_of(RLIMIT_DATA), limit_of_group()});
+std::string how_to_lower(const RunMemory& run, double program) {
+  if (run.all() < 0.1 * program) return "allow more memory: the program itself needs nearly all of it";
+  std::vector<std::pair<double, std::string_view>> keys{{run.particles, "lower particles.per_axis"},
+                                                        {run.grid, "lower evaluate.per_axis"},
+                                                        {run.pictures, "set output.images = []"}};
+  std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (const auto& [bytes, key] : keys)
+    if (bytes > 0.1 * run.all()) text += fmt::format("{}{}", text.empty() ? "" : ", or ", key);
+  return text;
 }
 
 }  // namespace gaussdrift::accuracy
@@ -117,28 +163,32 @@ namespace gaussdrift {
 
 using namespace accuracy;  // this is the public face of that module
 
-void refuse_what_does_not_fit(const Case& spec, int threads) {
+void refuse_what_does_not_fit(const Case& spec, int threads, double most_memory) {
   const Domain& domain = spec.domain;
   const auto lattice =
       static_cast<double>(make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis).size());
   Extent extent{.lattice_points = lattice,
-                .particles = lattice,
+                .particles = lattice * (changes_particles(spec) ? 2 : 1),
                 .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
                 .compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none};
-  const double there = memory_of_this_machine(), before = memory_of_this_process();
-  if (before + memory_of_run(spec, extent) < there) return;
+  const auto fits = [&](const MemoryLimit& limit) { return memory_of_run(spec, extent).all() < limit.left(); };
+  if (fits(tightest_limit(most_memory))) return;
   try {
-    extent.particles = make_trial(spec, trial_particles, threads).carried;
+    Trial trial = make_trial(spec, trial_particles, threads);
+    extent.compared_everywhere =
+        plan_comparison(spec, trial.scene, static_cast<std::size_t>(trial.carried), threads).points >=
+        trial.scene.evaluation.size();
+    extent.particles = particles_at_most(spec, trial);
   } catch (const InputError&) {
     extent.particles = 0;  // a density that a sample does not meet has few; the grid may be large all the same
   }
-  const double needed = before + memory_of_run(spec, extent);
-  if (needed < there) return;
-  throw InputError(fmt::format(
-      "the run would take about {:.3g} GB of memory for {:.3g} particles and {:.3g} grid points, and there are {:.3g} "
-      "GB; lower {}",
-      needed / 1e9, extent.particles, extent.grid_points, there / 1e9,
-      extent.particles > extent.grid_points ? "particles.per_axis" : "evaluate.per_axis"));
+  const MemoryLimit limit = tightest_limit(most_memory);
+  if (fits(limit)) return;
+  const RunMemory run = memory_of_run(spec, extent);
+  const double program = memory_of_this_process();
+  throw InputError(fmt::format("the run would take about {} of memory, and {} {}: {}; {}",
+                               base::size_text(run.all() + program), limit.who, base::size_text(limit.bytes),
+                               what_memory_is_for(run, program, extent), how_to_lower(run, program)));
 }
 
 }  // namespace gaussdrift

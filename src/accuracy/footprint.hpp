@@ -1,7 +1,7 @@
-// The memory and disk space of a run, estimated from its numbers alone, and the memory of this machine.
+// The memory and disk space of a run, estimated from its numbers alone.
 #pragma once
 
-#include <cstddef>
+#include <string>
 
 #include "gaussdrift/case.hpp"
 #include "write/output_files.hpp"
@@ -10,17 +10,24 @@ namespace gaussdrift::accuracy {
 
 using write::Extent;
 
-/// Bytes that a run takes beyond those of the program and the data of the case: the most of its stages. Measured over
-/// the cases and sizes of tests/program/footprint_test.cpp: right within a factor of 1.3 for what is above 20 MB.
-double memory_of_run(const Case& spec, const Extent& extent);
+/// Bytes that a run takes beyond those of the program and the data of the case, when it takes most: by what they grow
+/// with.
+struct RunMemory {
+  double particles = 0, grid = 0, pictures = 0;
+
+  double all() const { return particles + grid + pictures; }
+};
+
+/// Measured over the cases and sizes of tests/program/footprint_test.cpp: with the program right within a factor of 1.3
+/// for what is above 20 MB.
+RunMemory memory_of_run(const Case& spec, const Extent& extent);
+
+/// "3.9 GB for 2.65e+08 particles, 80 MB for the program". program: bytes that it takes itself.
+std::string what_memory_is_for(const RunMemory& run, double program, const Extent& extent);
+/// "lower particles.per_axis, or set output.images = []".
+std::string how_to_lower(const RunMemory& run, double program);
 
 /// Bytes of all files of a run.
 double disk_of_run(const Case& spec, const Extent& extent);
-
-/// Bytes that this process holds, or has held.
-double memory_of_this_process();
-
-/// Bytes that a process may hold here: of the machine, or of the limits that are set for it.
-double memory_of_this_machine();
 
 }  // namespace gaussdrift::accuracy

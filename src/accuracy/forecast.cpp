@@ -196,9 +196,8 @@ void try_steps(const Case& spec, Trial& trial, int threads, Forecast& result) {
     if (const std::string warning = effect->warning(); !warning.empty()) result.effect_warnings.push_back(warning);
   const Carrier as_written(spec, trial.scene, threads);
   for (const auto& effect : as_written.effects()) result.effects.push_back(effect->describe());
-  // A halo lies around the particles: like their surface.
-  const double halo = static_cast<double>(particles.size()) - seeded;
-  result.particles_at_end = trial.carried + halo * std::pow(each, 1 - 1 / static_cast<double>(spec.domain.dimension));
+  result.particles_at_end =
+      with_halo(trial.carried, static_cast<double>(particles.size()) - seeded, each, spec.domain.dimension);
   result.particles_at_most = result.particles_at_end;
   const double times = result.particles_at_end / static_cast<double>(particles.size());
   const bool drifts = particles_interact(spec.effects);
@@ -255,7 +254,7 @@ void describe_trial(const Case& spec, const Trial& trial, Forecast& result) {
 }
 
 /// Seconds of pictures and report, and the sums of all that was timed.
-void add_up(const Case& spec, const Extent& extent, Forecast& result) {
+void add_up(const Case& spec, const Extent& extent, double most_memory, Forecast& result) {
   const auto frames = static_cast<double>(result.frames);
   result.picture_seconds = seconds_of_pictures(spec, result.grid_points, redrawn(spec, result));
   const double run = result.seed_seconds + static_cast<double>(result.steps) * result.step_seconds +
@@ -265,20 +264,21 @@ void add_up(const Case& spec, const Extent& extent, Forecast& result) {
   result.seconds = run + result.report_seconds;
   Extent largest = extent;
   largest.particles = result.particles_at_most;
-  result.memory_bytes += memory_of_run(spec, largest);
-  result.memory_there = memory_of_this_machine();
+  result.memory = memory_of_run(spec, largest);
+  result.memory_limit = tightest_limit(most_memory);
   result.disk_bytes = disk_of_run(spec, extent);
 }
 
 }  // namespace
 
-Forecast forecast(const Case& spec, int asked_threads, const std::function<void(const std::string&)>& doing) {
+Forecast forecast(const Case& spec, int asked_threads, const std::function<void(const std::string&)>& doing,
+                  double most_memory) {
   const auto now = [&](const char* what) {
     if (doing) doing(what);
   };
   Forecast result;
   const int threads = result.threads = base::resolve_threads(asked_threads);
-  result.memory_bytes = memory_of_this_process();
+  result.program_bytes = memory_of_this_process();
   now("counting particles");
   const ProcessorClock counting;
   Trial trial = make_trial(spec, spec.evaluate.method == "auto" ? most_particles : most_with_method, 1);
@@ -312,7 +312,7 @@ Forecast forecast(const Case& spec, int asked_threads, const std::function<void(
                       .grid_points = static_cast<double>(result.grid_points),
                       .compared_everywhere = plan.points > 0 && plan.points >= result.grid_points};
   result.file_seconds = time_files(spec, trial, extent);
-  add_up(spec, extent, result);
+  add_up(spec, extent, most_memory, result);
   return result;
 }
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "accuracy/budget.hpp"
+#include "accuracy/footprint.hpp"
+#include "accuracy/memory_limits.hpp"
 #include "gaussdrift/case.hpp"
 #include "sim/transform.hpp"
 #include "sim/work.hpp"
@@ -43,15 +45,21 @@ struct Forecast {
   double particles_at_end = 0;  // with those that diffusion and remeshing add, on the mean of the run
   double particles_at_most = 0;
   std::size_t tried_in_steps = 0;  // particles whose steps were timed
-  double memory_bytes = 0, disk_bytes = 0, memory_there = 0;
+  RunMemory memory;                // beside the program
+  double program_bytes = 0;        // that the program itself takes
+  double disk_bytes = 0;
+  MemoryLimit memory_limit;
   int threads = 1;
   Budget budget;  // predicted
+
+  double memory_bytes() const { return memory.all() + program_bytes; }
 };
 
 /// Throws what a run would throw before its first step: NumericalError for a density or velocity that is not finite at
 /// the sampled places, InputError where nothing carries weight. Takes about two seconds and 100 MB at most, whatever
-/// the case: what is larger is sampled or left out. `doing` is told what comes next.
-Forecast forecast(const Case& spec, int threads, const std::function<void(const std::string&)>& doing = {});
+/// the case: what is larger is sampled or left out. `doing` is told what comes next. most_memory: --memory, in bytes.
+Forecast forecast(const Case& spec, int threads, const std::function<void(const std::string&)>& doing = {},
+                  double most_memory = no_limit);
 
 /// The lines that `gaussdrift check` prints.
 std::string to_text(const Case& spec, const Forecast& forecast);

@@ -4,18 +4,13 @@
 
 #include "accuracy/forecast.hpp"
 #include "accuracy/grouped.hpp"
+#include "base/size_text.hpp"
 #include "reference/reference.hpp"
 #include "sim/outside.hpp"
 
 namespace gaussdrift::accuracy {
 
 namespace {
-
-std::string bytes_text(double bytes) {
-  if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
-  if (bytes < 1e9) return fmt::format("{:.3g} MB", bytes / 1e6);
-  return fmt::format("{:.3g} GB", bytes / 1e9);
-}
 
 std::string effects_text(const std::vector<std::string>& effects) {
   if (effects.empty()) return "transport only";
@@ -87,12 +82,14 @@ std::string cost_text(const Forecast& r) {
       "{:.2g}, reference {:.2g}, files {:.2g}, pictures {:.2g}, report {:.2g}); memory {}; disk {}\n",
       grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads, r.seed_seconds,
       static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
-      r.reference_seconds, r.file_seconds, r.picture_seconds, r.report_seconds, bytes_text(r.memory_bytes),
-      bytes_text(r.disk_bytes));
-  if (r.memory_bytes >= r.memory_there)
-    text += fmt::format("           this machine has {} of memory, so `run` refuses this case: lower {}\n",
-                        bytes_text(r.memory_there),
-                        r.particles > r.grid_points ? "particles.per_axis" : "evaluate.per_axis");
+      r.reference_seconds, r.file_seconds, r.picture_seconds, r.report_seconds, base::size_text(r.memory_bytes()),
+      base::size_text(r.disk_bytes));
+  if (r.memory.all() >= r.memory_limit.left()) {
+    const Extent extent{.particles = r.particles_at_most, .grid_points = static_cast<double>(r.grid_points)};
+    text += fmt::format("           {} {} of memory, so `run` refuses this case: {}; {}\n", r.memory_limit.who,
+                        base::size_text(r.memory_limit.bytes), what_memory_is_for(r.memory, r.program_bytes, extent),
+                        how_to_lower(r.memory, r.program_bytes));
+  }
   return text;
 }
 
@@ -119,7 +116,7 @@ nlohmann::ordered_json predicted_json(const Forecast& r) {
           {"file_seconds", r.file_seconds},
           {"picture_seconds", r.picture_seconds},
           {"report_seconds", r.report_seconds},
-          {"memory_bytes", r.memory_bytes},
+          {"memory_bytes", r.memory_bytes()},
           {"disk_bytes", r.disk_bytes},
           {"threads", r.threads}};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -40,6 +41,12 @@ struct Growth {
   double mean = 1, most = 1;  // numbers of particles to that at the start
 };
 Growth grow(const Case& spec, Trial& trial);
+
+/// All particles, with those that an effect puts around them before the first step. They lie like a surface. halo: how
+/// many there are around a sample of particles, each of which stands for `each`.
+inline double with_halo(double carried, double halo, double each, int dimension) {
+  return carried + halo * std::pow(each, 1 - 1 / static_cast<double>(dimension));
+}
 
 /// Steps that a method will choose, and seconds a step on one thread, from a trial that stops after an amount of work
 /// and is extrapolated.

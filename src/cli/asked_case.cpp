@@ -1,8 +1,14 @@
 #include "cli/asked_case.hpp"
 
+#include <fmt/format.h>
+
+#include "accuracy/memory_limits.hpp"
 #include "accuracy/target.hpp"
+#include "base/printable.hpp"
+#include "base/size_text.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
+#include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
 
 namespace gaussdrift::cli {
@@ -13,8 +19,20 @@ void declare_case(OptionList& options, CaseOptions& given) {
       .repeatable();
   options.add("--accuracy", given.accuracy, "X",
               "error that you accept at the end, relative to the largest density. Settings are chosen for it");
+  declare_memory(options, given.memory);
   options.threads(given.threads);
   options.json(given.json);
+}
+
+void declare_memory(OptionList& options, std::string& value) {
+  options.add("--memory", value, "SIZE",
+              "refuse what is predicted to take more memory (\"2 GiB\", \"500 MB\"); by default what there is");
+}
+
+double most_memory(const std::string& value) {
+  if (value.empty()) return accuracy::no_limit;
+  if (const auto bytes = base::read_size(value)) return *bytes;
+  throw CommandLineError(fmt::format("--memory {} is no size; give {}", base::in_quotes(value), base::size_form));
 }
 
 Case read(const CaseOptions& options) {

@@ -16,10 +16,16 @@ struct CaseOptions {
   std::vector<std::string> overrides{};  // --set key=value
   std::string accuracy{};                // --accuracy, as accuracy.target; empty: as the case says
   int threads = 0;                       // 0: all
+  std::string memory{};                  // --memory; empty: no other limit than those that are there
   bool json = false;                     // results as JSON on stdout
 };
 
 void declare_case(OptionList& options, CaseOptions& given);
+
+/// --memory, for verbs that take much.
+void declare_memory(OptionList& options, std::string& value);
+/// What it was given, in bytes; infinity where it was not. Throws CommandLineError.
+double most_memory(const std::string& value);
 
 /// The file with its overrides. Its warnings are told.
 Case read(const CaseOptions& options);

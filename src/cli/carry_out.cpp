@@ -99,7 +99,7 @@ class Run {
   explicit Run(RunTask& task) : task_(task), spec_(task.spec), folder_(task.folder), stop_(task.stop_after) {}
 
   void simulate() {
-    refuse_what_does_not_fit(spec_, task_.threads);
+    refuse_what_does_not_fit(spec_, task_.threads, task_.most_memory);
     Simulation simulation(spec_, task_.threads);
     simulation.prepare();  // what cannot begin must not cost an earlier run
     prepare_folder(simulation);

@@ -16,13 +16,14 @@ struct RunTask {
   Case asked;  // as it was asked for: its target is told beside what was achieved
   Case spec;   // with the settings that count
   std::filesystem::path folder;
-  std::string command;                                          // as it was typed, for provenance.json
-  bool force = false;                                           // replace an earlier run in the folder
-  bool json = false;                                            // results as JSON on standard output
-  int threads = 0;                                              // 0: all
-  double stop_after = std::numeric_limits<double>::infinity();  // seconds
-  std::optional<write::Checkpoint> from{};                      // go on from there
-  bool changed = false;                                         // going on: the case is another than before
+  std::string command;                                           // as it was typed, for provenance.json
+  bool force = false;                                            // replace an earlier run in the folder
+  bool json = false;                                             // results as JSON on standard output
+  int threads = 0;                                               // 0: all
+  double stop_after = std::numeric_limits<double>::infinity();   // seconds
+  double most_memory = std::numeric_limits<double>::infinity();  // bytes; what would take more is refused
+  std::optional<write::Checkpoint> from{};                       // go on from there
+  bool changed = false;                                          // going on: the case is another than before
 };
 
 /// The hash of all that the particles of a case depend on: settings and the bytes of its data. Throws FileError.

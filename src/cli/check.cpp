@@ -10,11 +10,13 @@ namespace gaussdrift::cli {
 namespace {
 
 ExitCode check(const CaseOptions& options) {
+  const double memory = most_memory(options.memory);
   const Case spec = settled(read(options), options);
   accuracy::Forecast forecast;
   {
     ProgressLine line(1);
-    forecast = accuracy::forecast(spec, options.threads, [&](const std::string& what) { line.show("check: " + what); });
+    forecast = accuracy::forecast(
+        spec, options.threads, [&](const std::string& what) { line.show("check: " + what); }, memory);
   }
   say("{}", options.json ? accuracy::to_json(spec, forecast) : accuracy::to_text(spec, forecast));
   return ExitCode::ok;

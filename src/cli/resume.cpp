@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/text_file.hpp"
+#include "cli/asked_case.hpp"
 #include "cli/carry_out.hpp"
 #include "cli/outputs_of.hpp"
 #include "cli/stop_request.hpp"
@@ -30,6 +31,7 @@ struct ResumeOptions {
   std::optional<double> until{};         // a new time.end
   std::vector<std::string> overrides{};  // --set key=value
   std::string stop_after{};              // a length of time; empty: never
+  std::string memory{};                  // --memory
   int threads = 0;                       // 0: all
   bool json = false;                     // results as JSON on standard output
   std::string command{};                 // as it was typed
@@ -43,6 +45,7 @@ void declare(OptionList& options, ResumeOptions& given) {
            "change a key that does not change the past, such as output.times. Repeatable")
       .repeatable();
   declare_stop_after(options, given.stop_after);
+  declare_memory(options, given.memory);
   options.threads(given.threads);
   options.json(given.json);
 }
@@ -112,6 +115,7 @@ bool lacks_its_end(const fs::path& folder) {
 ExitCode resume(const ResumeOptions& options) {
   RunTask task;
   task.stop_after = stop_after_seconds(options.stop_after);
+  task.most_memory = most_memory(options.memory);
   const Case before = case_in(options.folder, {}, options.threads);
   const bool times_set = std::any_of(options.overrides.begin(), options.overrides.end(), [](const std::string& set) {
     return set.starts_with("output.times") || set.starts_with("output.frames");

@@ -29,6 +29,7 @@ ExitCode run(const RunOptions& options) {
                     "a run leaves a folder with ParaView files (density.pvd), pictures (PNG) and tables (CSV)");
   RunTask task;
   task.stop_after = stop_after_seconds(options.stop_after);
+  task.most_memory = most_memory(options.case_options.memory);
   task.asked = read(options.case_options);
   task.spec = settled(task.asked, options.case_options);
   task.folder = options.folder.empty() ? std::filesystem::path("output") / task.spec.name : options.folder;

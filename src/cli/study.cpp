@@ -82,6 +82,7 @@ ExitCode study(const StudyVerbOptions& options) {
   wanted.repeats = options.repeats;
   wanted.seconds = options.seconds;
   wanted.threads = options.case_options.threads;
+  wanted.most_memory = most_memory(options.case_options.memory);
   for (const std::string& text : options.vary) wanted.vary.push_back(study::parse_variation(text));
   const fs::path folder = options.folder.empty()
                               ? fs::path("output") / ("study_" + options.case_options.file.stem().string())

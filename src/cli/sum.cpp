@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "accuracy/footprint.hpp"
+#include "accuracy/memory_limits.hpp"
 #include "base/stopwatch.hpp"
 #include "base/suggest.hpp"
+#include "cli/asked_case.hpp"
 #include "cli/output_name.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -39,6 +40,7 @@ struct SumOptions {
   std::string method = "auto";
   std::optional<double> seconds;  // most that may be predicted; by default 300 for a method that is named
   fs::path out;                   // empty or "-": standard output
+  std::string memory;             // --memory; empty: at most 8 GB
   int threads = 0;                // 0: all
   bool json = false;              // what was chosen as JSON on stdout
 };
@@ -66,6 +68,7 @@ void declare(OptionList& options, SumOptions& given) {
   options.add("--kernel", given.kernel, "NAME",
               "gauss (the default), coulomb (2D, 3D) or log (1D, 2D). The last two give potential and field");
   options.add("--out", given.out, "FILE", "file for the values. By default, or as -, standard output");
+  declare_memory(options, given.memory);
   options.threads(given.threads);
   options.json(given.json, "what was chosen and what it cost, as JSON on standard output. Needs --out");
 }
@@ -182,9 +185,9 @@ double read_points(const SumOptions& options, sum::PointsRequest& request) {
   request.tell = [](const std::string& what) { note("{}\n", what); };
   if (!options.grid.empty()) request.grid = sum::parse_grid(options.grid);
   const input::CoordinateNames coordinates = sum::parse_columns(options.columns);
-  // Nearly all of the memory of the machine or of a limit; the rest is for the program.
-  request.memory_limit = static_cast<std::size_t>(
-      std::min(static_cast<double>(request.memory_limit), 0.9 * accuracy::memory_of_this_machine()));
+  // Nearly all that a limit leaves; the rest is for the program.
+  const double left = std::max(0.0, 0.9 * accuracy::tightest_limit(most_memory(options.memory)).left());
+  request.memory_limit = static_cast<std::size_t>(std::min(static_cast<double>(request.memory_limit), left));
   const base::Stopwatch reading;
   const auto read = [&](const fs::path& file, input::PointsRole role) {
     input::PointsTable table = input::read_points_table(file, role, request.memory_limit, coordinates);

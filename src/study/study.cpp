@@ -106,7 +106,7 @@ Sample measure_run(const Case& spec, const StudyOptions& options) {
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
   bare.checks.clear();
   try {
-    refuse_what_does_not_fit(bare, options.threads);
+    refuse_what_does_not_fit(bare, options.threads, options.most_memory);
     base::RepeatedTime seconds;
     std::string left_out;  // why there is no error
     // Where no two agree the machine is busy with other work: some more, to meet a quiet moment.
@@ -186,7 +186,7 @@ namespace {
 
 /// All standard studies that go with the case.
 void make_standard_studies(const Case& spec, const StudyOptions& options, Study& study) {
-  refuse_what_does_not_fit(spec, options.threads);
+  refuse_what_does_not_fit(spec, options.threads, options.most_memory);
   const bool exact = spec.reference.kind != ReferenceSpec::Kind::none;
   for (const StandardStudy& standard : standard_studies()) {
     if (standard.compares_density && !exact) continue;

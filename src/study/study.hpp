@@ -56,6 +56,7 @@ struct StudyOptions {
   int repeats = 3;              // of cheap runs, after one to warm up; the fastest counts
   double seconds = 90;          // about what the standard studies may take
   int threads = 0;
+  double most_memory = std::numeric_limits<double>::infinity();  // bytes; what would take more is refused
   std::function<void(const std::string&)> progress{};
   std::function<void(const Experiment&)>
       table_grew{};  // by a sample, or several; for tables that survive an interruption

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/size_text.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -24,17 +25,25 @@ constexpr bool sanitized = false;
 struct Measured {
   int exit_code = -1;
   double peak = 0;  // bytes
-  std::string out;
+  std::string out, err;
 };
+
+/// Bytes of "... would take about 1.2 GB of memory ...".
+double size_in(const std::string& message) {
+  const std::string before = "would take about ";
+  const auto begin = message.find(before), end = message.find(" of memory");
+  if (begin == std::string::npos || end == std::string::npos) return 0;
+  return base::read_size(message.substr(begin + before.size(), end - begin - before.size())).value_or(0);
+}
 
 Measured measured(const ScratchFolder& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), PROGRAM);
-  const fs::path out = folder / "stdout.txt";
+  const fs::path out = folder / "stdout.txt", err = folder / "stderr.txt";
   const pid_t child = fork();
   if (child == 0) {
     const int to = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     dup2(to, STDOUT_FILENO);
-    dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     if (chdir(folder.path().c_str()) != 0) _exit(127);
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -45,7 +54,8 @@ Measured measured(const ScratchFolder& folder, std::vector<std::string> argument
   int status = 0;
   rusage usage{};
   wait4(child, &status, 0, &usage);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1024.0 * static_cast<double>(usage.ru_maxrss), read_file(out)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1024.0 * static_cast<double>(usage.ru_maxrss), read_file(out),
+          read_file(err)};
 }
 
 /// A small bump that is carried to the right, in two steps.
@@ -88,6 +98,13 @@ TEST_P(Footprint, IsPredictedWithinAFactorOf1Point3) {
   EXPECT_LT(told / taken.peak, 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
   EXPECT_GT(told / taken.peak, 1 / 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
   EXPECT_LT(predicted.peak, 200e6);
+  // What the run itself says where it is refused; it looks at less.
+  run.insert(run.end(), {"--force", "--memory", "1 MB"});
+  const Measured refused = measured(folder, run);
+  ASSERT_EQ(refused.exit_code, 3);
+  const double said = size_in(refused.err);
+  EXPECT_GT(said / taken.peak, 0.8) << said / 1e6 << " MB said, " << taken.peak / 1e6 << " MB taken";
+  EXPECT_LT(said / taken.peak, 2) << said / 1e6 << " MB said, " << taken.peak / 1e6 << " MB taken";
   // Beside the small files of a run, which are not counted to the byte.
   double files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "r"))
@@ -135,7 +152,10 @@ TEST(Check, OfAnAbsurdCaseTakesMegabytesAndTheRunIsRefusedBeforeItBegins) {
     const Outcome refused = gaussdrift_in(folder, verb + " c.toml --set particles.per_axis=15000", limit);
     EXPECT_EQ(refused.exit_code, 3) << verb;
     EXPECT_NE(refused.err.find("the run would take about"), std::string::npos) << refused.err;
-    EXPECT_NE(refused.err.find("there are 3.07 GB; lower particles.per_axis"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find(sanitized ? "(ulimit -d) allows 3.07 GB: " : "(ulimit -v) allows 3.07 GB: "),
+              std::string::npos)
+        << refused.err;
+    EXPECT_NE(refused.err.find("; lower particles.per_axis"), std::string::npos) << refused.err;
     EXPECT_FALSE(fs::exists(folder / "output"));
   }
 }

@@ -293,9 +293,7 @@ TEST(Run, RefusesWhatDoesNotFitInMemory) {
   write_file(folder / "small.toml", small_case);
   const Outcome refused = gaussdrift_in(folder, "run small.toml --set evaluate.per_axis=46000");
   EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_NE(refused.err.find("the run would take about 271 GB of memory for 170 particles and 2.12e+09 grid points"),
-            std::string::npos)
-      << refused.err;
+  EXPECT_NE(refused.err.find(" GB for 2.12e+09 grid points, "), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find("lower evaluate.per_axis"), std::string::npos) << refused.err;
 }
 
