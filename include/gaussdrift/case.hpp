@@ -135,7 +135,7 @@ struct OutputFile {
   std::string_view name;        ///< in a case, of the files, and of the folder that they lie in
   std::string_view meaning;     ///< one line
   bool by_default = false;      ///< written where a case does not say which
-  bool needs_velocity = false;  ///< at the particles
+  bool needs_velocity = false;  ///< the particles, with the velocity there
   bool shows_density = false;   ///< and the exact one, where that is known at all points of the grid
 };
 

@@ -40,7 +40,7 @@ struct FrameNumbers {
 struct Frame {
   int index = 0;                         ///< 0 for the first output
   double time = 0;                       ///< of the scene
-  const Particles* particles = nullptr;  ///< never null
+  const Particles* particles = nullptr;  ///< never null; see Observer::needs_particles()
   /// u(X_j, t) [j][dimension]; only if files that the case names need it, else null
   const std::vector<double>* velocity = nullptr;
   const DensityGrid* density = nullptr;  ///< never null
@@ -55,6 +55,9 @@ class Observer {
   virtual ~Observer() = default;
   /// Names the stage in RunSummary::stages.
   virtual std::string name() const = 0;
+  /// Whether frame() looks at the particles of the output at this time. Where several ranks share a run, particles and
+  /// their velocities are brought together for it alone; else the frame has those of rank 0.
+  virtual bool needs_particles(double /*time*/) const { return true; }
   /// Called once for each output time, in their order, on the thread of run().
   virtual void frame(const Frame& frame) = 0;
   /// Bytes that restore() needs, beside what is known of the outputs.

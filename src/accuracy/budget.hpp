@@ -78,6 +78,7 @@ class LastFrame : public Observer {
   };
   explicit LastFrame(Kept& kept, double last_time) : kept_(kept), last_(last_time) {}
   std::string name() const override { return "error budget"; }
+  bool needs_particles(double time) const override { return time == last_; }
   void frame(const Frame& frame) override;
 
  private:

@@ -58,6 +58,7 @@ class PictureSeries : public Observer {
     options_.title = std::move(title);
   }
   std::string name() const override { return "pictures"; }
+  bool needs_particles(double /*time*/) const override { return false; }
 
   void frame(const Frame& frame) override {
     times_.resize(static_cast<std::size_t>(frame.index));

@@ -188,6 +188,7 @@ class Simulation::Parts {
   }
   bool carry();
   void show_frame(double time);
+  bool somebody_needs_particles(double time) const;
   void tell_all(FrameNumbers& numbers) const;
   std::string told_by_first(const std::string& text) const;
   void compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
@@ -403,7 +404,7 @@ void Simulation::Parts::show_frame(double time) {
   frame.time = time;
   frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
   if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
-  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && velocity_wanted;
+  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && somebody_needs_particles(time);
   std::pair<Particles, std::vector<double>> all;
   if (elsewhere) all = gathered(particles_, velocity, ranks_);
   frame.particles = elsewhere ? &all.first : &particles_;
@@ -431,6 +432,13 @@ void Simulation::Parts::show_frame(double time) {
   on_first([&] {
     for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
   });
+}
+
+bool Simulation::Parts::somebody_needs_particles(double time) const {
+  std::int64_t needed = std::any_of(observers.begin(), observers.end(),
+                                    [&](const auto& observer) { return observer->needs_particles(time); });
+  ranks_.max(std::span(&needed, 1));
+  return needed != 0;
 }
 
 // All ranks know what is known of the outputs, and judge the run alike.

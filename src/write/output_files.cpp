@@ -34,6 +34,7 @@ class FileSeries : public Observer {
   FileSeries(const FileKind& kind, const fs::path& folder)
       : kind_(kind), folder_(folder / kind.about.name), collection_(folder / fmt::format("{}.pvd", kind.about.name)) {}
   std::string name() const override { return fmt::format("write {}", kind_.about.name); }
+  bool needs_particles(double /*time*/) const override { return kind_.about.needs_velocity; }
   void frame(const Frame& frame) override {
     const fs::path file = file_of(static_cast<std::size_t>(frame.index));
     write_text(file, kind_.text(file, frame));

@@ -270,6 +270,7 @@ class RunFolder::Watch : public Observer {
  public:
   explicit Watch(RunFolder& folder) : folder_(folder) {}
   std::string name() const override { return "write status"; }
+  bool needs_particles(double /*time*/) const override { return false; }
   void frame(const Frame& frame) override { folder_.seen(frame.time); }
   /// A run that was killed may have written outputs after its checkpoint. They are written again, and count once.
   void restore(const std::vector<std::pair<double, FrameNumbers>>& frames, const std::string& /*state*/) override {

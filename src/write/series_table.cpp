@@ -19,6 +19,7 @@ class SeriesTable : public Observer {
   SeriesTable(const fs::path& folder, int dimension, bool errors)
       : text_(folder / series_name), dimension_(dimension), errors_(errors) {}
   std::string name() const override { return "write series"; }
+  bool needs_particles(double /*time*/) const override { return false; }
   void frame(const Frame& frame) override {
     if (begun_)
       text_.append(row(frame.time, frame.numbers));
