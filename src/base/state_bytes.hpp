@@ -40,6 +40,12 @@ class StateBytes {
   void pass(Value& value) requires std::is_trivially_copyable_v<Value> {
     raw(&value, sizeof value);
   }
+  void pass(bool& value) {  // any other byte is no bool, and reading it as one is undefined
+    auto byte = static_cast<unsigned char>(reading_ ? 0 : value);
+    raw(&byte, sizeof byte);
+    if (byte > 1) throw std::out_of_range("a byte is neither true nor false");
+    value = byte == 1;
+  }
   void pass(std::string& text) {
     std::uint64_t size = text.size();
     pass(size);

@@ -11,10 +11,7 @@ namespace gaussdrift::cli {
 /// Of the folder of a run, or the one of a file. Throws FileError if there are none.
 std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place);
 
-/// Whether summary.json says that the run is complete. One of an older version was written at the end, and does not say.
-bool says_complete(const std::filesystem::path& folder);
-
-/// Says so on standard error if the folder is that of a run that is not complete.
+/// Says so on standard error if the folder is that of a run that is not complete. Throws FileError if summary.json is damaged.
 void tell_if_unfinished(const std::filesystem::path& folder);
 
 }  // namespace gaussdrift::cli

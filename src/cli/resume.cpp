@@ -4,19 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/text_file.hpp"
 #include "cli/asked_case.hpp"
 #include "cli/carry_out.hpp"
-#include "cli/outputs_of.hpp"
 #include "cli/stop_request.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/same_past.hpp"
+#include "write/told_by_folder.hpp"
 
 namespace gaussdrift::cli {
 
@@ -50,18 +48,10 @@ void declare(OptionList& options, ResumeOptions& given) {
   options.json(given.json);
 }
 
-nlohmann::json json_in(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  nlohmann::json value = nlohmann::json::parse(in, nullptr, false);
-  return value.is_object() ? value : nlohmann::json::object();
-}
-
 /// Of the case as it was run, which run.toml does not say: pictures without a title show it.
 std::string name_of(const fs::path& folder) {
-  const nlohmann::json provenance = json_in(folder / "provenance.json");
-  const auto name = provenance.find("name");
-  return name != provenance.end() && name->is_string() ? name->get<std::string>()
-                                                       : fs::absolute(folder).filename().string();
+  const std::string name = write::told_name(folder);
+  return name.empty() ? fs::absolute(folder).filename().string() : name;
 }
 
 Case case_in(const fs::path& folder, const std::vector<std::string>& overrides, int threads) {
@@ -107,9 +97,8 @@ void refuse_changed_past(const input::ChangedKeys& changed) {
 
 /// Its numbers are complete, and status.json says that what comes after them is not. Earlier versions wrote no status.json.
 bool lacks_its_end(const fs::path& folder) {
-  const nlohmann::json status = json_in(folder / "status.json");
-  const auto state = status.find("state");
-  return state != status.end() && *state != "complete";
+  const std::string state = write::told_state(folder);
+  return !state.empty() && state != "complete";
 }
 
 ExitCode resume(const ResumeOptions& options) {
@@ -137,7 +126,7 @@ ExitCode resume(const ResumeOptions& options) {
   std::vector<std::string> refused;
   task.from = write::read_checkpoint(options.folder, past_of(before), refused);
   for (const std::string& why : refused) note("warning: {}\n", why);
-  const bool complete = says_complete(options.folder);
+  const bool complete = write::says_complete(options.folder);
   if (task.from) {
     const double now = task.from->facts.time;
     if (spec.time.end < now)

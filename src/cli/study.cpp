@@ -1,11 +1,8 @@
 // gaussdrift study: what accuracy costs in time.
 #include <fmt/format.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <optional>
-
 #include <cstdio>
+#include <optional>
 
 #include "cli/asked_case.hpp"
 #include "cli/output_name.hpp"
@@ -18,7 +15,7 @@
 #include "study/study.hpp"
 #include "write/atomic_file.hpp"
 #include "write/folder_lock.hpp"
-#include "write/own_files.hpp"
+#include "write/told_by_folder.hpp"
 
 namespace gaussdrift::cli {
 
@@ -61,19 +58,6 @@ bool holds_a_study(const fs::path& folder) {
   return false;
 }
 
-/// What a finished study in this folder wrote, by the names that its study.json tells: a new one is not mixed with it. One
-/// that was interrupted has no list: its tables are replaced where the new one has tables of the same names.
-write::OwnFiles files_of_study(const fs::path& folder) {
-  write::OwnFiles files({"study.json", "study.md"});
-  std::ifstream in(folder / "study.json", std::ios::binary);
-  const auto told = nlohmann::json::parse(in, nullptr, false);
-  if (told.is_object() && told.contains("experiments") && told["experiments"].is_array())
-    for (const auto& experiment : told["experiments"])
-      if (experiment.is_object() && experiment.contains("name") && experiment["name"].is_string())
-        for (const char* ending : {".csv", ".png"}) files.add(experiment["name"].get<std::string>() + ending);
-  return files;
-}
-
 ExitCode study(const StudyVerbOptions& options) {
   check_folder_name(options.folder, "a study leaves a folder with tables (CSV) and charts (PNG)");
   study::StudyOptions wanted;
@@ -92,11 +76,14 @@ ExitCode study(const StudyVerbOptions& options) {
         fmt::format("{} holds an earlier study, or what is left of one; --force replaces it, --out DIR writes "
                     "elsewhere",
                     folder.string()));
+  if (options.force) write::files_of_study(folder);  // what is wrong with it is told before the work
   std::optional<write::FolderLock> lock;
   const auto take_folder = [&] {  // once there is something to write: until then an earlier study stays
     if (lock) return;
     lock.emplace(folder);
-    if (options.force) files_of_study(folder).remove_from(folder);
+    // A new study is not mixed with an earlier one. Of one that was interrupted, which has no list, tables are replaced
+    // where the new one has tables of the same names.
+    if (options.force) write::files_of_study(folder).remove_from(folder);
   };
   study::Study result;
   {

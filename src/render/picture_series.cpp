@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -105,6 +106,8 @@ class PictureSeries : public Observer {
   static void pass_state(base::StateBytes& bytes, Lattice& lattice, Ranges& ranges) {
     bytes(lattice.dimension, lattice.points, lattice.origin, lattice.spacing, ranges);
     bytes.end();
+    if (lattice.dimension < 1 || lattice.dimension > max_dimension)
+      throw std::out_of_range("its grid has no such dimension");
   }
 
   static DensityGrid error_of(const Frame& frame) {

@@ -39,19 +39,6 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-json parsed(const std::string& text) {
-  constexpr int deepest = 50;
-  bool too_deep = false;
-  json value = json::parse(
-      text,
-      [&](int depth, json::parse_event_t, json&) {
-        too_deep = too_deep || depth > deepest;
-        return !too_deep;
-      },
-      /*allow_exceptions=*/false);
-  return too_deep ? json(json::value_t::discarded) : value;
-}
-
 std::string number(const json& value, const char* format) {
   return value.is_number() ? fmt::format(fmt::runtime(format), value.get<double>()) : "–";
 }

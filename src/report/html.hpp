@@ -11,10 +11,6 @@ using json = nlohmann::ordered_json;
 std::string escaped(const std::string& text);
 std::string base64(const std::string& bytes);
 
-/// The JSON of a file that somebody else may have written; "discarded" where it is none, or nested so deeply that
-/// writing it again would need a stack without bound.
-json parsed(const std::string& text);
-
 /// A dash for what is no number.
 std::string number(const json& value, const char* format = "{:.3g}");
 

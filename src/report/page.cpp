@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/json_file.hpp"
 #include "gaussdrift/error.hpp"
 #include "report/html.hpp"
 #include "report/page_style.hpp"
@@ -46,8 +47,14 @@ void write_file(const fs::path& file, const std::string& text, ReportFiles& resu
 /// The page while it is made, and what it does without.
 class Page {
  public:
-  Page(const fs::path& folder, const json& summary)
-      : folder_(folder), summary_(summary), provenance_(parsed(read_text(folder / "provenance.json"))) {}
+  Page(const fs::path& folder, const json& summary) : folder_(folder), summary_(summary) {
+    try {
+      provenance_ = base::json_if_there(folder / "provenance.json", base::most_json_of_numbers, "it is left out")
+                        .value_or(json());
+    } catch (const FileError& error) {
+      by_choice_.push_back(fmt::format("how the run was made: {}", error.what()));
+    }
+  }
 
   ReportFiles write(bool pictures) {
     if (pictures)
@@ -153,31 +160,31 @@ class Page {
 
   const fs::path folder_;
   const json& summary_;
-  const json provenance_;
+  json provenance_;  // null where there is none
   std::string text_;
   ReportFiles result_;
-  std::vector<std::string> by_choice_;  // what the case did without
+  std::vector<std::string> by_choice_;  // what the case did without, and what the folder lacks
 };
 
 }  // namespace
 
 ReportFiles write_report(const fs::path& folder, bool pictures) {
-  const std::string text = read_text(folder / "summary.json");
-  if (text.empty())
+  constexpr const char* remedy = "run the case again";
+  const fs::path file = folder / "summary.json";
+  const auto summary = base::json_if_there(file, base::most_json_of_numbers, remedy);
+  if (!summary)
     throw FileError(
         fmt::format("{} holds no numbers of a run yet: there is no summary.json. gaussdrift resume begins a run again "
                     "that was killed",
                     folder.string()));
-  const auto damaged = [&] {
-    return FileError(fmt::format("{} is damaged: run the case again", (folder / "summary.json").string()));
-  };
-  const json summary = parsed(text);
   for (const char* name : {"frames", "title", "case", "effects"})
-    if (!summary.is_object() || !summary.contains(name)) throw damaged();
+    if (!summary->contains(name))
+      throw FileError(fmt::format("{} is damaged: it does not tell {}; {}", file.string(), name, remedy));
   try {
-    return Page(folder, summary).write(pictures);
-  } catch (const json::exception&) {  // members of other types than they should have
-    throw damaged();
+    return Page(folder, *summary).write(pictures);
+  } catch (const json::exception&) {
+    throw FileError(
+        fmt::format("{} is damaged: a member of it has another type than it should; {}", file.string(), remedy));
   }
 }
 

@@ -227,6 +227,21 @@ void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles) {
   for (const auto& effect : effects_) effect->pass_state(bytes, particles);
 }
 
+bool Carrier::has_steps_until(double now) const {
+  constexpr double most_steps = 1e15;  // of an interval, so that they can be counted
+  double reached = 0;
+  for (const Taken& taken : taken_) {
+    const std::size_t steps = taken.interval.steps();
+    const double begin = taken.interval.start(0), end = taken.interval.start(steps), step = case_.time.step;
+    if (!(begin >= 0 && (end - begin) / step < most_steps) || taken.interval != time::Interval(begin, end, step))
+      return false;
+    if (taken.first > steps || taken.steps > steps - taken.first || !(taken.interval.start(taken.first) >= reached))
+      return false;
+    reached = taken.interval.start(taken.first + taken.steps);
+  }
+  return reached <= now;
+}
+
 void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                          std::size_t steps_before, StageTimes& stages) const {
   const base::Stopwatch watch;

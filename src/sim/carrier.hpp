@@ -65,6 +65,9 @@ class Carrier {
   /// Throws std::out_of_range if the bytes are not those of this case.
   void pass_state(base::StateBytes& bytes, const Particles& particles);
 
+  /// Whether what pass_state() has read are steps of this case, one after another, and none of them after `now`.
+  bool has_steps_until(double now) const;
+
   /// True if steps are chosen by their error (time.tolerance) instead of by time.step.
   bool is_adaptive() const { return adaptive_.has_value(); }
 

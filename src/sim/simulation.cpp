@@ -135,6 +135,15 @@ class FunctionObserver : public Observer {
   std::function<void(const Frame&)> see_;
 };
 
+// What every step makes sure of, of particles that come from elsewhere.
+bool all_finite(const Particles& particles) {
+  const auto finite = [](const std::vector<double>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
+  };
+  return std::all_of(particles.position.begin(), particles.position.end(), finite) && finite(particles.alpha) &&
+         std::all_of(particles.path.begin(), particles.path.end(), finite) && finite(particles.volume);
+}
+
 }  // namespace
 
 class Simulation::Parts {
@@ -170,6 +179,8 @@ class Simulation::Parts {
 
   void begin();
   void pass_state(base::StateBytes& bytes, ObserverStates& seen);
+  void check_leg() const;
+  void check_frames() const;
   void plan_landings();
   void take_up_outputs(const ObserverStates& seen);
   std::size_t steps_to_end() const;
@@ -513,9 +524,28 @@ void Simulation::Parts::begin() {
   stage_ = Stage::under_way;
 }
 
+// A state may be a stranger's: numbers that count steps, and those that index, are looked at before they are used.
+void Simulation::Parts::check_leg() const {
+  constexpr double most_steps = 1e15;  // so that they can be counted
+  const bool countable = carrier_.is_adaptive() || (leg_.to - leg_.from) / case_.time.step < most_steps;
+  if (!(leg_.from >= 0 && leg_.from <= leg_.now && leg_.now <= leg_.to && std::isfinite(leg_.to) && countable))
+    throw std::out_of_range("its times are wrong");
+}
+
+void Simulation::Parts::check_frames() const {
+  double last = 0;
+  for (const auto& [time, numbers] : summary_.frames) {
+    if (!(time >= last && time <= leg_.now)) throw std::out_of_range("the times of its outputs are wrong");
+    last = time;
+  }
+  if (index_ < 0 || static_cast<std::size_t>(index_) != summary_.frames.size())
+    throw std::out_of_range("its outputs are not as many as it counts");
+}
+
 // What the run has come to, beside the particles.
 void Simulation::Parts::pass_state(base::StateBytes& bytes, ObserverStates& seen) {
   bytes(leg_, steps_before_, index_);
+  if (bytes.reading()) check_leg();
   carrier_.pass_state(bytes, particles_);
   bytes(summary_.transform_choice, summary_.transform_achievable);
   std::uint64_t frames = summary_.frames.size();
@@ -527,6 +557,7 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes, ObserverStates& seen
     pass(bytes, summary_.frames[i].second);
   }
   ReferenceReport& traced = summary_.reference;
+  if (bytes.reading()) check_frames();
   bytes(traced.untraced, traced.first_untraced, traced.trouble, traced.rates, traced.exhausted);
   auto stages = summary_.stages.stages();
   double seconds = seconds_before_ + watch_.seconds();
@@ -562,7 +593,7 @@ void Simulation::Parts::plan_landings() {
   for (const double landing : landings(case_))
     if (landing > leg_.now) later.push_back(landing);
   const bool arrived = leg_.now >= leg_.to;
-  if (!arrived && later.empty())
+  if (leg_.now > case_.time.end || (!arrived && later.empty()))
     throw InputError(fmt::format("time.end = {:g} lies before t = {:g}, where the run is", case_.time.end, leg_.now));
   if (!arrived && later.front() < leg_.to) {
     if (carrier_.acts_between_steps())
@@ -601,9 +632,12 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   begin();
   const auto misfit = [](const std::string& what) { return InputError("the state is not one of this case: " + what); };
   ranks_.agree_on([&] {
-    if (place_.is_first() &&
-        (particles.dimension != particles_.dimension || particles.path.size() != particles_.path.size()))
+    if (!place_.is_first()) return;
+    if (particles.size() == 0) throw misfit("it has no particles");
+    if (particles.dimension != particles_.dimension || particles.path.size() != particles_.path.size() ||
+        (particles_.size() > 0 && particles.volume.empty() != particles_.volume.empty()))
       throw misfit("it has other particles");
+    if (!all_finite(particles)) throw misfit("a number of its particles is not finite");
   });
   if (place_.is_first()) {
     particles_ = std::move(particles);
@@ -621,6 +655,7 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
       base::StateBytes state(of_all);
       pass_state(state, seen);
       plan_landings();
+      if (!carrier_.has_steps_until(leg_.now)) throw misfit("it has other steps");
     } catch (const std::out_of_range& error) {
       throw misfit(error.what());
     }

@@ -16,6 +16,7 @@ class Interval {
   /// Time at which step i begins, i <= steps(); start(steps()) is exactly `end`. Not accumulated, so it does not drift.
   double start(std::size_t i) const { return i >= steps_ ? end_ : begin_ + static_cast<double>(i) * step_; }
   double length(std::size_t i) const { return i + 1 < steps_ ? step_ : end_ - start(i); }
+  bool operator==(const Interval&) const = default;
 
  private:
   double begin_ = 0, end_ = 0, step_ = 1;

@@ -7,13 +7,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
-#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
+#include "base/json_file.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
 
@@ -28,7 +27,6 @@ constexpr const char* kind = "gaussdrift checkpoint";
 constexpr int version = 1;
 constexpr std::size_t most_in_a_piece = std::size_t{1} << 22;  // particles
 constexpr const char* manifest_name = "manifest.json";
-constexpr double largest_manifest = 1e6;  // bytes
 
 fs::path slot(const fs::path& folder, int number) { return folder / checkpoints_folder / std::to_string(number); }
 fs::path piece_file(std::size_t number) { return fmt::format("particles_{:04}.raw", number); }
@@ -101,19 +99,49 @@ std::uint64_t sum_of(const json& manifest) {
   return crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(text.data()), text.size());
 }
 
+[[noreturn]] void refuse_member(const char* name, const char* must_be) {
+  throw std::runtime_error(fmt::format("its manifest is damaged: {} is no {}", name, must_be));
+}
+
+const json& member(const json& object, const char* name) {
+  static const json none;
+  const auto found = object.find(name);
+  return found == object.end() ? none : *found;
+}
+
+std::uint64_t count_in(const json& object, const char* name) {
+  const json& value = member(object, name);
+  if (!value.is_number_unsigned()) refuse_member(name, "count");
+  return value.get<std::uint64_t>();
+}
+
+double number_in(const json& object, const char* name) {
+  const json& value = member(object, name);
+  if (!value.is_number()) refuse_member(name, "number");
+  return value.get<double>();
+}
+
+std::string text_in(const json& object, const char* name) {
+  const json& value = member(object, name);
+  if (!value.is_string()) refuse_member(name, "text");
+  return value.get<std::string>();
+}
+
+const json& list_in(const json& object, const char* name) {
+  const json& value = member(object, name);
+  if (!value.is_array()) refuse_member(name, "list");
+  return value;
+}
+
 json read_manifest(const fs::path& folder) {
-  std::error_code error;
-  const auto bytes = fs::file_size(folder / manifest_name, error);
-  if (error) throw std::runtime_error("it has no manifest");
-  if (static_cast<double>(bytes) > largest_manifest) throw std::runtime_error("its manifest is too large");
-  std::ifstream in(folder / manifest_name, std::ios::binary);
-  json manifest = json::parse(in, nullptr, false);
-  if (manifest.is_discarded() || !manifest.is_object()) throw std::runtime_error("its manifest is damaged");
-  if (manifest.value("kind", "") != kind) throw std::runtime_error("its manifest is none of a checkpoint");
-  if (manifest.at("version").get<int>() > version)
-    throw std::runtime_error(fmt::format("it was written by a newer gaussdrift (format {}, this one knows {})",
-                                         manifest.at("version").get<int>(), version));
-  const auto sum = manifest.at("crc32").get<std::uint64_t>();
+  auto read = base::json_if_there(folder / manifest_name, base::most_json_of_names, "it is written anew");
+  if (!read) throw std::runtime_error("it has no manifest");
+  json manifest = std::move(*read);
+  if (member(manifest, "kind") != kind) throw std::runtime_error("its manifest is none of a checkpoint");
+  if (const auto written = count_in(manifest, "version"); written > version)
+    throw std::runtime_error(
+        fmt::format("it was written by a newer gaussdrift (format {}, this one knows {})", written, version));
+  const auto sum = count_in(manifest, "crc32");
   manifest.erase("crc32");
   if (sum != sum_of(manifest)) throw std::runtime_error("its manifest is damaged: its check sum is wrong");
   return manifest;
@@ -121,7 +149,7 @@ json read_manifest(const fs::path& folder) {
 
 std::uint64_t serial_of(const fs::path& folder) {
   try {
-    return read_manifest(folder).at("serial").get<std::uint64_t>();
+    return count_in(read_manifest(folder), "serial");
   } catch (const std::exception&) {
     return 0;  // what cannot be read is overwritten first
   }
@@ -129,44 +157,47 @@ std::uint64_t serial_of(const fs::path& folder) {
 
 /// Checks what the manifest says of a file against its size, before memory is taken for it.
 RawFile open_checked(const fs::path& folder, const json& entry, std::size_t expected) {
-  const auto name = entry.at("file").get<std::string>();
-  if (fs::path(name).has_parent_path() || name.find("..") != std::string::npos)
+  const auto name = text_in(entry, "file");
+  if (fs::path(name).has_parent_path() || name.find("..") != std::string::npos || name.find('\0') != std::string::npos)
     throw std::runtime_error("its manifest names a file elsewhere");
   std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(folder / name, error)))
+    throw std::runtime_error(fmt::format("{} is missing", name));
   const auto bytes = fs::file_size(folder / name, error);
-  if (error) throw std::runtime_error(fmt::format("{} is missing", name));
-  if (bytes != expected || entry.at("bytes").get<std::uint64_t>() != expected)
+  if (error || bytes != expected || count_in(entry, "bytes") != expected)
     throw std::runtime_error(fmt::format("{} has {} bytes, must have {}", name, bytes, expected));
   return RawFile(folder / name);
 }
 
 void check_sum(const RawFile& file, const json& entry) {
-  if (file.sum() != entry.at("crc32").get<std::uint64_t>())
-    throw std::runtime_error(fmt::format("{} is damaged: its check sum is wrong", entry.at("file").get<std::string>()));
+  if (file.sum() != count_in(entry, "crc32"))
+    throw std::runtime_error(fmt::format("{} is damaged: its check sum is wrong", text_in(entry, "file")));
 }
 
 Checkpoint read_slot(const fs::path& folder, const json& manifest) {
   Checkpoint checkpoint;
-  const auto count = manifest.at("particles").get<std::uint64_t>();
+  const auto count = count_in(manifest, "particles");
   CheckpointFacts& facts = checkpoint.facts;
-  facts = {manifest.at("time").get<double>(), manifest.at("steps").get<std::size_t>(), count, 0};
+  facts = {number_in(manifest, "time"), count_in(manifest, "steps"), count, 0};
   Particles& particles = checkpoint.particles;
-  particles.dimension = manifest.at("dimension").get<int>();
-  if (particles.dimension < 1 || particles.dimension > max_dimension)
-    throw std::runtime_error("its dimension is wrong");
-  const json& columns = manifest.at("columns");
-  const auto paths = manifest.at("paths").get<std::size_t>();
+  const auto dimension = count_in(manifest, "dimension");
+  if (dimension < 1 || dimension > max_dimension) throw std::runtime_error("its dimension is wrong");
+  particles.dimension = static_cast<int>(dimension);
+  const json& columns = list_in(manifest, "columns");
+  const auto paths = count_in(manifest, "paths");
   if (paths > columns.size()) throw std::runtime_error("its columns are wrong");
   particles.path.resize(paths);
   if (columns.size() > static_cast<std::size_t>(particles.dimension) + 2 + paths) particles.volume.resize(1);
   if (columns_of(particles) != columns) throw std::runtime_error("its columns are wrong");
 
-  // All sizes before any memory.
+  // All sizes before any memory. A file that counted twice would need more memory than it has bytes.
   std::size_t there = 0;
-  const json& pieces = manifest.at("pieces");
+  const json& pieces = list_in(manifest, "pieces");
+  std::set<std::string> names;
   for (const json& piece : pieces) {
-    const auto in_piece = piece.at("particles").get<std::uint64_t>();
-    if (in_piece > most_in_a_piece) throw std::runtime_error("its pieces are wrong");
+    const auto in_piece = count_in(piece, "particles");
+    if (in_piece > most_in_a_piece || !names.insert(text_in(piece, "file")).second)
+      throw std::runtime_error("its pieces are wrong");
     open_checked(folder, piece, in_piece * 8 * columns.size());
     there += in_piece;
   }
@@ -174,7 +205,7 @@ Checkpoint read_slot(const fs::path& folder, const json& manifest) {
   for_each_column(particles, [&](const std::string&, auto& column) { column.resize(count); });
   std::size_t first = 0;
   for (const json& piece : pieces) {
-    const auto in_piece = piece.at("particles").get<std::uint64_t>();
+    const auto in_piece = count_in(piece, "particles");
     RawFile file = open_checked(folder, piece, in_piece * 8 * columns.size());
     for_each_column(particles,
                     [&](const std::string&, auto& column) { file.read(column.data() + first, 8 * in_piece); });
@@ -182,14 +213,15 @@ Checkpoint read_slot(const fs::path& folder, const json& manifest) {
     first += in_piece;
     facts.bytes += static_cast<double>(file.bytes());
   }
-  const json& state = manifest.at("state");
-  RawFile file = open_checked(folder, state, state.at("bytes").get<std::uint64_t>());
-  checkpoint.state.resize(state.at("bytes").get<std::size_t>());
+  const json& state = member(manifest, "state");
+  const auto bytes = count_in(state, "bytes");
+  RawFile file = open_checked(folder, state, bytes);
+  checkpoint.state.resize(bytes);
   file.read(checkpoint.state.data(), checkpoint.state.size());
   check_sum(file, state);
   facts.bytes += static_cast<double>(file.bytes());
-  const auto spread = manifest.at("spread").get<std::string>();
-  particles.spread = std::strtod(spread.c_str(), nullptr);
+  particles.spread = std::strtod(text_in(manifest, "spread").c_str(), nullptr);
+  if (!(particles.spread >= 0 && std::isfinite(particles.spread))) refuse_member("spread", "width");
   return checkpoint;
 }
 
@@ -253,9 +285,9 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& folder, const std::str
     if (!fs::exists(slot(folder, number) / manifest_name, error)) continue;  // none, or one that was under way
     try {
       json manifest = read_manifest(slot(folder, number));
-      if (manifest.at("case").get<std::string>() != past)
+      if (text_in(manifest, "case") != past)
         throw std::runtime_error("it belongs to a case with other settings or data");
-      const auto serial = manifest.at("serial").get<std::uint64_t>();
+      const auto serial = count_in(manifest, "serial");
       found.push_back({serial, number, std::move(manifest)});
     } catch (const std::exception& why) {
       refuse(number, why.what());

@@ -64,13 +64,17 @@ OwnFiles::OwnFiles(const std::vector<std::string>& names) {
 }
 
 void OwnFiles::add(const std::string& name) {
-  if (stays_inside(name) && std::find(names_.begin(), names_.end(), name) == names_.end()) names_.push_back(name);
+  if (!stays_inside(name)) return;
+  const bool many = name.ends_with('/') || name.find('{') != name.npos;
+  if (many ? std::find(many_.begin(), many_.end(), name) != many_.end() : !single_.insert(name).second) return;
+  if (many) many_.push_back(name);
+  names_.push_back(name);
 }
 
 bool OwnFiles::has(std::string_view file) const {
-  return std::any_of(names_.begin(), names_.end(), [&](const std::string& name) {
-    return name == file || (name.ends_with('/') && file.starts_with(name)) || in_range(name, file);
-  });
+  return single_.contains(std::string(file)) || std::any_of(many_.begin(), many_.end(), [&](const std::string& name) {
+           return name == file || (name.ends_with('/') && file.starts_with(name)) || in_range(name, file);
+         });
 }
 
 std::vector<std::string> OwnFiles::found_in(const fs::path& folder) const {

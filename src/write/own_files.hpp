@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 namespace gaussdrift::write {
@@ -28,7 +29,9 @@ class OwnFiles {
   void move(const std::filesystem::path& folder, const std::filesystem::path& to) const;
 
  private:
-  std::vector<std::string> names_;
+  std::vector<std::string> names_;          // in their order
+  std::unordered_set<std::string> single_;  // of them, those of one file: a stranger's list may be long
+  std::vector<std::string> many_;           // ranges and folders
 };
 
 /// "density/density_{0000..0012}.vti"; `count` files from 0.

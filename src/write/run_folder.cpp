@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <ctime>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "base/json_file.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
 #include "write/output_files.hpp"
@@ -28,6 +27,7 @@ namespace {
 
 constexpr const char* status_name = "status.json";
 constexpr const char* earlier_name = "earlier";
+constexpr std::size_t most_names = 40'000;  // in status.json, and as many as most_json_of_names has room for
 
 /// The files that a run writes. `most`: of a series.
 OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_t most) {
@@ -48,24 +48,32 @@ OwnFiles files_of(const Case& spec) {
   return files_of_run(styles, spec.output.times.size());
 }
 
-/// What status.json says. The folder may be a stranger's: what has another type than it should is as if it were not there.
+/// What status.json says. The folder may be a stranger's. Throws FileError if the file is damaged: which files are the
+/// run's own is then not known.
 struct Status {
   explicit Status(const fs::path& folder) {
+    constexpr const char* remedy = "remove it if the files beside it are of a run";
     const fs::path file = folder / status_name;
-    std::error_code problem;
-    if (!fs::is_regular_file(fs::symlink_status(file, problem)) || fs::file_size(file, problem) > 1'000'000) return;
-    std::ifstream in(file, std::ios::binary);
-    all = json::parse(in, nullptr, false);
+    const auto told = base::json_if_there(file, base::most_json_of_names, remedy);
+    if (!told || told->value("kind", json()) != "run") return;
     try {
-      if (!all.is_object() || all.at("kind") != "run") return;
-      for (const json& name : all.at("files")) files.add(name.get<std::string>());
-      outputs = all.at("outputs").get<std::size_t>();
-      is_set_aside = all.value("set_aside", false);
-      if (all.at("last_output").is_number()) time = all.at("last_output").get<double>();
-      there = true;
+      const json& names = told->at("files");
+      if (names.size() > most_names)
+        throw FileError(
+            fmt::format("{} is damaged: it lists more than {} files; {}", file.string(), most_names, remedy));
+      for (const json& name : names) files.add(name.get<std::string>());
+      const json &count = told->at("outputs"), &last = told->at("last_output");
+      if (!count.is_number_unsigned())
+        throw FileError(fmt::format("{} is damaged: outputs is no count; {}", file.string(), remedy));
+      outputs = count.get<std::size_t>();
+      is_set_aside = told->value("set_aside", false);
+      if (last.is_number()) time = last.get<double>();
     } catch (const json::exception&) {
-      there = false;
+      throw FileError(fmt::format("{} is damaged: a member is missing or has another type than it should; {}",
+                                  file.string(), remedy));
     }
+    all = *told;
+    there = true;
   }
   bool there = false, is_set_aside = false;
   OwnFiles files;

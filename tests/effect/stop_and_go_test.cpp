@@ -2,8 +2,12 @@
 // themselves.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effect/scene.hpp"
@@ -142,6 +146,47 @@ TEST(StopAndGo, AForeignStateIsRefused) {
   EXPECT_THROW(b.restore(a.particles(), a.state()), InputError) << "other effects";
   EXPECT_THROW(c.restore(a.particles(), a.state().substr(0, 40)), InputError) << "cut";
   EXPECT_THROW(d.restore(a.particles(), a.state()), InputError) << "time.end before the state";
+}
+
+// By somebody who knows the format: every one of these would index out of bounds, or compute with what is no number.
+TEST(StopAndGo, CraftedParticlesAreRefused) {
+  const Kind kind{"exchange",
+                  {"time.step=0.01", "effects.diffusion.D=0.01", "effects.diffusion.method=particle-exchange",
+                   "time.end=0.02", "output.times=[0, 0.02]"}};
+  Simulation whole(spec_of(kind), 1);
+  whole.run();
+  const auto refused = [&](const auto& change) {
+    Particles particles = whole.particles();
+    change(particles);
+    Simulation other(spec_of(kind), 1);
+    EXPECT_THROW(other.restore(std::move(particles), whole.state()), InputError);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  refused([](Particles& particles) { particles.volume.clear(); });
+  refused([](Particles& particles) {
+    Particles none;
+    none.path.resize(particles.path.size());
+    particles = none;
+  });
+  refused([](Particles& particles) { particles.position[1][3] = nan; });
+  refused([](Particles& particles) { particles.alpha[0] = INFINITY; });
+  refused([](Particles& particles) { particles.volume[0] = nan; });
+  Simulation same(spec_of(kind), 1);
+  EXPECT_NO_THROW(same.restore(whole.particles(), whole.state()));
+}
+
+// The first bytes are the times of the leg: from, to, steps, now.
+TEST(StopAndGo, CraftedTimesAreRefused) {
+  const Kind kind{"transport", {}};
+  Simulation whole(spec_of(kind), 1);
+  whole.run();
+  for (const std::size_t at : {0, 8, 24})
+    for (const double wrong : {-1.0, 1e300, static_cast<double>(INFINITY), std::nan("")}) {
+      std::string state = whole.state();
+      std::memcpy(state.data() + at, &wrong, sizeof wrong);
+      Simulation other(spec_of(kind), 1);
+      EXPECT_THROW(other.restore(whole.particles(), state), InputError) << at << ": " << wrong;
+    }
 }
 
 TEST(StopAndGo, ARunThatHasEndedIsNotRunAgain) {

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gaussdrift::fuzz {
@@ -35,12 +36,9 @@ class Folder {
  public:
   Folder();
   ~Folder();
-  /// Writes the file and returns its path.
-  std::filesystem::path write(const std::string& name, std::string_view text) const {
-    const std::filesystem::path file = path_ / name;
-    std::ofstream(file, std::ios::binary).write(text.data(), static_cast<std::streamsize>(text.size()));
-    return file;
-  }
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes the file, with the folder that it is in, and returns its path.
+  std::filesystem::path write(const std::string& name, std::string_view text) const;
 
  private:
   std::filesystem::path path_;
@@ -48,6 +46,18 @@ class Folder {
 
 /// The one of this process.
 const Folder& folder();
+
+/// Several files in one input: each after a line "=== NAME" of its own.
+class Bundle {
+ public:
+  explicit Bundle(std::string_view text);
+  /// Empty if there is none of that name.
+  std::string_view operator[](std::string_view name) const;
+  bool has(std::string_view name) const;
+
+ private:
+  std::vector<std::pair<std::string_view, std::string_view>> files_;
+};
 
 }  // namespace gaussdrift::fuzz
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "gaussdrift/error.hpp"
@@ -138,18 +139,53 @@ TEST_F(TwoCheckpoints, AnotherCaseAndANewerFormatAreRefusedByTheirReason) {
   EXPECT_NE(refused[0].find("newer gaussdrift"), std::string::npos) << refused[0];
 }
 
-TEST_F(TwoCheckpoints, AManifestThatNamesAFileElsewhereIsRefused) {
-  const fs::path file = folder / "state/1/manifest.json";
-  std::string text = read_file(file);
-  text.replace(text.find("run.raw"), 7, "../0/run.raw");
-  nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(text);  // by somebody who knows the check sum
+/// By somebody who knows the check sum.
+void write_manifest(const fs::path& file, nlohmann::ordered_json manifest) {
   manifest.erase("crc32");
   const std::string rest = manifest.dump();
   manifest["crc32"] = crc32_z(0, reinterpret_cast<const Bytef*>(rest.data()), rest.size());
-  text = manifest.dump(2);
-  std::ofstream(file, std::ios::binary) << text;
+  std::ofstream(file, std::ios::binary) << manifest.dump(2);
+}
+
+TEST_F(TwoCheckpoints, ACraftedManifestIsRefusedByItsReason) {
+  using json = nlohmann::ordered_json;
+  const fs::path file = folder / "state/1/manifest.json";
+  const json honest = json::parse(read_file(file));
+  const json piece = honest["pieces"][0];
+  const std::vector<std::tuple<const char*, json, const char*>> crafted = {
+      {"/state/file", "../0/run.raw", "its manifest names a file elsewhere"},
+      {"/state/file", std::string("run.raw\0", 8), "its manifest names a file elsewhere"},
+      {"/state/file", "", " is missing"},
+      {"/particles", -3, "particles is no count"},
+      {"/particles", 1e300, "particles is no count"},
+      {"/steps", 1.5, "steps is no count"},
+      {"/serial", "2", "serial is no count"},
+      {"/dimension", 4, "its dimension is wrong"},
+      {"/time", nullptr, "time is no number"},
+      {"/case", json::array(), "case is no text"},
+      {"/columns", json::object(), "columns is no list"},
+      {"/pieces", {piece, piece}, "its pieces are wrong"},
+      {"/pieces/0/particles", std::uint64_t{1} << 63, "its pieces are wrong"},
+      {"/spread", "nan", "spread is no width"},
+      {"/version", -1, "version is no count"}};
+  for (const auto& [place, value, why] : crafted) {
+    json manifest = honest;
+    manifest[json::json_pointer(place)] = value;
+    write_manifest(file, std::move(manifest));
+    EXPECT_EQ(read()->facts.time, 1) << place;
+    ASSERT_EQ(refused.size(), 1u) << place;
+    EXPECT_NE(refused[0].find(why), std::string::npos) << refused[0];
+  }
+}
+
+// Its check sum is that of the text as it is written again, which must not take a stack without bound.
+TEST_F(TwoCheckpoints, AManifestThatIsNestedDeeplyIsRefused) {
+  std::string text = read_file(folder / "state/1/manifest.json");
+  const std::string deep(400'000, '['), closed(400'000, ']');
+  text.insert(1, "\"more\": " + deep + closed + ",");
+  std::ofstream(folder / "state/1/manifest.json", std::ios::binary) << text;
   EXPECT_EQ(read()->facts.time, 1);
-  EXPECT_NE(refused[0].find("elsewhere"), std::string::npos) << refused[0];
+  EXPECT_NE(refused[0].find("nested more than 50 deep"), std::string::npos) << refused[0];
 }
 
 TEST(Checkpoint, WhereThereIsNoneNothingIsRefused) {

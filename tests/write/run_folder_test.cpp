@@ -199,9 +199,27 @@ TEST(RunFolder, TakesNoListThatLeadsOutOfIt) {
       R"({"kind": "run", "outputs": 1, "last_output": 0, "files": ["../precious", "/etc/passwd", "a/../../precious"]})");
   run_in(folder / "r", "new", true, 1, true);
   EXPECT_EQ(read_file(folder / "precious"), "mine");
-  for (const char* damaged : {"[", "[]", "{}", R"({"kind": 1})", R"({"kind": "run", "files": 3})"}) {
+  for (const char* foreign : {"{}", R"({"kind": 1})"}) {
+    write_text(folder / "s/status.json", foreign);
+    const auto text = message_of<FileError>([&] { run_in(folder / "s", "new", true, 1, true); });
+    EXPECT_NE(text.find("holds no earlier run"), std::string::npos) << text;
+  }
+}
+
+TEST(RunFolder, RefusesAListThatIsDamagedWithTheReason) {
+  const ScratchFolder folder;
+  std::string many = R"({"kind": "run", "outputs": 1, "last_output": 0, "files": [")";
+  for (int i = 0; i < 40'000; ++i) many += "a\",\"";
+  const std::string rest = R"(, "last_output": 0, "files": []})";
+  for (const auto& [damaged, why] : {std::pair<std::string, const char*>{"[", "it is no JSON object"},
+                                     {R"({"kind": "run", "files": 3})", "a member is missing or has another type"},
+                                     {R"({"kind": "run", "outputs": -1)" + rest, "outputs is no count"},
+                                     {R"({"kind": "run", "outputs": 1e300)" + rest, "outputs is no count"},
+                                     {many + "b\"]}", "it lists more than 40000 files"}}) {
     write_text(folder / "s/status.json", damaged);
-    EXPECT_NE(message_of<FileError>([&] { run_in(folder / "s", "new", true, 1, true); }), "") << damaged;
+    const auto text = message_of<FileError>([&] { run_in(folder / "s", "new", true, 1, true); });
+    EXPECT_NE(text.find("s/status.json is damaged: " + std::string(why)), std::string::npos) << text;
+    EXPECT_EQ(read_file(folder / "s/status.json"), damaged);
   }
 }
 
