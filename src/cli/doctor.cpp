@@ -107,7 +107,7 @@ ExitCode doctor(const DoctorOptions& options) {
     if (!options.json) say("{:<10} {:<4} {}\n", finding.what, finding.well ? "ok" : "BAD", finding.found);
   }
   if (options.json) say("{}\n", document.dump(2));
-  return well ? ExitCode::ok : ExitCode::internal;
+  return well ? ExitCode::ok : ExitCode::check;
 }
 
 }  // namespace

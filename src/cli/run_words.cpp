@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/counted.hpp"
 #include "base/stopwatch.hpp"
 #include "sim/checks.hpp"
 #include "write/output_files.hpp"
@@ -69,8 +70,9 @@ std::string extremes_text(const FrameNumbers& numbers) {
 /// What was done, and what came out.
 std::string result_text(const Case& spec, const RunSummary& summary) {
   std::string text =
-      fmt::format("done   {} particles, {} steps, {} frames in {:.2f} s on {} threads ({})\n", summary.particles,
-                  summary.steps, summary.frames.size(), summary.seconds, summary.threads, seconds_text(summary));
+      fmt::format("done   {}, {}, {} in {:.2f} s on {} ({})\n", base::counted(summary.particles, "particle"),
+                  base::counted(summary.steps, "step"), base::counted(summary.frames.size(), "frame"), summary.seconds,
+                  base::counted(static_cast<std::size_t>(summary.threads), "thread"), seconds_text(summary));
   if (!summary.frames.empty()) {
     double worst = 0;
     for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <optional>
 
 #include "cli/asked_case.hpp"
 #include "cli/output_name.hpp"
@@ -14,7 +13,7 @@
 #include "render/picture.hpp"
 #include "study/study.hpp"
 #include "write/atomic_file.hpp"
-#include "write/folder_lock.hpp"
+#include "write/result_folder.hpp"
 #include "write/told_by_folder.hpp"
 
 namespace gaussdrift::cli {
@@ -49,15 +48,6 @@ void declare(OptionList& options, StudyVerbOptions& given) {
   options.flag("--force", given.force, "replace an earlier study in that folder");
 }
 
-/// A finished study, or the tables of one that was interrupted.
-bool holds_a_study(const fs::path& folder) {
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) return false;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().filename() == "study.json" || entry.path().extension() == ".csv") return true;
-  return false;
-}
-
 ExitCode study(const StudyVerbOptions& options) {
   check_folder_name(options.folder, "a study leaves a folder with tables (CSV) and charts (PNG)");
   study::StudyOptions wanted;
@@ -71,39 +61,32 @@ ExitCode study(const StudyVerbOptions& options) {
   const fs::path folder = options.folder.empty()
                               ? fs::path("output") / ("study_" + options.case_options.file.stem().string())
                               : options.folder;
-  if (!options.force && holds_a_study(folder))
-    throw FileError(
-        fmt::format("{} holds an earlier study, or what is left of one; --force replaces it, --out DIR writes "
-                    "elsewhere",
-                    folder.string()));
-  if (options.force) write::files_of_study(folder);  // what is wrong with it is told before the work
-  std::optional<write::FolderLock> lock;
-  const auto take_folder = [&] {  // once there is something to write: until then an earlier study stays
-    if (lock) return;
-    lock.emplace(folder);
-    // A new study is not mixed with an earlier one. Of one that was interrupted, which has no list, tables are replaced
-    // where the new one has tables of the same names.
-    if (options.force) write::files_of_study(folder).remove_from(folder);
-  };
+  using Earlier = write::ResultFolder::Earlier;
+  write::ResultFolder place(folder, "study", options.force ? Earlier::replace : Earlier::refuse,
+                            options.force ? write::files_of_study(folder) : write::OwnFiles({"study.json"}));
   study::Study result;
   {
     ProgressLine line;
     wanted.progress = [&](const std::string& what) { line.show(what); };
     // Written anew whenever a table grows, so that an interrupted study leaves what it has.
     wanted.table_grew = [&](const study::Experiment& experiment) {
-      take_folder();
-      write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment));
+      write::write_text(place.claim(experiment.name + ".csv"), study::to_csv(experiment));
+      place.has_result();
     };
     result = study::run_study(wanted);
   }
   const std::string json = study::to_json(result);
   OwedFiles owed;
-  take_folder();
   for (const study::Experiment& experiment : result.experiments)
-    owed.attempt([&] { write::write_text(folder / (experiment.name + ".csv"), study::to_csv(experiment)); });
-  owed.attempt([&] { write::write_text(folder / "study.json", json); });
-  owed.attempt([&] { write::write_text(folder / "study.md", study::to_markdown(result)); });
-  owed.attempt([&] { study::draw_charts(result, folder); });
+    owed.attempt([&] { write::write_text(place.claim(experiment.name + ".csv"), study::to_csv(experiment)); });
+  owed.attempt([&] { write::write_text(place.claim("study.json"), json); });
+  owed.attempt([&] { write::write_text(place.claim("study.md"), study::to_markdown(result)); });
+  owed.attempt([&] {
+    if (render::unavailable_reason().empty())
+      for (const study::Experiment& experiment : result.experiments) place.claim(experiment.name + ".png");
+    study::draw_charts(result, folder);
+  });
+  owed.attempt([&] { place.has_result(), place.complete(); });
   if (!options.csv.empty())
     owed.attempt([&] {
       write::write_text(options.csv, result.experiments.size() == 1 ? study::to_csv(result.experiments.front())

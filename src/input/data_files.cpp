@@ -1,6 +1,13 @@
 // The files besides the case file that a run depends on.
 #include "input/data_files.hpp"
 
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "base/json_file.hpp"
+#include "gaussdrift/error.hpp"
 #include "read/grid_file.hpp"
 
 namespace gaussdrift::input {
@@ -16,7 +23,37 @@ void add_file(const Spec& spec, std::vector<std::filesystem::path>& files) {
   }
 }
 
+/// As provenance.json of a run tells; empty where it does not. The file may be a stranger's.
+std::filesystem::path told_path(const std::filesystem::path& folder, const std::string& name) {
+  std::optional<nlohmann::ordered_json> told;
+  try {
+    told = base::json_if_there(folder / "provenance.json", base::most_json_of_names, "");
+  } catch (const FileError&) {  // then nothing is known of the data
+  }
+  if (!told) return {};
+  const auto paths = told->find("data_paths");
+  if (paths == told->end() || !paths->is_object()) return {};
+  const auto path = paths->find(name);
+  return path != paths->end() && path->is_string() ? path->get<std::string>() : std::string();
+}
+
 }  // namespace
+
+std::filesystem::path find_data_file(const std::filesystem::path& case_folder, const std::string& name) {
+  const auto named = std::filesystem::absolute(case_folder / name).lexically_normal();
+  std::error_code error;
+  if (std::filesystem::exists(named, error)) return named;
+  const std::filesystem::path told = told_path(case_folder, name);
+  return !told.empty() && std::filesystem::exists(told, error) ? told : named;
+}
+
+std::string where_data_file_was(const std::filesystem::path& case_folder, const std::string& name) {
+  const std::filesystem::path told = told_path(case_folder, name);
+  std::error_code error;
+  if (told.empty() || std::filesystem::exists(find_data_file(case_folder, name), error)) return "";
+  return fmt::format("this is the case of a run, and when the run began the file was {}; put it there again",
+                     told.string());
+}
 
 std::vector<std::filesystem::path> data_files(const Case& spec) {
   std::vector<std::filesystem::path> files;

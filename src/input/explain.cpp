@@ -165,9 +165,35 @@ std::vector<std::string> known_words() {
   return words;
 }
 
-}  // namespace
+/// A key of several fields is told once, with all that it goes with.
+std::vector<Explanation> together(const std::vector<Explanation>& all) {
+  constexpr const char* label = "goes with";
+  const auto rest_of = [&](Explanation one) {
+    std::erase_if(one.facts, [&](const Fact& fact) { return fact.label == label; });
+    return one;
+  };
+  const auto same = [&](const Explanation& a, const Explanation& b) {
+    const Explanation x = rest_of(a), y = rest_of(b);
+    return x.kind == y.kind && x.name == y.name && x.title == y.title &&
+           std::equal(x.facts.begin(), x.facts.end(), y.facts.begin(), y.facts.end(),
+                      [](const Fact& f, const Fact& g) { return f.label == g.label && f.value == g.value; });
+  };
+  const auto with = [&](Explanation& one) {
+    return std::find_if(one.facts.begin(), one.facts.end(), [&](const Fact& fact) { return fact.label == label; });
+  };
+  std::vector<Explanation> found;
+  for (Explanation next : all) {
+    const auto before = std::find_if(found.begin(), found.end(), [&](const auto& one) { return same(one, next); });
+    const auto added = with(next);
+    if (before != found.end() && added != next.facts.end() && with(*before) != before->facts.end())
+      with(*before)->value += ", " + added->value;
+    else
+      found.push_back(std::move(next));
+  }
+  return found;
+}
 
-std::vector<Explanation> explain(std::string_view word) {
+std::vector<Explanation> meanings_of(std::string_view word) {
   const std::string_view bare = without_brackets(word);
   std::vector<Explanation> found;
   if (bare == "effects") found.push_back(about_effects());
@@ -196,6 +222,10 @@ std::vector<Explanation> explain(std::string_view word) {
       found.push_back(about(key));
   return found;
 }
+
+}  // namespace
+
+std::vector<Explanation> explain(std::string_view word) { return together(meanings_of(word)); }
 
 std::optional<std::string> suggest_word(std::string_view word) { return base::suggest(word, known_words()); }
 

@@ -1,5 +1,8 @@
 #include "render/panel.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -41,7 +44,9 @@ void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& 
   const auto [error_min, error_max] = symmetric_range(low_error, high_error);
   std::vector<Image> images;
   for (const Panel& panel : panels) {
-    const Scratch part(png.string() + ".panel");
+    // A hidden file by its name (write/part_file.hpp), so that what a killed process leaves is removed; no other has two
+    // numbers behind that of the process.
+    const Scratch part(png.parent_path() / fmt::format(".gaussdrift-{}-0-0.part", getpid()));
     const Style& style = panel_style(panel.density.lattice.dimension, panel.is_error);
     draw(style, panel.density,
          {.title = panel.title,

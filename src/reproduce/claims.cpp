@@ -348,7 +348,7 @@ std::string to_text(const ClaimsReproduction& result) {
                         claim.printed.empty() ? "-" : claim.printed, shown(claim.computed), verdict, claim.what);
     if (!claim.note.empty()) text += "       " + claim.note + "\n";
   }
-  return text + fmt::format("\n{} claims hold. {} do not hold, and the line below each gives the reason. {:.1f} s\n",
+  return text + fmt::format("\n{} claims hold. {} do not hold, and the last line of each gives the reason. {:.1f} s\n",
                             hold, fail, result.seconds);
 }
 

@@ -17,6 +17,7 @@
 #include "render/picture.hpp"
 #include "render/styles.hpp"
 #include "reproduce/fgtd.hpp"
+#include "write/result_folder.hpp"
 
 namespace gaussdrift::reproduce {
 
@@ -58,8 +59,9 @@ const render::Style& lines() { return render::find_style("contour"); }
 struct Maker {
   const FiguresOptions& options;
   std::vector<Figure>& made;
+  write::ResultFolder& place;
 
-  std::filesystem::path file(const std::string& number) const { return options.folder / ("figure_" + number + ".png"); }
+  std::filesystem::path file(const std::string& number) const { return place.claim("figure_" + number + ".png"); }
   void add(const std::string& number, const std::string& caption, const base::Stopwatch& watch) const {
     made.push_back({number, caption, file(number), watch.seconds()});
   }
@@ -223,11 +225,14 @@ std::vector<Figure> reproduce_figures(const FiguresOptions& options,
   render::check_available();
   const std::string wanted = options.figure == "5.5" ? "5.4" : options.figure;
   std::vector<Figure> made;
+  // Figures of other calls stay.
+  write::ResultFolder place(options.folder, "figures", write::ResultFolder::Earlier::join);
   for (const auto& [number, make] : makers) {
     if (!wanted.empty() && wanted != number) continue;
     if (progress) progress(fmt::format("Figure {}", number));
-    make({options, made});
+    make({options, made, place});
   }
+  place.complete();
   return made;
 }
 

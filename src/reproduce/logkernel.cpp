@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 
 #include "base/repeated_time.hpp"
@@ -14,6 +15,7 @@
 #include "render/picture.hpp"
 #include "write/atomic_file.hpp"
 #include "write/provenance.hpp"
+#include "write/result_folder.hpp"
 
 namespace gaussdrift::reproduce {
 
@@ -163,6 +165,8 @@ LogKernelReproduction reproduce_logkernel(const LogKernelOptions& options,
   };
   using blockmatrix::Bases;
   LogKernelReproduction result;
+  std::optional<write::ResultFolder> place;
+  if (!options.folder.empty()) place.emplace(options.folder, "logkernel", write::ResultFolder::Earlier::replace);
   tell("storage");
   for (int i = 2; i <= options.largest_storage; ++i) {
     const std::size_t count = std::size_t{1} << i;
@@ -196,8 +200,7 @@ LogKernelReproduction reproduce_logkernel(const LogKernelOptions& options,
   }
   if (!options.folder.empty()) {
     tell("plots");
-    std::filesystem::create_directories(options.folder);
-    const auto path = [&](const char* name) { return result.files.emplace_back(options.folder / name); };
+    const auto path = [&](const char* name) { return result.files.emplace_back(place->claim(name)); };
     write::write_text(path("storage.csv"), storage_csv(result));
     write::write_text(path("error.csv"), error_csv(result));
     write::write_text(path("times.csv"), times_csv(result));
@@ -205,6 +208,8 @@ LogKernelReproduction reproduce_logkernel(const LogKernelOptions& options,
       draw_storage(result, path("storage.png"));
       draw_errors(result, path("error.png"));
     }
+    place->has_result();
+    place->complete();
   }
   result.seconds = watch.seconds();
   return result;

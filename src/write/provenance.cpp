@@ -98,12 +98,13 @@ std::string provenance_json(const Case& spec, const std::string& resolved, const
                 {"command", command},
                 {"date", date()},
                 {"case", hash_of(spec.source)}};
-  json files = json::array();
+  json files = json::array(), paths = json::object();  // absolute, for a folder that is moved
   for (const DataFile& each : data) {
     files.push_back({{"file", each.name}, {"hash", hash_of_file(each.file)}});
+    paths[each.name] = std::filesystem::absolute(each.file).lexically_normal().string();
   }
   document["resolved_case"] = hash_of(resolved, data);
-  if (!files.empty()) document["data"] = files;
+  if (!files.empty()) document["data"] = files, document["data_paths"] = paths;
   return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -32,7 +32,7 @@ constexpr std::size_t most_names = 40'000;  // in status.json, and as many as mo
 /// The files that a run writes. `most`: of a series.
 OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_t most) {
   OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
-                  "state/", "summary.json", "summary.png", "summary.png.panel", "view.py"});
+                  "state/", "summary.json", "summary.png", "view.py"});
   for (const FileKind& kind : output_files()) {
     const std::string name(kind.about.name);
     files.add(name + ".pvd");

@@ -31,6 +31,13 @@ TEST(Explain, TellsAKeyByItsNameAndByItsSymbol) {
   EXPECT_NE(gaussdrift_in(folder, "explain per_axis").out.find("evaluate.per_axis"), std::string::npos);
 }
 
+TEST(Explain, TellsAKeyOfSeveralFieldsOnce) {
+  const ScratchFolder folder;
+  const std::string text = gaussdrift_in(folder, "explain circulation").out;
+  EXPECT_NE(text.find("goes with  field = \"lamb_oseen\", field = \"burgers\""), std::string::npos) << text;
+  EXPECT_EQ(text.find("velocity.circulation"), text.rfind("velocity.circulation")) << text;
+}
+
 TEST(Explain, NamesTheWordThatWasMeant) {
   const ScratchFolder folder;
   const Outcome refused = gaussdrift_in(folder, "explain overlapp");

@@ -264,6 +264,29 @@ TEST(Provenance, HasFlagsACommandForTheShellAndHashesOfTheData) {
   EXPECT_NE(third["resolved_case"], first["resolved_case"]);
 }
 
+// The data of a run lie where they were seen from its folder when it began. A folder that was moved, also into earlier/, has another view.
+TEST(Provenance, LeadsARunWhoseFolderWasMovedToItsData) {
+  const ScratchFolder folder;
+  ASSERT_EQ(gaussdrift_in(folder, "new gridded_wind").exit_code, 0);
+  gaussdrift_in(folder,
+                "run gridded_wind.toml --out a/run --set particles.per_axis=20 --set evaluate.per_axis=10 --set "
+                "output.images=[] --set output.vtk=[] --set output.report=none --set output.times=[0] --set "
+                "output.checkpoint=0.001 --set accuracy.budget=none");
+  ASSERT_TRUE(fs::exists(folder / "a/run/summary.json"));
+  fs::create_directories(folder / "b/c/d");
+  fs::rename(folder / "a/run", folder / "b/c/d/earlier");
+  const Outcome resumed = gaussdrift_in(folder, "resume b/c/d/earlier");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_NE(resumed.out.find("is complete"), std::string::npos) << resumed.out;
+  fs::rename(folder / "gridded_wind.pvd", folder / "elsewhere.pvd");
+  const Outcome lost = gaussdrift_in(folder, "resume b/c/d/earlier");
+  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_NE(lost.err.find("when the run began the file was " + fs::canonical(folder.path()).string() +
+                          "/gridded_wind.pvd; put it there again"),
+            std::string::npos)
+      << lost.err;
+}
+
 TEST(Provenance, HasACommandThatAShellTakesAsItWasTyped) {
   const ScratchFolder folder;
   run_cone(folder, R"(--out 'a b' --set 'case.title="it'\''s $HOME & <more>"' --set 'case.cite=""')");

@@ -5,6 +5,7 @@
 
 #include "base/number.hpp"
 #include "field/gridded/grid_data.hpp"
+#include "input/data_files.hpp"
 #include "input/tables/tables.hpp"
 #include "read/grid_file.hpp"
 #include "read/missing_data.hpp"
@@ -112,7 +113,7 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
     return spec;
   }
   if (!in.facts.dimension) return spec;
-  spec.file = std::filesystem::absolute(in.folder / value.text).lexically_normal();
+  spec.file = find_data_file(in.folder, value.text);
   try {
     const auto missing = std::find(read::missing_names.begin(), read::missing_names.end(), spec.missing);
     spec.data =
@@ -126,7 +127,8 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
     in.facts.grid_files.push_back({value.place, spec.data});
     if (spec.outside == "error" && most_components == 1) check_covers_domain(in, *spec.data, value.place);
   } catch (const read::GridFileError& error) {
-    in.diagnostics.error(value.place, error.what(), error.remedy());
+    const std::string was = where_data_file_was(in.folder, value.text);
+    in.diagnostics.error(value.place, error.what(), was.empty() ? error.remedy() : was);
   }
   return spec;
 }

@@ -6,6 +6,7 @@
 #include "base/catalogue.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/named/named_fields.hpp"
+#include "input/data_files.hpp"
 #include "input/gaussian_table.hpp"
 #include "input/tables/tables.hpp"
 
@@ -131,14 +132,14 @@ GaussianVelocitySpec gaussians(Reader& in, const Value& value) {
   if (value.kind != Kind::text)
     in.wrong_type(value, in.label_of(find_key("velocity", "gaussians")), "the name of a file in a string");
   if (!in.facts.dimension || in.diagnostics.errors() > errors_before) return spec;
-  spec.file = std::filesystem::absolute(in.folder / value.text).lexically_normal();
+  spec.file = find_data_file(in.folder, value.text);
   try {
     const GaussianTable table = read_gaussian_table(spec.file, options.kind, in.facts.dimension);
     spec.model = std::make_shared<const GaussianModel>(
         make_gaussian_model(in.facts.dimension, table.positions, table.values, options));
     spec.regularisation = spec.model->regularisation;
   } catch (const Error& error) {
-    in.diagnostics.error(value.place, error.what());
+    in.diagnostics.error(value.place, error.what(), where_data_file_was(in.folder, value.text));
   }
   return spec;
 }
