@@ -8,6 +8,7 @@
 #include <string>
 
 #include "gaussdrift/case.hpp"
+#include "gaussdrift/error.hpp"
 #include "gaussdrift/frame.hpp"
 #include "gaussdrift/particles.hpp"
 #include "gaussdrift/summary.hpp"
@@ -17,6 +18,13 @@ namespace gaussdrift {
 namespace base {
 class Communicator;
 }
+
+/// What Simulation::abandon_when() has asked for came true before the run could begin.
+class Abandoned : public Error {
+ public:
+  /// No step was taken.
+  Abandoned() : Error(ExitCode::stopped, "the run was abandoned before its first step") {}
+};
 
 /// One run of one case. It prints nothing and writes no file; observers see what comes out.
 class Simulation {
@@ -40,6 +48,13 @@ class Simulation {
   /// `go_on` is called between batches of steps, several times a second at most, on the thread of run(). Where it
   /// returns false the run stops after that step.
   void on_progress(std::function<bool(const Progress&)> go_on);
+
+  /// Ends a run without waiting for a long step or output. `wanted` is asked inside of them, by several threads and
+  /// thousands of times a second. Once it returns true, run() abandons what is under way within moments (docs/library.md)
+  /// and returns: steps under way are not taken, an output under way is not among the frames. Observers may have seen that
+  /// output, and will see it again. Where an output was abandoned the run goes on in another Simulation, by restore();
+  /// run() then throws std::logic_error. prepare() and restore() throw Abandoned.
+  void abandon_when(std::function<bool()> wanted);
 
   /// Seeds the particles and looks at the velocity there, so that what cannot begin is refused early: InputError where
   /// there is no density, a step is unstable or a named method too slow; NumericalError where a field is not finite;

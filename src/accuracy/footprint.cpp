@@ -107,8 +107,11 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
 
   // Lines of the lattice are seeded one by one and joined.
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));
-  const RunMemory seed{.particles = 2 * n * particle + 450 * lines},
-      step = stays + RunMemory{.particles = 2 * n * number * (d + effects.integrals) + n * effects.step};
+  const RunMemory seed{.particles = 2 * n * particle + 450 * lines};
+  // Effects between steps: as it was before the step, if that is abandoned.
+  const double before = effects.kept > 0 ? n * particle : 0;
+  const RunMemory step =
+      stays + RunMemory{.particles = 2 * n * number * (d + effects.integrals) + n * effects.step + before};
 
   // The transform holds the points sorted, with its boxes; in space boxes have more neighbours.
   const RunMemory density = stays + RunMemory{.particles = n * number * (in_space(spec) ? 20 : 11),

@@ -10,6 +10,8 @@
 #include <exception>
 #include <optional>
 
+#include "base/seam.hpp"
+
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -54,6 +56,8 @@ inline std::size_t regions_opened() { return detail::regions.load(); }
 ///
 /// Work of less than 100 microseconds runs on the calling thread. It is timed, and what is left goes to all threads if
 /// it turns out to be longer.
+///
+/// Before each piece is a seam: work that is abandoned there (base/seam.hpp) ends with Abandoned.
 template <class MakeState, class Body>
 void parallel_for(const Pieces& pieces, int threads, const MakeState& make_state, const Body& body) {
   if (pieces.count == 0) return;
@@ -69,7 +73,10 @@ void parallel_for(const Pieces& pieces, int threads, const MakeState& make_state
     own.emplace(make_state());
     const Clock::time_point begun = Clock::now();
     while (done < pieces.count && !shared) {
-      for (const std::size_t end = std::min(pieces.count, done + between); done < end; ++done) body(*own, done);
+      for (const std::size_t end = std::min(pieces.count, done + between); done < end; ++done) {
+        seam();
+        body(*own, done);
+      }
       const std::size_t left = pieces.count - done;
       if (most == 1 || left < 2) continue;
       const double spent = std::chrono::duration<double>(Clock::now() - begun).count();
@@ -83,14 +90,17 @@ void parallel_for(const Pieces& pieces, int threads, const MakeState& make_state
   std::exception_ptr failure;
   std::atomic<bool> failed{false};
   const int used = static_cast<int>(std::min(most, pieces.count - done));
+  const AbandonWanted* const wanted = detail::abandon_wanted;
 #pragma omp parallel num_threads(used)
   {
+    const Abandonable as_its_caller(wanted);
     std::optional<decltype(make_state())> another;
     auto& state = omp_get_thread_num() == 0 ? own : another;  // the calling thread is number 0
 #pragma omp for schedule(dynamic, 1)
     for (std::size_t i = done; i < pieces.count; ++i) {
       if (failed.load(std::memory_order_relaxed)) continue;
       try {
+        seam();
         if (!state) state.emplace(make_state());
         body(*state, i);
       } catch (...) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,6 +12,8 @@
 #include "accuracy/footprint.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
+#include "base/seam.hpp"
+#include "base/stopwatch.hpp"
 #include "cli/checkpoint_keeper.hpp"
 #include "cli/look_back.hpp"
 #include "cli/owed_files.hpp"
@@ -55,11 +58,16 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
   }
 }
 
-/// Lines for the end of the run: what the page does without.
-std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed) {
+/// Lines for the end of the run: what the page does without. `in_haste`: it draws no picture that takes long.
+std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed, bool in_haste = false) {
+  constexpr std::size_t soon_drawn = 250'000;  // points of the grid
+  const bool pictures = !spec.output.images.empty(),
+             later = pictures && in_haste && evaluation_lattice(spec).size() > soon_drawn;
   std::string without;
+  if (later)
+    without += fmt::format("page   without pictures for now: gaussdrift report {} draws them\n", folder.string());
   try {
-    const report::ReportFiles page = report::write_report(folder, !spec.output.images.empty());
+    const report::ReportFiles page = report::write_report(folder, pictures && !later);
     for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
     const bool there =
         std::find(page.written.begin(), page.written.end(), folder / "report.html") != page.written.end();
@@ -96,37 +104,50 @@ double least_disk(const Case& spec, std::size_t particles) {
 
 class Run {
  public:
-  explicit Run(RunTask& task) : task_(task), spec_(task.spec), folder_(task.folder), stop_(task.stop_after) {}
+  explicit Run(RunTask& task) : task_(task), spec_(task.spec), folder_(task.folder) {}
 
-  void simulate() {
+  /// False if it was stopped before it could go on.
+  bool simulate() {
+    const base::Stopwatch preparing;
     refuse_what_does_not_fit(spec_, task_.threads, task_.most_memory);
     Simulation simulation(spec_, task_.threads);
     simulation.prepare();  // what cannot begin must not cost an earlier run
+    // A signal before has ended the program at once: there was nothing to save.
+    stop_.emplace(task_.stop_after - preparing.seconds());
     prepare_folder(simulation);
     add_observers(simulation, spec_, folder_, of_observers_);
     const auto& times = spec_.output.times;
     if (looks_back(spec_) && !times.empty())
       simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
     simulation.observe(own_folder_->watch());
-    if (task_.from) simulation.restore(std::move(task_.from->particles), task_.from->state);
+    simulation.abandon_when([this] { return stop_->by_signal() || (moved_on_ && stop_->made()); });
+    try {
+      if (task_.from) simulation.restore(std::move(task_.from->particles), task_.from->state);
+    } catch (const Abandoned&) {
+      own_folder_->interrupted(how_to_go_on());
+      return false;
+    }
 
     keeper_.emplace(
         folder_, [this] { return past_of(spec_); }, spec_.output.checkpoint, task_.from.has_value());
     ProgressLine line;
     simulation.on_progress([&](const Progress& progress) {
       line.show(progress);
-      const bool stopping = stop_.made() && progress.time < progress.end;
+      moved_on_ = true;
+      if (stop_->made() && progress.time < progress.end) return false;
       // With the numbers so far: a run that is killed has a page.
-      if (keeper_->look(progress, simulation, stopping) && !stopping)
+      if (keeper_->look(progress, simulation))
         write::write_text(folder_ / "summary.json", write::summary_json(spec_, simulation.summary(), {}));
-      return !stopping;
+      return true;
     });
     try {
       summary_ = simulation.run();
+      if (!complete()) keeper_->write(summary_.time, summary_.steps, simulation);
     } catch (const FileError& error) {  // a full disk, mostly
       keep_what_there_is(simulation);
       throw FileError(fmt::format("{}\n{}", error.what(), how_to_go_on()));
     }
+    return true;
   }
 
   bool complete() const { return summary_.complete; }
@@ -136,7 +157,7 @@ class Run {
     warnings_.insert(warnings_.end(), of_observers_.begin(), of_observers_.end());
     if (!complete()) return;
     if (last_.any || spec_.output.times.empty())
-      budget_ = look_back(spec_, summary_, last_, more_, warnings_, task_.threads);
+      look_back_unless_stopped();
     else if (looks_back(spec_))
       warnings_.push_back(
           "no error budget and no accuracy table: an earlier part of this run wrote the last output, and they need it");
@@ -151,6 +172,11 @@ class Run {
     }
   }
 
+  ExitCode tell_how_to_go_on() const {
+    note("{}\n", how_to_go_on());
+    return stop_->code();
+  }
+
   /// Every file before the first word: a terminal that takes no text costs no result.
   void write() {
     if (!warnings_.empty()) more_["warnings"] = warnings_;
@@ -163,7 +189,8 @@ class Run {
     const bool told = owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); });
     // The log before the page: `resume` makes the page of a run that was killed here, and cannot make the log.
     const std::string before_page = write_log("");
-    const std::string without = told && spec_.output.report ? write_page(folder_, spec_, owed_) : "";
+    const std::string without =
+        told && spec_.output.report ? write_page(folder_, spec_, owed_, stop_->by_signal()) : "";
     if (log_text(without) != before_page) write_log(without);
     owed_.attempt([&] { complete() ? own_folder_->complete() : own_folder_->interrupted(how_to_go_on()); });
   }
@@ -180,8 +207,7 @@ class Run {
     put(stdout, task_.json ? summary_text_ : ending_);
     if (!complete()) {
       for (const std::string& why : owed_.missing()) note("error: {}\n", why);
-      note("{}\n", how_to_go_on());
-      return stop_.code();
+      return tell_how_to_go_on();
     }
     bool failed = false;
     for (const CheckResult& result : summary_.checks) {
@@ -190,10 +216,25 @@ class Run {
       note("check failed: {}\n", result.text);
     }
     for (const std::string& why : owed_.missing()) note("error: {}\n", why);
+    if (!looked_back_) return stop_->code();
     return failed ? ExitCode::check : owed_.missing().empty() ? ExitCode::ok : ExitCode::files;
   }
 
  private:
+  void look_back_unless_stopped() {
+    const base::AbandonWanted wanted = [this] { return stop_->by_signal(); };
+    try {
+      const base::Abandonable while_it_lasts(&wanted);
+      budget_ = look_back(spec_, summary_, last_, more_, warnings_, task_.threads);
+    } catch (const base::Abandoned&) {
+      looked_back_ = false;
+      warnings_.push_back(
+          fmt::format("no error budget and no accuracy table: the program was stopped ({}) before they were ready. All "
+                      "other results are there.",
+                      stop_->reason()));
+    }
+  }
+
   void prepare_folder(const Simulation& simulation) {
     const bool goes_on = task_.from.has_value();
     const std::string provenance = goes_on && !task_.changed ? "" : provenance_of(task_);
@@ -236,7 +277,7 @@ class Run {
   std::string how_to_go_on() const { return fmt::format("resume with: gaussdrift resume {}", folder_.string()); }
 
   std::string stopped_text() const {
-    return fmt::format("stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end, stop_.reason(),
+    return fmt::format("stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end, stop_->reason(),
                        keeper_->written() > 0
                            ? how_to_go_on()
                            : "There is no checkpoint, because output.checkpoint = 0: a resumed run begins again.");
@@ -257,11 +298,13 @@ class Run {
   RunTask& task_;
   const Case& spec_;
   const fs::path folder_;
-  StopRequest stop_;
+  std::optional<StopRequest> stop_;
+  std::atomic<bool> moved_on_{false};  // by a step or more
   std::optional<CheckpointKeeper> keeper_;
   accuracy::LastFrame::Kept last_;
   RunSummary summary_;
   std::optional<accuracy::Budget> budget_;
+  bool looked_back_ = true;  // or did not want to
   std::vector<std::string> warnings_, of_observers_;
   nlohmann::ordered_json more_;  // members of summary.json beside those of the run
   std::string summary_text_, ending_;
@@ -276,7 +319,7 @@ std::string past_of(const Case& spec) { return write::hash_of(input::text_of_pas
 ExitCode carry_out(RunTask task) {
   Run run(task);
   try {
-    run.simulate();
+    if (!run.simulate()) return run.tell_how_to_go_on();
   } catch (...) {
     run.tell_what_is_kept();
     throw;

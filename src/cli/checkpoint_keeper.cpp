@@ -26,11 +26,11 @@ bool CheckpointKeeper::is_due(const Progress& progress) const {
   return done <= 0 || since_start_.seconds() * (1 + left / done) >= long_run;
 }
 
-bool CheckpointKeeper::look(const Progress& progress, const Simulation& simulation, bool stopping) {
+bool CheckpointKeeper::look(const Progress& progress, const Simulation& simulation) {
   if (!begun_at_) begun_at_ = progress.time;
   const bool keeps_one = asked_ ? *asked_ > 0 : resumed_ || since_start_.seconds() >= long_run;
   const bool at_end = keeps_one && progress.time >= progress.end;
-  if (!stopping && !at_end && !is_due(progress)) return false;
+  if (!at_end && !is_due(progress)) return false;
   const std::size_t before = written_;
   write(progress.time, progress.steps_done, simulation);
   return written_ > before;

@@ -22,9 +22,9 @@ class CheckpointKeeper {
   CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past, std::optional<double> asked,
                    bool resumed);
 
-  /// To be called between steps. Writes if it is time to, at the end of a run that keeps checkpoints, and where the run
-  /// is about to stop. True if it wrote. Throws FileError.
-  bool look(const Progress& progress, const Simulation& simulation, bool stopping);
+  /// To be called between steps. Writes if it is time to, and at the end of a run that keeps checkpoints. True if it
+  /// wrote. Throws FileError.
+  bool look(const Progress& progress, const Simulation& simulation);
 
   /// Writes one, whatever the time. Not if the case wants none.
   void write(double time, std::size_t steps, const Simulation& simulation);

@@ -39,7 +39,9 @@ StopRequest::~StopRequest() {
   for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before[i], nullptr);
 }
 
-bool StopRequest::made() const { return received != 0 || watch_.seconds() > after_; }
+bool StopRequest::by_signal() const { return received != 0; }
+
+bool StopRequest::made() const { return by_signal() || watch_.seconds() > after_; }
 
 std::string StopRequest::reason() const {
   switch (received) {

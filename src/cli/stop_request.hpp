@@ -20,6 +20,8 @@ class StopRequest {
   StopRequest& operator=(const StopRequest&) = delete;
 
   bool made() const;
+  /// By a signal: its sender does not wait for long.
+  bool by_signal() const;
   /// "interrupted", "terminated", "its terminal was closed", "--stop-after".
   std::string reason() const;
   /// How the program then ends.

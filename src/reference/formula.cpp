@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/seam.hpp"
 #include "expression/expression.hpp"
 #include "reference/coordinates.hpp"
 
@@ -43,6 +44,7 @@ class Formula : public Reference {
     std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * most_together);
     std::vector<std::size_t> points(most_together);
     for (std::size_t first = 0; first < rho.size(); first += most_together) {
+      base::seam();
       const std::size_t count = std::min(most_together, rho.size() - first);
       for (std::size_t i = 0; i < count; ++i) points[i] = point_of(first + i);
       fill_coordinates(lattice_, points.data(), count, coordinates.data());

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/seam.hpp"
 #include "base/state_bytes.hpp"
 #include "gaussdrift/error.hpp"
 #include "render/height_field.hpp"
@@ -154,6 +155,7 @@ class PictureSeries : public Observer {
   }
 
   void draw_one(const Style& style, std::pair<double, double> range, std::size_t index, const DensityGrid& density) {
+    base::seam();
     options_.time = times_[index];
     options_.quantity = style.quantity;
     std::tie(options_.range_min, options_.range_max) = range;

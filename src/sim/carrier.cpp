@@ -153,21 +153,44 @@ std::size_t Carrier::carry(Particles& particles, double from, double to, std::si
   return leg.steps;
 }
 
+// Steps of transport alone set positions at their very end.
+bool Carrier::attempt(Particles& particles, const std::function<void()>& steps) {
+  if (!abandon_wanted_) return steps(), true;
+  base::StateBytes effects;
+  pass_state(effects, particles);
+  if (between_steps_) before_ = particles;
+  try {
+    const base::Abandonable while_they_last(abandon_wanted_);
+    steps();
+    return true;
+  } catch (const base::Abandoned&) {
+    if (between_steps_) particles = before_;
+    base::StateBytes back(effects.written());
+    pass_state(back, particles);
+    return false;
+  }
+}
+
 bool Carrier::adapt(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
                     const std::function<bool(const Leg& leg)>& go_on) {
   while (leg.now < leg.to) {
-    const base::Stopwatch watch;
-    const double before = adaptive_->drift_seconds();
-    leg.now = adaptive_->advance(particles, leg.now, leg.to, steps_before + leg.steps);
-    const double drifts = adaptive_->drift_seconds() - before;
-    stages.add("transport", watch.seconds() - drifts);
-    for (const auto& effect : effects_)
-      if (effect->drift()) stages.add(stage_of(*effect), drifts / static_cast<double>(drifts_.size()));
+    double reached = leg.now;
+    const bool taken = attempt(particles, [&] {
+      const base::Stopwatch watch;
+      const double before = adaptive_->drift_seconds();
+      reached = adaptive_->advance(particles, leg.now, leg.to, steps_before + leg.steps);
+      const double drifts = adaptive_->drift_seconds() - before;
+      stages.add("transport", watch.seconds() - drifts);
+      for (const auto& effect : effects_)
+        if (effect->drift()) stages.add(stage_of(*effect), drifts / static_cast<double>(drifts_.size()));
+      if (between_steps_) {
+        settle(particles, reached, stages);
+        rearrange(particles, reached, stages);
+      }
+    });
+    if (!taken) return false;
+    leg.now = reached;
     ++leg.steps;
-    if (between_steps_) {
-      settle(particles, leg.now, stages);
-      rearrange(particles, leg.now, stages);
-    }
     if (!all_go_on(go_on, leg) && leg.now < leg.to) return false;
   }
   return true;
@@ -193,7 +216,12 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
   const std::size_t batch = quick ? std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000) : 1;
   while (leg.steps < interval.steps()) {
     const std::size_t count = std::min(batch, interval.steps() - leg.steps);
-    ranks_.agree_on([&] { advance(particles, interval, leg.steps, count, steps_before, stages); });
+    const std::size_t first = leg.steps;
+    bool taken = true;
+    ranks_.agree_on([&] {
+      taken = attempt(particles, [&] { advance(particles, interval, first, count, steps_before, stages); });
+    });
+    if (!taken) return false;
     leg.steps += count;
     leg.now = interval.start(leg.steps);
     if (!all_go_on(go_on, leg) && leg.steps < interval.steps()) return false;

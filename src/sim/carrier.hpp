@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/seam.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/stage_times.hpp"
 #include "sim/adaptive_stepper.hpp"
@@ -41,6 +42,9 @@ class Carrier {
   /// Warnings about the steps of this case, as sentences for the user. Call it after begin().
   const std::vector<std::string>& warnings() const { return warnings_; }
 
+  /// Steps may be abandoned at their seams once `wanted` says so. Null: they may not. It must outlive the carrier.
+  void abandon_when(const base::AbandonWanted* wanted) { abandon_wanted_ = wanted; }
+
   /// The way from one landing time to the next, and how far along it the particles are.
   struct Leg {
     double from = 0, to = 0;
@@ -50,7 +54,8 @@ class Carrier {
 
   /// Carries the particles on along the leg, and at its end brings weights and widths up to it. `steps_before` is the
   /// number of steps before the leg. `go_on` is called between batches of steps, with the leg so far; where it returns
-  /// false the particles stay there, and another call goes on with the same bits. Seconds are booked under "transport"
+  /// false the particles stay there, and another call goes on with the same bits. So they do where steps are abandoned:
+  /// then particles and effects are as before these steps. Seconds are booked under "transport"
   /// and "effect <name>". Returns true if the end is reached.
   bool carry(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
              const std::function<bool(const Leg& leg)>& go_on);
@@ -87,6 +92,9 @@ class Carrier {
  private:
   void refuse_unstable_step() const;
   void warn_of_jumps(const Particles& particles);
+
+  // Takes `steps` whole, or leaves particles and effects as they were and returns false.
+  bool attempt(Particles& particles, const std::function<void()>& steps);
 
   // To the end of the leg by steps that are chosen, and by steps of a fixed length; false if `go_on` said no before.
   bool adapt(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
@@ -126,6 +134,8 @@ class Carrier {
   std::vector<Taken> taken_;
   FlowRates flow_;  // at the start
   std::vector<std::string> warnings_;
+  const base::AbandonWanted* abandon_wanted_ = nullptr;
+  Particles before_;  // steps that may be abandoned, where effects change more of them than positions
   int threads_;
 };
 

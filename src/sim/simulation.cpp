@@ -13,6 +13,7 @@
 #include "base/communicator.hpp"
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
+#include "base/seam.hpp"
 #include "base/state_bytes.hpp"
 #include "base/stopwatch.hpp"
 #include "effect/catalogue.hpp"
@@ -171,6 +172,11 @@ class Simulation::Parts {
   Particles all_particles() const { return gather_particles(particles_, ranks_); }
   std::size_t particle_count() const;
 
+  void abandon_when(std::function<bool()> wanted) {
+    abandon_wanted_ = std::move(wanted);
+    carrier_.abandon_when(abandon_wanted());
+  }
+
   std::vector<std::unique_ptr<Observer>> observers;
   std::function<bool(const Progress&)> go_on;
 
@@ -182,6 +188,7 @@ class Simulation::Parts {
   void check_leg() const;
   void check_frames() const;
   void plan_landings();
+  void take_up(const ObserverStates& seen);
   void take_up_outputs(const ObserverStates& seen);
   std::size_t steps_to_end() const;
   std::vector<double> velocity_at_particles(double time) const;
@@ -197,13 +204,19 @@ class Simulation::Parts {
       if (place_.is_first()) work();
     });
   }
+  /// Ranks do not agree at seams yet: where there are several, what is under way is finished.
+  const base::AbandonWanted* abandon_wanted() const { return abandon_wanted_ && ranks_.size() == 1 ? &abandon_wanted_ : nullptr; }
+  void make_ready();
   bool carry();
+  bool show_or_abandon(double time);
+  void forget_output();
   void show_frame(double time);
   bool somebody_needs_particles(double time) const;
   void tell_all(FrameNumbers& numbers) const;
   std::string told_by_first(const std::string& text) const;
   void compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
   void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
+  bool finish();
   bool is_output(double time) const {
     return std::find(case_.output.times.begin(), case_.output.times.end(), time) != case_.output.times.end();
   }
@@ -215,6 +228,7 @@ class Simulation::Parts {
   base::Communicator alone_;
   base::Communicator& ranks_;
   Placement place_;
+  base::AbandonWanted abandon_wanted_;
   Scene scene_;
   Carrier carrier_;
   std::vector<double> landings_;
@@ -231,6 +245,11 @@ class Simulation::Parts {
   std::size_t landed_ = 0, steps_before_ = 0, steps_total_ = 0;
   int index_ = 0;  // of the next output
   Carrier::Leg leg_;
+  struct {
+    std::size_t frames = 0;
+    ReferenceReport reference;
+    std::string carrier;  // effects count what they do
+  } before_output_;
   double seconds_before_ = 0;  // of earlier calls of run()
   base::Stopwatch watch_;
   RunSummary summary_;
@@ -238,6 +257,15 @@ class Simulation::Parts {
 
 void Simulation::Parts::prepare() {
   if (stage_ != Stage::made) return;
+  try {
+    const base::Abandonable while_it_lasts(abandon_wanted());
+    make_ready();
+  } catch (const base::Abandoned&) {
+    throw Abandoned();
+  }
+}
+
+void Simulation::Parts::make_ready() {
   const base::Stopwatch seeding;
   particles_ = seed_scene(scene_, threads_, &seeding_, ranks_);
   seed_seconds_ = seeding.seconds();
@@ -397,6 +425,31 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
   return {std::move(all), std::move(of_all)};
 }
 
+// False if it was abandoned. A run that goes on from state() shows it again.
+bool Simulation::Parts::show_or_abandon(double time) {
+  if (abandon_wanted()) {
+    base::StateBytes carrier;
+    carrier_.pass_state(carrier, particles_);
+    before_output_ = {summary_.frames.size(), summary_.reference, carrier.written()};
+  }
+  try {
+    const base::Abandonable while_it_lasts(abandon_wanted());
+    show_frame(time);
+    return true;
+  } catch (const base::Abandoned&) {
+    forget_output();
+    return false;
+  }
+}
+
+void Simulation::Parts::forget_output() {
+  summary_.frames.resize(before_output_.frames);
+  index_ = static_cast<int>(before_output_.frames);
+  summary_.reference = before_output_.reference;
+  base::StateBytes carrier(before_output_.carrier);
+  carrier_.pass_state(carrier, particles_);
+}
+
 void Simulation::Parts::show_frame(double time) {
   DensityReport report;
   place(time);
@@ -441,7 +494,10 @@ void Simulation::Parts::show_frame(double time) {
   tell_all(frame.numbers);
   summary_.frames.emplace_back(time, frame.numbers);
   on_first([&] {
-    for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
+    for (const auto& observer : observers) {
+      base::seam();
+      summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
+    }
   });
 }
 
@@ -661,6 +717,18 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
     }
   });
   place(leg_.now);
+  try {
+    const base::Abandonable while_it_lasts(abandon_wanted());
+    take_up(seen);
+  } catch (const base::Abandoned&) {
+    throw Abandoned();
+  }
+  steps_total_ = steps_to_end();
+}
+
+// Observers and reference as they were after the outputs so far.
+void Simulation::Parts::take_up(const ObserverStates& seen) {
+  const auto misfit = [](const std::string& what) { return InputError("the state is not one of this case: " + what); };
   on_first([&] {
     try {
       take_up_outputs(seen);
@@ -674,7 +742,6 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
     ranks_.agree_on([&] {
       if (reference_) reference_->pass(times);
     });
-  steps_total_ = steps_to_end();
 }
 
 RunSummary Simulation::Parts::run() {
@@ -684,28 +751,42 @@ RunSummary Simulation::Parts::run() {
   watch_ = base::Stopwatch();
   if (begins) begin();
   stage_ = Stage::ended;  // if something is thrown
-  bool wanted = true;
+  bool wanted = true, shown = true;
   while (wanted && landed_ < landings_.size()) {
     wanted = carry();
     if (leg_.now < leg_.to) break;
-    if (is_output(leg_.to)) show_frame(leg_.to);
+    if (is_output(leg_.to)) shown = show_or_abandon(leg_.to);
+    if (!shown) break;
     if (++landed_ == landings_.size()) break;
     steps_before_ += leg_.steps;
     leg_ = {leg_.to, landings_[landed_], 0, leg_.to};
   }
+  const bool arrived = landed_ == landings_.size();
+  summary_.complete = arrived && finish();
+  if (shown && !arrived) stage_ = Stage::under_way;
   end();
   return summary_;
 }
 
+// False if it was abandoned. A run that goes on from state() then shows the last output again, if it is of this time.
+bool Simulation::Parts::finish() {
+  try {
+    const base::Abandonable while_it_lasts(abandon_wanted());
+    on_first([&] {
+      for (const auto& observer : observers) {
+        base::seam();
+        summary_.stages.run(observer->name(), [&] { observer->finish(); });
+      }
+    });
+    return true;
+  } catch (const base::Abandoned&) {
+    if (is_output(leg_.to)) forget_output();
+    return false;
+  }
+}
+
 // What is known after the last step so far.
 void Simulation::Parts::end() {
-  summary_.complete = landed_ == landings_.size();
-  if (summary_.complete)
-    on_first([&] {
-      for (const auto& observer : observers) summary_.stages.run(observer->name(), [&] { observer->finish(); });
-    });
-  else
-    stage_ = Stage::under_way;
   sum_up();
   seconds_before_ = summary_.seconds;
   watch_ = base::Stopwatch();
@@ -741,6 +822,7 @@ void Simulation::observe(const std::string& name, std::function<void(const Frame
   observe(std::make_unique<FunctionObserver>(name, std::move(see)));
 }
 void Simulation::on_progress(std::function<bool(const Progress&)> go_on) { parts_->go_on = std::move(go_on); }
+void Simulation::abandon_when(std::function<bool()> wanted) { parts_->abandon_when(std::move(wanted)); }
 void Simulation::prepare() { parts_->prepare(); }
 std::string Simulation::state() const { return parts_->state(); }
 RunSummary Simulation::summary() const { return parts_->summary(); }

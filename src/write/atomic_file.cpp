@@ -1,8 +1,10 @@
 #include "write/atomic_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
+#include "base/seam.hpp"
 #include "write/part_file.hpp"
 
 namespace gaussdrift::write {
@@ -23,8 +25,13 @@ void write_atomically(const fs::path& file, const std::function<void(std::FILE*)
 
 void write_text(const fs::path& file, std::string_view text) {
   write_atomically(file, [&](std::FILE* part) {
-    if (std::fwrite(text.data(), 1, text.size(), part) != text.size())
-      throw std::system_error(errno, std::generic_category());
+    constexpr std::size_t piece = 1 << 24;
+    for (std::size_t first = 0; first < text.size(); first += piece) {
+      base::seam();
+      const std::size_t size = std::min(piece, text.size() - first);
+      if (std::fwrite(text.data() + first, 1, size, part) != size)
+        throw std::system_error(errno, std::generic_category());
+    }
   });
 }
 

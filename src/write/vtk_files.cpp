@@ -28,6 +28,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/seam.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
 
@@ -66,6 +67,14 @@ void collect_errors(vtkObject* source, std::string& messages) {
   source->AddObserver("WarningEvent", collect);
 }
 
+/// The writer tells its progress for every piece of some tens of kilobytes. VTK asks nobody whether to go on, so the way
+/// out of it is an exception; the writer and what it made are not used again.
+void make_seams(vtkObject* writer) {
+  vtkNew<vtkCallbackCommand> look;
+  look->SetCallback([](vtkObject*, unsigned long, void*, void*) { base::seam(); });
+  writer->AddObserver("ProgressEvent", look);
+}
+
 // VTK writes into memory and the file is written in one piece: its writers are not safe on a disk that fills up.
 template <class Writer>
 std::string text_of(const fs::path& file, vtkDataSet* data) {
@@ -73,6 +82,7 @@ std::string text_of(const fs::path& file, vtkDataSet* data) {
   vtkNew<Writer> writer;
   collect_errors(writer, messages);
   collect_errors(writer->GetExecutive(), messages);
+  make_seams(writer);
   writer->WriteToOutputStringOn();
   writer->SetInputData(data);
   writer->SetDataModeToBinary();

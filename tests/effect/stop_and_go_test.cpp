@@ -110,6 +110,60 @@ TEST_P(StopAndGo, GoesOnFromTheMiddleOfALeg) {
   expect_same(whole.particles(), resumed.particles());
 }
 
+void expect_same(const RunSummary& a, const RunSummary& b) {
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_EQ(a.steps_rejected, b.steps_rejected);
+  EXPECT_EQ(a.reference.rates, b.reference.rates);
+  ASSERT_EQ(a.frames.size(), b.frames.size());
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    EXPECT_EQ(a.frames[i].first, b.frames[i].first);
+    EXPECT_EQ(a.frames[i].second.maximum, b.frames[i].second.maximum);
+    EXPECT_EQ(a.frames[i].second.stretch, b.frames[i].second.stretch);
+    if (a.frames[i].second.error) {
+      EXPECT_EQ(a.frames[i].second.error->linf, b.frames[i].second.error->linf);
+    }
+  }
+  ASSERT_EQ(a.effects.size(), b.effects.size());
+  for (std::size_t i = 0; i < a.effects.size(); ++i) EXPECT_EQ(a.effects[i].numbers, b.effects[i].numbers);
+}
+
+// At any seam: in the middle of a step, of a sum for a density, of paths for the exact density, between observers.
+TEST_P(StopAndGo, GoesOnAfterWorkThatWasAbandonedInTheMiddle) {
+  const Case spec = spec_of(GetParam(), {"time.step=0.05", "particles.per_axis=15"});
+  const auto observed = [](Simulation& simulation) {
+    for (const char* name : {"one", "two"}) simulation.observe(name, [](const Frame&) {});
+  };
+  Simulation whole(spec, 1);
+  observed(whole);
+  int seams = 0;
+  whole.abandon_when([&] {
+    ++seams;
+    return false;
+  });
+  const RunSummary once = whole.run();
+  constexpr int cuts = 12;
+  ASSERT_GT(seams, cuts);
+  int abandoned = 0;
+  for (int cut = 0; cut < cuts; ++cut) {
+    const int at = 1 + static_cast<int>(static_cast<long>(seams - 1) * cut / (cuts - 1));
+    Simulation first(spec, 1), second(spec, 1);
+    observed(first), observed(second);
+    int asked = 0;
+    first.abandon_when([&] { return ++asked >= at; });
+    try {
+      EXPECT_FALSE(first.run().complete) << at;
+    } catch (const Abandoned&) {  // while it was prepared
+      continue;
+    }
+    ++abandoned;
+    second.restore(first.particles(), first.state());
+    const RunSummary rest = second.run();
+    expect_same(once, rest);
+    expect_same(whole.particles(), second.particles());
+  }
+  EXPECT_GT(abandoned, cuts / 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Effects, StopAndGo,
     testing::Values(Kind{"transport", {"time.step=0.0001"}},
