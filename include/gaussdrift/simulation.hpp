@@ -82,6 +82,12 @@ class Simulation {
   /// What the run has done so far; callable wherever a progress function is called. Its seconds are those until now.
   RunSummary summary() const;
 
+  /// Whether every point of every output is compared with the exact density. Known after prepare().
+  bool compares_everywhere() const;
+  /// What the whole run takes on one thread, by its work on a usual machine: right within a factor of three or so. Known
+  /// after prepare().
+  double rough_seconds() const;
+
   /// As they are now, without copies; empty before prepare(). Weights and widths are those of the last output. Where
   /// several ranks share the run these are the own ones.
   const Particles& particles() const;

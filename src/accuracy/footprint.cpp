@@ -22,6 +22,7 @@
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
 #include "sim/scene.hpp"
+#include "write/checkpoint.hpp"
 
 namespace gaussdrift::accuracy {
 
@@ -68,31 +69,43 @@ double particles_at_most(const Case& spec, Trial& trial) {
   return carrier.replaces_particles() && spec.time.end > 0 ? at_start * grow(spec, trial).most : at_start;
 }
 
-}  // namespace
-
-double disk_of_run(const Case& spec, const Extent& extent) {
-  const auto frames = static_cast<double>(spec.output.times.size());
-  double bytes = 1e4 + 250 * frames;
-  for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
-  for (const OutputFile& file : spec.output.files) bytes += frames * write::find_output_file(file.name).bytes(extent);
-  if (spec.output.report) bytes += 5e4 + (spec.output.images.empty() ? 0 : 5e5);  // the page and its picture
-  return bytes;
-}
-
-RunMemory memory_of_run(const Case& spec, const Extent& extent) {
-  const double n = extent.particles, m = extent.grid_points, d = spec.domain.dimension,
-               frames = static_cast<double>(spec.output.times.size());
-  EffectMemory effects;  // of all, a particle
+/// Of all effects, a particle.
+EffectMemory memory_of_effects(const Case& spec) {
+  EffectMemory effects;
   for (const auto& [effect, written] : effects_of(spec.effects)) {
     if (!effect->memory) continue;
     const EffectMemory one = effect->memory(written, spec.domain.dimension);
     effects.integrals += one.integrals, effects.columns += one.columns;
     effects.kept += one.kept, effects.step += one.step;
   }
+  return effects;
+}
+
+double bytes_of_particle(const Case& spec, const EffectMemory& effects) {
+  return number * (spec.domain.dimension + 2 + effects.integrals + effects.columns);
+}
+
+}  // namespace
+
+double disk_of_run(const Case& spec, const Extent& extent, double seconds) {
+  const auto frames = static_cast<double>(spec.output.times.size());
+  double bytes = 1e4 + 250 * frames;
+  for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
+  for (const OutputFile& file : spec.output.files) bytes += frames * write::find_output_file(file.name).bytes(extent);
+  if (spec.output.report) bytes += 5e4 + (spec.output.images.empty() ? 0 : 5e5);  // the page and its picture
+  const bool checkpoints = spec.output.checkpoint ? *spec.output.checkpoint > 0 : seconds >= write::long_run;
+  if (checkpoints) bytes += 2 * extent.particles * bytes_of_particle(spec, memory_of_effects(spec));
+  return bytes;
+}
+
+RunMemory memory_of_run(const Case& spec, const Extent& extent) {
+  const double n = extent.particles, m = extent.grid_points, d = spec.domain.dimension,
+               frames = static_cast<double>(spec.output.times.size());
+  const EffectMemory effects = memory_of_effects(spec);
   const bool pictures = !spec.output.images.empty();
 
   // What stays: positions, weights, ids, integrals, volumes; a halo's and a remeshing's tables of nodes.
-  const double particle = number * (d + 2 + effects.integrals + effects.columns);
+  const double particle = bytes_of_particle(spec, effects);
   RunMemory stays{.particles = n * particle + n * effects.kept};
   // The last output is kept for the error budget and the page.
   const bool explained =

@@ -27,7 +27,7 @@ std::string what_memory_is_for(const RunMemory& run, double program, const Exten
 /// "lower particles.per_axis, or set output.images = []".
 std::string how_to_lower(const RunMemory& run, double program);
 
-/// Bytes of all files of a run.
-double disk_of_run(const Case& spec, const Extent& extent);
+/// Bytes of all files of a run that takes about `seconds`, at most: with two checkpoints, where it writes some.
+double disk_of_run(const Case& spec, const Extent& extent, double seconds);
 
 }  // namespace gaussdrift::accuracy

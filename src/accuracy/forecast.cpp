@@ -266,7 +266,7 @@ void add_up(const Case& spec, const Extent& extent, double most_memory, Forecast
   largest.particles = result.particles_at_most;
   result.memory = memory_of_run(spec, largest);
   result.memory_limit = tightest_limit(most_memory);
-  result.disk_bytes = disk_of_run(spec, extent);
+  result.disk_bytes = disk_of_run(spec, extent, result.seconds);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "accuracy/forecast.hpp"
 #include "accuracy/grouped.hpp"
+#include "base/counted.hpp"
 #include "base/size_text.hpp"
 #include "reference/reference.hpp"
 #include "sim/outside.hpp"
@@ -77,10 +78,12 @@ std::string run_text(const Case& spec, const Forecast& r) {
 std::string cost_text(const Forecast& r) {
   std::string text;
   text += fmt::format(
-      "cost       {} steps x {} particles, {} frames of {} points: about {:.2g} s on {} threads (seeding {:.2g}, steps "
+      "cost       {} x {}, {} of {}: about {:.2g} s on {} (seeding {:.2g}, steps "
       "{:.2g}, density "
       "{:.2g}, reference {:.2g}, files {:.2g}, pictures {:.2g}, report {:.2g}); memory {}; disk {}\n",
-      grouped(r.steps), grouped(r.particles), r.frames, grouped(r.grid_points), r.seconds, r.threads, r.seed_seconds,
+      base::counted(grouped(r.steps), "step"), base::counted(grouped(r.particles), "particle"),
+      base::counted(r.frames, "frame"), base::counted(grouped(r.grid_points), "point"), r.seconds,
+      base::counted(static_cast<std::size_t>(r.threads), "thread"), r.seed_seconds,
       static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
       r.reference_seconds, r.file_seconds, r.picture_seconds, r.report_seconds, base::size_text(r.memory_bytes()),
       base::size_text(r.disk_bytes));

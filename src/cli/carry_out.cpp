@@ -96,10 +96,13 @@ std::string provenance_of(const RunTask& task) {
                                 data_of(task.spec, task.folder), task.command, base::resolve_threads(task.threads));
 }
 
-/// Bytes that the run writes at least: the exact density may stand beside the other.
-double least_disk(const Case& spec, std::size_t particles) {
-  return accuracy::disk_of_run(spec, {.particles = static_cast<double>(particles),
-                                      .grid_points = static_cast<double>(evaluation_lattice(spec).size())});
+/// Bytes that the run will write.
+double disk_of(const Case& spec, const Simulation& simulation, int threads) {
+  return accuracy::disk_of_run(spec,
+                               {.particles = static_cast<double>(simulation.particles().size()),
+                                .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
+                                .compared_everywhere = simulation.compares_everywhere()},
+                               simulation.rough_seconds() / base::resolve_threads(threads));
 }
 
 class Run {
@@ -241,7 +244,7 @@ class Run {
     own_folder_.emplace(folder_, spec_,
                         write::RunFolderOptions{.force = task_.force,
                                                 .go_on = goes_on,
-                                                .bytes = least_disk(spec_, simulation.particles().size()),
+                                                .bytes = disk_of(spec_, simulation, task_.threads),
                                                 .picture_styles = render::style_names()});
     if (provenance.empty()) return;
     // First, because it has the name of the case: a run that has a run.toml can be resumed, and pictures show the name.

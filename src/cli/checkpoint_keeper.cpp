@@ -7,7 +7,6 @@ namespace gaussdrift::cli {
 
 namespace {
 
-constexpr double long_run = 300;          // seconds: shorter ones keep no checkpoints by default
 constexpr double usual_interval = 60;     // seconds
 constexpr double least_part_of_run = 50;  // an interval is so many times as long as writing takes
 
@@ -23,12 +22,12 @@ bool CheckpointKeeper::is_due(const Progress& progress) const {
   if (since < std::max(usual_interval, least_part_of_run * last_seconds_)) return false;
   // The rest is taken to go on at the pace so far.
   const double done = progress.time - begun_at_.value_or(0), left = progress.end - progress.time;
-  return done <= 0 || since_start_.seconds() * (1 + left / done) >= long_run;
+  return done <= 0 || since_start_.seconds() * (1 + left / done) >= write::long_run;
 }
 
 bool CheckpointKeeper::look(const Progress& progress, const Simulation& simulation) {
   if (!begun_at_) begun_at_ = progress.time;
-  const bool keeps_one = asked_ ? *asked_ > 0 : resumed_ || since_start_.seconds() >= long_run;
+  const bool keeps_one = asked_ ? *asked_ > 0 : resumed_ || since_start_.seconds() >= write::long_run;
   const bool at_end = keeps_one && progress.time >= progress.end;
   if (!at_end && !is_due(progress)) return false;
   const std::size_t before = written_;

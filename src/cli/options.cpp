@@ -27,6 +27,11 @@ Option& Option::within(int least, int most) {
   return *this;
 }
 
+Option& Option::within(double least, double most) {
+  option_->check(CLI::Range(least, most));
+  return *this;
+}
+
 Option& Option::not_negative() {
   option_->check(CLI::NonNegativeNumber);
   return *this;

@@ -21,6 +21,7 @@ class Option {
   /// Several values in one word: --times 0,1,2.
   Option& separated_by(char separator);
   Option& within(int least, int most);
+  Option& within(double least, double most);
   Option& not_negative();
   Option& excludes(const Option& other);
 

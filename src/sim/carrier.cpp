@@ -218,9 +218,8 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
     const std::size_t count = std::min(batch, interval.steps() - leg.steps);
     const std::size_t first = leg.steps;
     bool taken = true;
-    ranks_.agree_on([&] {
-      taken = attempt(particles, [&] { advance(particles, interval, first, count, steps_before, stages); });
-    });
+    ranks_.agree_on(
+        [&] { taken = attempt(particles, [&] { advance(particles, interval, first, count, steps_before, stages); }); });
     if (!taken) return false;
     leg.steps += count;
     leg.now = interval.start(leg.steps);

@@ -34,6 +34,7 @@
 #include "sim/stepper.hpp"
 #include "sim/tiled_density.hpp"
 #include "sim/transform.hpp"
+#include "sim/work.hpp"
 
 namespace gaussdrift {
 
@@ -171,6 +172,11 @@ class Simulation::Parts {
   const Particles& particles() const { return particles_; }
   Particles all_particles() const { return gather_particles(particles_, ranks_); }
   std::size_t particle_count() const;
+  bool compares_everywhere() const { return reference_ && compared_.points >= scene_.evaluation.size(); }
+  double rough_seconds() const {
+    constexpr double seconds_of_a_unit = 40e-9;  // work.hpp
+    return seconds_of_a_unit * work_of(case_, scene_, particle_count()).total();
+  }
 
   void abandon_when(std::function<bool()> wanted) {
     abandon_wanted_ = std::move(wanted);
@@ -205,7 +211,9 @@ class Simulation::Parts {
     });
   }
   /// Ranks do not agree at seams yet: where there are several, what is under way is finished.
-  const base::AbandonWanted* abandon_wanted() const { return abandon_wanted_ && ranks_.size() == 1 ? &abandon_wanted_ : nullptr; }
+  const base::AbandonWanted* abandon_wanted() const {
+    return abandon_wanted_ && ranks_.size() == 1 ? &abandon_wanted_ : nullptr;
+  }
   void make_ready();
   bool carry();
   bool show_or_abandon(double time);
@@ -830,6 +838,8 @@ void Simulation::restore(Particles particles, const std::string& state) {
   parts_->restore(std::move(particles), state);
 }
 RunSummary Simulation::run() { return parts_->run(); }
+bool Simulation::compares_everywhere() const { return parts_->compares_everywhere(); }
+double Simulation::rough_seconds() const { return parts_->rough_seconds(); }
 const Particles& Simulation::particles() const { return parts_->particles(); }
 Particles Simulation::all_particles() const { return parts_->all_particles(); }
 std::size_t Simulation::particle_count() const { return parts_->particle_count(); }

@@ -12,6 +12,9 @@
 
 namespace gaussdrift::write {
 
+/// Seconds. Shorter runs keep no checkpoints unless they are asked for.
+constexpr double long_run = 300;
+
 /// How far a run was.
 struct CheckpointFacts {
   double time = 0;

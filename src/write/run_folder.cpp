@@ -177,6 +177,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
   if (options.go_on) {
     for (const std::string& name : files.names()) own_.add(name);
     outputs_ = run.outputs, time_ = run.time;
+    check_space(folder_, options.bytes, own_.bytes_in(folder_));
     tell("running", "wait, or look at what is there: every file is whole");
     return;
   }

@@ -157,6 +157,7 @@ TEST(Study, LeavesATableAndChartsAndAPage) {
             6);
   for (const char* file : {"kept/study.csv", "kept/study.json", "kept/study.md"})
     EXPECT_TRUE(fs::exists(folder / file)) << file;
+  EXPECT_EQ(gaussdrift_in(folder, "study nowhere.toml --seconds 90.5").exit_code, 6) << "a fraction is no wrong word";
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step").exit_code, 2);
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.stop=1,2").exit_code, 3);
 }

@@ -61,18 +61,6 @@ TEST(Launched, OnOneRankTheRunIsTheSame) {
   expect_same(folder / "alone", folder / "launched");
 }
 
-TEST(Launched, OnSeveralRanksARunIsRefusedOnce) {
-  NEEDS_MPIRUN();
-  const ScratchFolder folder;
-  write_file(folder / "cone.toml", small_case);
-  const Outcome outcome = on_ranks_of_mpi(2, "'" PROGRAM "' run cone.toml --out never", folder);
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_EQ(outcome.err,
-            "2 ranks on 1 host\nerror: gaussdrift run cannot share its work among 2 ranks yet.\n"
-            "Start it on one: gaussdrift run without mpirun uses all cores of this machine.\n");
-  EXPECT_FALSE(fs::exists(folder / "never"));
-}
-
 TEST(Launched, OnSeveralRanksOtherVerbsSpeakOnce) {
   NEEDS_MPIRUN();
   const ScratchFolder folder;

@@ -1,0 +1,153 @@
+// Runs that several ranks share, started as a user does: the same files on any number of ranks, how they stop, go on and
+// fail. tests/effect/shared_run_test.cpp asks the same of the library.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "program/same_run.hpp"
+#include "ranks/mpirun.hpp"
+
+namespace gaussdrift {
+namespace {
+
+const std::string run = "'" PROGRAM "' run ";
+
+/// Narrow blobs on a fine grid, so that there are several tiles; small all the same.
+std::string small(const std::string& more = "") {
+  return " --set particles.per_axis=151 --set particles.overlap=0.7 --set evaluate.per_axis=121 --set "
+         "evaluate.tile_particles=200 --set 'output.images=[]' " +
+         more;
+}
+
+std::vector<std::string> plane_cases() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(SOURCE_DIR "/cases"))
+    if (entry.path().extension() == ".toml" && read_file(entry.path()).find("max = [1, 1, 1]") == std::string::npos)
+      names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string path_of(const std::string& name) { return "'" SOURCE_DIR "/cases/" + name + ".toml'"; }
+
+class EveryCase : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Shared, EveryCase, testing::ValuesIn(plane_cases()),
+                         [](const auto& name) { return name.param; });
+
+TEST_P(EveryCase, HasTheSameFilesOnThreeRanksOrIsRefused) {
+  NEEDS_MPIRUN();
+  const ScratchFolder folder;
+  const std::string arguments = path_of(GetParam()) + small("--set time.end=0.2 --set output.frames=3 ");
+  const Outcome three = on_ranks_of_mpi(3, run + arguments + "--out three", folder);
+  if (three.exit_code == 3) {
+    EXPECT_NE(three.err.find("3 ranks cannot share this case; start it on one rank"), std::string::npos) << three.err;
+    EXPECT_FALSE(fs::exists(folder / "three"));
+    return;
+  }
+  const Outcome alone = outcome_of(folder, run + arguments + "--out alone");
+  EXPECT_EQ(three.exit_code, alone.exit_code) << three.err << alone.err;
+  expect_same(folder / "alone", folder / "three");
+}
+
+TEST(SharedRun, HasTheSameFilesOnAnyNumberOfRanks) {
+  NEEDS_MPIRUN();
+  for (const std::string name : {"rotating_cone", "swirl", "decay"}) {
+    const ScratchFolder folder;
+    const std::string arguments = path_of(name) + small("--set time.end=0.3 --set output.frames=3 ");
+    const Outcome alone = outcome_of(folder, run + arguments + "--out alone");
+    for (const int ranks : {1, 2, 4, 8}) {
+      const std::string out = "on_" + std::to_string(ranks);
+      const Outcome shared = on_ranks_of_mpi(ranks, run + arguments + "--out " + out, folder);
+      EXPECT_EQ(shared.exit_code, alone.exit_code) << shared.err;
+      EXPECT_NE(shared.err.find(std::to_string(ranks) + (ranks == 1 ? " rank on 1 host" : " ranks on 1 host")),
+                std::string::npos)
+          << shared.err;
+      expect_same(folder / "alone", folder / out);
+    }
+  }
+}
+
+// Pictures, particles, the page and a reference on the whole grid.
+TEST(SharedRun, DrawsTheSamePictures) {
+  NEEDS_MPIRUN();
+  const ScratchFolder folder;
+  const std::string arguments = path_of("rotating_cone") +
+                                " --set particles.per_axis=201 --set particles.overlap=0.8 --set "
+                                "evaluate.per_axis=150 --set evaluate.tile_particles=300 --set time.end=0.1 --set "
+                                "output.frames=2 ";
+  outcome_of(folder, run + arguments + "--out alone");
+  const Outcome shared = on_ranks_of_mpi(2, run + arguments + "--out shared", folder);
+  EXPECT_NE(shared.exit_code, 3) << shared.err;
+  EXPECT_NE(read_file(folder / "shared/summary.json").find(" tiles, the fullest by"), std::string::npos);
+  expect_same(folder / "alone", folder / "shared");
+}
+
+TEST(SharedRun, StopsAndGoesOnWithAnotherNumberOfRanks) {
+  NEEDS_MPIRUN();
+  const ScratchFolder folder;
+  const std::string arguments =
+      path_of("rotating_cone") + small("--set time.end=3 --set time.step=0.0002 --set output.frames=3 ");
+  const Outcome alone = outcome_of(folder, run + arguments + "--out alone");
+  const Outcome stopped = on_ranks_of_mpi(3, run + arguments + "--out parts --stop-after 0.1", folder);
+  EXPECT_EQ(stopped.exit_code, 7) << stopped.err;
+  EXPECT_NE(stopped.err.find("resume with: gaussdrift resume parts"), std::string::npos) << stopped.err;
+  const Outcome two = on_ranks_of_mpi(2, "'" PROGRAM "' resume parts --stop-after 0.1", folder);
+  EXPECT_EQ(two.exit_code, 7) << two.err;
+  const Outcome rest = outcome_of(folder, "'" PROGRAM "' resume parts");
+  EXPECT_EQ(rest.exit_code, alone.exit_code) << rest.err;
+  expect_same(folder / "alone", folder / "parts");
+}
+
+TEST(SharedRun, OfACompleteFolderSaysSoOnce) {
+  NEEDS_MPIRUN();
+  const ScratchFolder folder;
+  const std::string arguments = path_of("decay") + small("--set time.end=0.1 ");
+  on_ranks_of_mpi(2, run + arguments + "--out there", folder);
+  const Outcome again = on_ranks_of_mpi(2, "'" PROGRAM "' resume there", folder);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(again.out, "there is complete. --until T lengthens it.\n");
+  const Outcome refused = on_ranks_of_mpi(2, run + arguments + "--out there", folder);
+  EXPECT_EQ(refused.exit_code, 6) << refused.err;
+  EXPECT_EQ(refused.err.find("error: "), refused.err.rfind("error: ")) << refused.err;
+}
+
+TEST(SharedRun, TellsAFailureOnce) {
+  NEEDS_MPIRUN();
+  const ScratchFolder folder;
+  // Particles that come to x = 0.85 have no velocity: those are on one rank.
+  write_file(folder / "case.toml", R"(gaussdrift = 1
+[domain]
+min = [-1, -1]
+max = [1, 1]
+[velocity]
+u = ["1 + 0*sqrt(0.85 - x)", "0"]
+[density]
+shape = "wendland"
+center = [0.3, 0]
+radius = 0.3
+[particles]
+per_axis = 201
+overlap = 0.7
+[time]
+end = 1
+step = 0.01
+[evaluate]
+per_axis = 201
+tile_particles = 200
+[output]
+frames = 5
+images = []
+)");
+  const Outcome alone = outcome_of(folder, run + "case.toml --out alone");
+  const Outcome shared = on_ranks_of_mpi(3, run + "case.toml --out shared", folder);
+  EXPECT_EQ(alone.exit_code, 4);
+  EXPECT_EQ(shared.exit_code, 4) << shared.err;
+  EXPECT_EQ(shared.err.find("error: "), shared.err.rfind("error: ")) << shared.err;
+  EXPECT_NE(shared.err.find("the velocity is (nan"), std::string::npos) << shared.err;
+  EXPECT_EQ(bits_of(folder / "alone"), bits_of(folder / "shared")) << "what was written before is whole";
+}
+
+}  // namespace
+}  // namespace gaussdrift
