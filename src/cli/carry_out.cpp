@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -107,45 +108,45 @@ double disk_of(const Case& spec, const Simulation& simulation, int threads) {
 
 class Run {
  public:
-  explicit Run(RunTask& task) : task_(task), spec_(task.spec), folder_(task.folder) {}
+  Run(RunTask& task, base::Communicator& ranks)
+      : task_(task), spec_(task.spec), folder_(task.folder), ranks_(ranks), first_(ranks.rank() == 0) {}
 
-  /// False if it was stopped before it could go on.
+  /// All ranks. False if it was stopped before it could go on.
   bool simulate() {
     const base::Stopwatch preparing;
-    refuse_what_does_not_fit(spec_, task_.threads, task_.most_memory);
-    Simulation simulation(spec_, task_.threads);
+    std::optional<Simulation> made;
+    ranks_.agree_on([&] {
+      if (ranks_.size() == 1) refuse_what_does_not_fit(spec_, task_.threads, task_.most_memory);
+      made.emplace(spec_, task_.threads, ranks_);
+    });
+    Simulation& simulation = *made;
     simulation.prepare();  // what cannot begin must not cost an earlier run
     // A signal before has ended the program at once: there was nothing to save.
     stop_.emplace(task_.stop_after - preparing.seconds());
-    prepare_folder(simulation);
-    add_observers(simulation, spec_, folder_, of_observers_);
-    const auto& times = spec_.output.times;
-    if (looks_back(spec_) && !times.empty())
-      simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
-    simulation.observe(own_folder_->watch());
+    ranks_.agree_on([&] {
+      if (first_) prepare_to_write(simulation);
+    });
     simulation.abandon_when([this] { return stop_->by_signal() || (moved_on_ && stop_->made()); });
     try {
-      if (task_.from) simulation.restore(std::move(task_.from->particles), task_.from->state);
+      if (task_.goes_on)
+        simulation.restore(first_ ? std::move(task_.from->particles) : Particles(), first_ ? task_.from->state : "");
     } catch (const Abandoned&) {
       own_folder_->interrupted(how_to_go_on());
       return false;
     }
-
-    keeper_.emplace(
-        folder_, [this] { return past_of(spec_); }, spec_.output.checkpoint, task_.from.has_value());
     ProgressLine line;
     simulation.on_progress([&](const Progress& progress) {
-      line.show(progress);
+      if (first_) line.show(progress);
       moved_on_ = true;
-      if (stop_->made() && progress.time < progress.end) return false;
-      // With the numbers so far: a run that is killed has a page.
-      if (keeper_->look(progress, simulation))
-        write::write_text(folder_ / "summary.json", write::summary_json(spec_, simulation.summary(), {}));
+      if (is_to_stop() && progress.time < progress.end) return false;
+      std::int64_t keeps = first_ && keeper_->is_time(progress);
+      ranks_.max(std::span(&keeps, 1));
+      if (keeps) keep(simulation, progress.time, progress.steps_done);
       return true;
     });
     try {
       summary_ = simulation.run();
-      if (!complete()) keeper_->write(summary_.time, summary_.steps, simulation);
+      if (!complete()) keep(simulation, summary_.time, summary_.steps);
     } catch (const FileError& error) {  // a full disk, mostly
       keep_what_there_is(simulation);
       throw FileError(fmt::format("{}\n{}", error.what(), how_to_go_on()));
@@ -177,7 +178,7 @@ class Run {
 
   ExitCode tell_how_to_go_on() const {
     note("{}\n", how_to_go_on());
-    return stop_->code();
+    return stop_code();
   }
 
   /// Every file before the first word: a terminal that takes no text costs no result.
@@ -219,11 +220,45 @@ class Run {
       note("check failed: {}\n", result.text);
     }
     for (const std::string& why : owed_.missing()) note("error: {}\n", why);
-    if (!looked_back_) return stop_->code();
+    if (!looked_back_) return stop_code();
     return failed ? ExitCode::check : owed_.missing().empty() ? ExitCode::ok : ExitCode::files;
   }
 
  private:
+  void prepare_to_write(Simulation& simulation) {
+    prepare_folder(simulation);
+    add_observers(simulation, spec_, folder_, of_observers_);
+    const auto& times = spec_.output.times;
+    if (looks_back(spec_) && !times.empty())
+      simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
+    simulation.observe(own_folder_->watch());
+    keeper_.emplace(
+        folder_, [this] { return past_of(spec_); }, spec_.output.checkpoint, task_.goes_on);
+  }
+
+  /// Ranks stop together, where one of them is asked to.
+  bool is_to_stop() {
+    std::int64_t code = stop_->made() ? static_cast<std::int64_t>(stop_->code()) : 0;
+    ranks_.max(std::span(&code, 1));
+    if (code != 0) stop_code_ = static_cast<ExitCode>(code);
+    return code != 0;
+  }
+
+  ExitCode stop_code() const { return stop_->made() ? stop_->code() : stop_code_; }
+
+  /// A checkpoint, and with it the numbers so far: a run that is killed has a page.
+  void keep(const Simulation& simulation, double time, std::size_t steps) {
+    const bool shared = ranks_.size() > 1;
+    const Particles gathered = shared ? simulation.all_particles() : Particles();
+    ranks_.agree_on([&] {
+      if (!first_) return;
+      const std::size_t before = keeper_->written();
+      keeper_->write(time, steps, shared ? gathered : simulation.particles(), simulation.state());
+      if (keeper_->written() > before)
+        write::write_text(folder_ / "summary.json", write::summary_json(spec_, simulation.summary(), {}));
+    });
+  }
+
   void look_back_unless_stopped() {
     const base::AbandonWanted wanted = [this] { return stop_->by_signal(); };
     try {
@@ -239,7 +274,7 @@ class Run {
   }
 
   void prepare_folder(const Simulation& simulation) {
-    const bool goes_on = task_.from.has_value();
+    const bool goes_on = task_.goes_on;
     const std::string provenance = goes_on && !task_.changed ? "" : provenance_of(task_);
     own_folder_.emplace(folder_, spec_,
                         write::RunFolderOptions{.force = task_.force,
@@ -272,7 +307,7 @@ class Run {
   void keep_what_there_is(const Simulation& simulation) {
     try {
       const RunSummary so_far = simulation.summary();
-      keeper_->write(so_far.time, so_far.steps, simulation);
+      keep(simulation, so_far.time, so_far.steps);
     } catch (const FileError&) {  // the one before stands
     }
   }
@@ -301,6 +336,9 @@ class Run {
   RunTask& task_;
   const Case& spec_;
   const fs::path folder_;
+  base::Communicator& ranks_;
+  const bool first_;
+  ExitCode stop_code_ = ExitCode::stopped;  // of the rank that was asked
   std::optional<StopRequest> stop_;
   std::atomic<bool> moved_on_{false};  // by a step or more
   std::optional<CheckpointKeeper> keeper_;
@@ -319,17 +357,28 @@ class Run {
 
 std::string past_of(const Case& spec) { return write::hash_of(input::text_of_past(spec), data_of(spec, {})); }
 
-ExitCode carry_out(RunTask task) {
-  Run run(task);
+ExitCode carry_out(RunTask task, base::Communicator& ranks) {
+  if (task.done) return *task.done;
+  const bool first = ranks.rank() == 0;
+  Run run(task, ranks);
+  bool went_on = true;
   try {
-    if (!run.simulate()) return run.tell_how_to_go_on();
+    went_on = run.simulate();
   } catch (...) {
-    run.tell_what_is_kept();
+    if (first) run.tell_what_is_kept();
     throw;
   }
-  run.explain_errors();
-  run.write();
-  return run.report();
+  std::int64_t code = 0;
+  ranks.agree_on([&] {
+    if (!first) return;
+    if (went_on) {
+      run.explain_errors();
+      run.write();
+    }
+    code = static_cast<std::int64_t>(went_on ? run.report() : run.tell_how_to_go_on());
+  });
+  ranks.sum(std::span(&code, 1));  // the others have 0
+  return static_cast<ExitCode>(code);
 }
 
 ExitCode finish(const Case& spec, const fs::path& folder) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/communicator.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/checkpoint.hpp"
@@ -22,15 +23,18 @@ struct RunTask {
   int threads = 0;                                               // 0: all
   double stop_after = std::numeric_limits<double>::infinity();   // seconds
   double most_memory = std::numeric_limits<double>::infinity();  // bytes; what would take more is refused
-  std::optional<write::Checkpoint> from{};                       // go on from there
+  bool goes_on = false;                                          // from a checkpoint
+  std::optional<write::Checkpoint> from{};                       // that one; on rank 0
+  std::optional<ExitCode> done{};                                // nothing is left to do
   bool changed = false;                                          // going on: the case is another than before
 };
 
 /// The hash of all that the particles of a case depend on: settings and the bytes of its data. Throws FileError.
 std::string past_of(const Case& spec);
 
-/// Runs, explains the errors, writes everything, and then says what came out.
-ExitCode carry_out(RunTask task);
+/// Runs, explains the errors, writes everything, and then says what came out. All ranks call it together: rank 0 has the
+/// folder, the terminal and the signals of the others.
+ExitCode carry_out(RunTask task, base::Communicator& ranks);
 
 /// Of a run that died after its last number: makes its page and closes its folder.
 ExitCode finish(const Case& spec, const std::filesystem::path& folder);

@@ -25,21 +25,18 @@ bool CheckpointKeeper::is_due(const Progress& progress) const {
   return done <= 0 || since_start_.seconds() * (1 + left / done) >= write::long_run;
 }
 
-bool CheckpointKeeper::look(const Progress& progress, const Simulation& simulation) {
+bool CheckpointKeeper::is_time(const Progress& progress) {
   if (!begun_at_) begun_at_ = progress.time;
+  if (asked_ && *asked_ == 0) return false;
   const bool keeps_one = asked_ ? *asked_ > 0 : resumed_ || since_start_.seconds() >= write::long_run;
-  const bool at_end = keeps_one && progress.time >= progress.end;
-  if (!at_end && !is_due(progress)) return false;
-  const std::size_t before = written_;
-  write(progress.time, progress.steps_done, simulation);
-  return written_ > before;
+  return (keeps_one && progress.time >= progress.end) || is_due(progress);
 }
 
-void CheckpointKeeper::write(double time, std::size_t steps, const Simulation& simulation) {
+void CheckpointKeeper::write(double time, std::size_t steps, const Particles& particles, const std::string& state) {
   if (asked_ && *asked_ == 0) return;
   const base::Stopwatch watch;
   if (hash_.empty()) hash_ = past_();
-  last_ = write::write_checkpoint(folder_, hash_, time, steps, simulation.particles(), simulation.state());
+  last_ = write::write_checkpoint(folder_, hash_, time, steps, particles, state);
   last_seconds_ = watch.seconds();
   seconds_ += last_seconds_;
   ++written_;

@@ -22,12 +22,11 @@ class CheckpointKeeper {
   CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past, std::optional<double> asked,
                    bool resumed);
 
-  /// To be called between steps. Writes if it is time to, and at the end of a run that keeps checkpoints. True if it
-  /// wrote. Throws FileError.
-  bool look(const Progress& progress, const Simulation& simulation);
+  /// To be called between steps: whether it is time to write one. So it is at the end of a run that keeps checkpoints.
+  bool is_time(const Progress& progress);
 
-  /// Writes one, whatever the time. Not if the case wants none.
-  void write(double time, std::size_t steps, const Simulation& simulation);
+  /// Writes one, whatever the time. Not if the case wants none. `particles` are those of all ranks. Throws FileError.
+  void write(double time, std::size_t steps, const Particles& particles, const std::string& state);
 
   std::size_t written() const { return written_; }
   double seconds() const { return seconds_; }  // of all

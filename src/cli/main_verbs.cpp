@@ -85,19 +85,13 @@ Asked parse(int argc, char** argv) {
 }
 
 ExitCode carry_out(const Verb& verb, base::Communicator& ranks, bool launched) {
-  if (verb.on_ranks == OnRanks::refused) {
+  if (verb.on_ranks == OnRanks::shared) {
     if (launched && ranks.rank() == 0) note("{}\n", ranks_text(ranks));
-    if (ranks.size() > 1)
-      ranks.agree_on([&] {
-        throw InputError(
-            fmt::format("gaussdrift {} cannot share its work among {} ranks yet.\nStart it on one: "
-                        "gaussdrift {} without mpirun uses all cores of this machine.",
-                        verb.name, ranks.size(), verb.name));
-      });
+    return verb.run(ranks);
   }
   ExitCode code = ExitCode::ok;
   ranks.agree_on([&] {
-    if (ranks.rank() == 0) code = verb.run();
+    if (ranks.rank() == 0) code = verb.run(ranks);
   });
   return code;
 }

@@ -9,6 +9,7 @@
 #include "base/text_file.hpp"
 #include "cli/asked_case.hpp"
 #include "cli/carry_out.hpp"
+#include "cli/shared_task.hpp"
 #include "cli/stop_request.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -101,7 +102,7 @@ bool lacks_its_end(const fs::path& folder) {
   return !state.empty() && state != "complete";
 }
 
-ExitCode resume(const ResumeOptions& options) {
+RunTask task_of(const ResumeOptions& options) {
   RunTask task;
   task.stop_after = stop_after_seconds(options.stop_after);
   task.most_memory = most_memory(options.memory);
@@ -137,11 +138,13 @@ ExitCode resume(const ResumeOptions& options) {
   const input::ChangedKeys changed = input::changed_keys(before, spec);
   if (complete && changed.future.empty() && lacks_its_end(options.folder)) {
     note("all numbers are there; the page about them is made again\n");
-    return finish(spec, options.folder);
+    task.done = finish(spec, options.folder);
+    return task;
   }
   if (complete && changed.future.empty()) {
     put(stdout, fmt::format("{} is complete. --until T lengthens it.\n", options.folder.string()));
-    return ExitCode::ok;
+    task.done = ExitCode::ok;
+    return task;
   }
   if (complete && !task.from)
     throw InputError(
@@ -155,20 +158,23 @@ ExitCode resume(const ResumeOptions& options) {
   else
     note("there is no checkpoint; the run begins again\n");
   task.force = !task.from;
+  task.goes_on = task.from.has_value();
   if (!task.from && fs::exists(options.folder / "case.toml"))
     spec.source = base::read_text_file(options.folder / "case.toml", "a case", largest_case);
   task.asked = spec;
   task.spec = std::move(spec);
-  return carry_out(std::move(task));
+  return task;
+}
+
+ExitCode resume(const ResumeOptions& options, base::Communicator& ranks) {
+  return carry_out(shared_task(ranks, [&] { return task_of(options); }), ranks);
 }
 
 }  // namespace
 
 Verb resume_verb(const std::string& typed) {
-  Verb verb = make_verb<ResumeOptions>("resume", "go on with a run that was stopped or killed, or beyond its end",
-                                       declare, resume, {.command = typed});
-  verb.on_ranks = OnRanks::refused;
-  return verb;
+  return make_shared_verb<ResumeOptions>("resume", "go on with a run that was stopped or killed, or beyond its end",
+                                         declare, resume, {.command = typed});
 }
 
 }  // namespace gaussdrift::cli

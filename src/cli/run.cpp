@@ -2,6 +2,7 @@
 #include "cli/asked_case.hpp"
 #include "cli/carry_out.hpp"
 #include "cli/output_name.hpp"
+#include "cli/shared_task.hpp"
 #include "cli/stop_request.hpp"
 #include "cli/verbs.hpp"
 
@@ -24,7 +25,7 @@ void declare(OptionList& options, RunOptions& given) {
   declare_stop_after(options, given.stop_after);
 }
 
-ExitCode run(const RunOptions& options) {
+RunTask task_of(const RunOptions& options) {
   check_folder_name(options.folder,
                     "a run leaves a folder with ParaView files (density.pvd), pictures (PNG) and tables (CSV)");
   RunTask task;
@@ -37,16 +38,18 @@ ExitCode run(const RunOptions& options) {
   task.force = options.force;
   task.json = options.case_options.json;
   task.threads = options.case_options.threads;
-  return carry_out(std::move(task));
+  return task;
+}
+
+ExitCode run(const RunOptions& options, base::Communicator& ranks) {
+  return carry_out(shared_task(ranks, [&] { return task_of(options); }), ranks);
 }
 
 }  // namespace
 
 Verb run_verb(const std::string& typed) {
-  Verb verb = make_verb<RunOptions>("run", "run a case: files, pictures and numbers in output/<name>/", declare, run,
-                                    {.case_options = {}, .command = typed});
-  verb.on_ranks = OnRanks::refused;
-  return verb;
+  return make_shared_verb<RunOptions>("run", "run a case: files, pictures and numbers in output/<name>/", declare, run,
+                                      {.case_options = {}, .command = typed});
 }
 
 }  // namespace gaussdrift::cli

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/communicator.hpp"
 #include "cli/options.hpp"
 #include "gaussdrift/error.hpp"
 
@@ -13,15 +14,16 @@ namespace gaussdrift::cli {
 
 /// What becomes of a verb where the program is started as several ranks.
 enum class OnRanks {
-  first,    // rank 0 does it, the others wait
-  refused,  // it computes what ranks would share, and cannot share it yet
+  first,   // rank 0 does it, the others wait
+  shared,  // all do it together
 };
 
 struct Verb {
   std::string name;
   std::string meaning;                       // one line of --help
   std::function<void(OptionList&)> declare;  // its options
-  std::function<ExitCode()> run;             // with the options that were given; throws an Error
+  /// With the options that were given; throws an Error. On rank 0 alone, or on all of them.
+  std::function<ExitCode(base::Communicator& ranks)> run;
   OnRanks on_ranks = OnRanks::first;
 };
 
@@ -30,8 +32,15 @@ template <class Given>
 Verb make_verb(const std::string& name, const std::string& meaning, void (*declare)(OptionList&, Given&),
                ExitCode (*run)(const Given&), Given at_first = {}) {
   const auto given = std::make_shared<Given>(std::move(at_first));
-  return {name, meaning, [=](OptionList& options) { declare(options, *given); }, [=] { return run(*given); },
-          OnRanks::first};
+  return {name, meaning, [=](OptionList& options) { declare(options, *given); },
+          [=](base::Communicator&) { return run(*given); }, OnRanks::first};
+}
+template <class Given>
+Verb make_shared_verb(const std::string& name, const std::string& meaning, void (*declare)(OptionList&, Given&),
+                      ExitCode (*run)(const Given&, base::Communicator&), Given at_first = {}) {
+  const auto given = std::make_shared<Given>(std::move(at_first));
+  return {name, meaning, [=](OptionList& options) { declare(options, *given); },
+          [=](base::Communicator& ranks) { return run(*given, ranks); }, OnRanks::shared};
 }
 
 }  // namespace gaussdrift::cli
