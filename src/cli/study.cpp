@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "cli/asked_case.hpp"
 #include "cli/output_name.hpp"
@@ -42,7 +43,7 @@ void declare(OptionList& options, StudyVerbOptions& given) {
   options.add("--repeats", given.repeats, "N", "how often a cheap run is timed. The fastest counts; 3 by default")
       .within(1, 100);
   options.add("--seconds", given.seconds, "S", "about how long the standard studies may take; 90 by default")
-      .within(1, 100000);
+      .within(1., 100000.);
   options.add("--out", given.folder, "DIR", "folder for tables and charts; output/study_<case> by default");
   options.add("--csv", given.csv, "FILE", "also write all results as one table");
   options.flag("--force", given.force, "replace an earlier study in that folder");
@@ -62,31 +63,34 @@ ExitCode study(const StudyVerbOptions& options) {
                               ? fs::path("output") / ("study_" + options.case_options.file.stem().string())
                               : options.folder;
   using Earlier = write::ResultFolder::Earlier;
-  write::ResultFolder place(folder, "study", options.force ? Earlier::replace : Earlier::refuse,
-                            options.force ? write::files_of_study(folder) : write::OwnFiles({"study.json"}));
+  std::optional<write::ResultFolder> place;
+  wanted.begins = [&] {  // what is refused leaves no folder
+    place.emplace(folder, "study", options.force ? Earlier::replace : Earlier::refuse,
+                  options.force ? write::files_of_study(folder) : write::OwnFiles({"study.json"}));
+  };
   study::Study result;
   {
     ProgressLine line;
     wanted.progress = [&](const std::string& what) { line.show(what); };
     // Written anew whenever a table grows, so that an interrupted study leaves what it has.
     wanted.table_grew = [&](const study::Experiment& experiment) {
-      write::write_text(place.claim(experiment.name + ".csv"), study::to_csv(experiment));
-      place.has_result();
+      write::write_text(place->claim(experiment.name + ".csv"), study::to_csv(experiment));
+      place->has_result();
     };
     result = study::run_study(wanted);
   }
   const std::string json = study::to_json(result);
   OwedFiles owed;
   for (const study::Experiment& experiment : result.experiments)
-    owed.attempt([&] { write::write_text(place.claim(experiment.name + ".csv"), study::to_csv(experiment)); });
-  owed.attempt([&] { write::write_text(place.claim("study.json"), json); });
-  owed.attempt([&] { write::write_text(place.claim("study.md"), study::to_markdown(result)); });
+    owed.attempt([&] { write::write_text(place->claim(experiment.name + ".csv"), study::to_csv(experiment)); });
+  owed.attempt([&] { write::write_text(place->claim("study.json"), json); });
+  owed.attempt([&] { write::write_text(place->claim("study.md"), study::to_markdown(result)); });
   owed.attempt([&] {
     if (render::unavailable_reason().empty())
-      for (const study::Experiment& experiment : result.experiments) place.claim(experiment.name + ".png");
+      for (const study::Experiment& experiment : result.experiments) place->claim(experiment.name + ".png");
     study::draw_charts(result, folder);
   });
-  owed.attempt([&] { place.has_result(), place.complete(); });
+  owed.attempt([&] { place->has_result(), place->complete(); });
   if (!options.csv.empty())
     owed.attempt([&] {
       write::write_text(options.csv, result.experiments.size() == 1 ? study::to_csv(result.experiments.front())

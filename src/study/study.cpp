@@ -186,7 +186,6 @@ namespace {
 
 /// All standard studies that go with the case.
 void make_standard_studies(const Case& spec, const StudyOptions& options, Study& study) {
-  refuse_what_does_not_fit(spec, options.threads, options.most_memory);
   const bool exact = spec.reference.kind != ReferenceSpec::Kind::none;
   for (const StandardStudy& standard : standard_studies()) {
     if (standard.compares_density && !exact) continue;
@@ -296,6 +295,8 @@ Study run_study(const StudyOptions& options) {
   const base::Stopwatch watch;
   const Case spec = read_case(options.file, options.overrides, options.threads).spec;
   Study study{spec.name, spec.title, {}, base::resolve_threads(options.threads), 0};
+  if (options.vary.empty()) refuse_what_does_not_fit(spec, options.threads, options.most_memory);
+  if (options.begins) options.begins();
   if (options.vary.empty())
     make_standard_studies(spec, options, study);
   else

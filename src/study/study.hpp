@@ -57,6 +57,7 @@ struct StudyOptions {
   double seconds = 90;          // about what the standard studies may take
   int threads = 0;
   double most_memory = std::numeric_limits<double>::infinity();  // bytes; what would take more is refused
+  std::function<void()> begins{};                                // called once the case is read and fits
   std::function<void(const std::string&)> progress{};
   std::function<void(const Experiment&)>
       table_grew{};  // by a sample, or several; for tables that survive an interruption
