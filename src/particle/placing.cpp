@@ -1,6 +1,7 @@
 #include "particle/placing.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <numeric>
 #include <span>
@@ -42,17 +43,58 @@ Particles empty_like(const Particles& particles) {
   return none;
 }
 
-Particles exchange(const Particles& particles, const std::vector<std::vector<std::size_t>>& chosen,
-                   base::Communicator& ranks) {
-  std::vector<base::Bytes> out;
-  for (const auto& for_rank : chosen) out.push_back(pack(particles, for_rank));
-  Particles arrived = empty_like(particles);
-  for (base::Bytes& bytes : ranks.exchange(std::move(out))) {
-    unpack(bytes, arrived);
-    bytes = {};
+// Every particle for one rank, as pack() has them.
+template <class RankOf>
+std::vector<base::Bytes> packed_by_rank(const Particles& particles, std::size_t ranks, const RankOf& rank_of) {
+  std::vector<std::uint32_t> rank(particles.size());
+  std::vector<std::size_t> count(ranks, 0);
+  for (std::size_t j = 0; j < rank.size(); ++j) {
+    rank[j] = static_cast<std::uint32_t>(rank_of(j));
+    ++count[rank[j]];
   }
-  sort_by_id(arrived);
-  return arrived;
+  std::size_t columns = 1;
+  each_column(particles, [&](const auto&) { ++columns; });
+  std::vector<base::Bytes> out(ranks);
+  std::vector<std::byte*> to(ranks, nullptr);
+  const auto has_volume = static_cast<std::int64_t>(!particles.volume.empty());
+  for (std::size_t r = 0; r < ranks; ++r) {
+    if (count[r] == 0) continue;
+    out[r].resize(8 * (1 + columns * count[r]));
+    std::memcpy(out[r].data(), &has_volume, 8);
+    to[r] = out[r].data() + 8;
+  }
+  const auto put = [&](const auto& column) {
+    for (std::size_t j = 0; j < rank.size(); ++j) {
+      std::memcpy(to[rank[j]], &column[j], 8);
+      to[rank[j]] += 8;
+    }
+  };
+  put(particles.id);
+  each_column(particles, put);
+  return out;
+}
+
+// What arrives, in columns that are as long as they have to be. `like`: with the same columns.
+Particles arrived(std::vector<base::Bytes> in, const Particles& like) {
+  Particles all = empty_like(like);
+  std::size_t bytes = 0, columns = 2 + static_cast<std::size_t>(like.dimension) + like.path.size();
+  bool volumes = false;
+  for (const base::Bytes& of_rank : in) {
+    bytes += of_rank.size();
+    volumes = volumes || (!of_rank.empty() && of_rank[0] != std::byte{0});
+  }
+  const std::size_t most = bytes / 8 / (columns + (volumes ? 1 : 0));
+  if (volumes) all.volume.reserve(most);
+  all.id.reserve(most);
+  for (int k = 0; k < all.dimension; ++k) all.position[k].reserve(most);
+  all.alpha.reserve(most);
+  for (auto& integral : all.path) integral.reserve(most);
+  for (base::Bytes& of_rank : in) {
+    unpack(of_rank, all);
+    of_rank = {};
+  }
+  sort_by_id(all);
+  return all;
 }
 
 }  // namespace
@@ -135,10 +177,11 @@ void sort_by_id(Particles& particles) {
 void place_particles(Particles& particles, const Tiles& tiles, const std::vector<int>& owner,
                      base::Communicator& ranks) {
   if (ranks.size() == 1) return;
-  std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(ranks.size()));
-  for (std::size_t j = 0; j < particles.size(); ++j)
-    chosen[static_cast<std::size_t>(owner[tiles.of(place_of(particles, j))])].push_back(j);
-  particles = exchange(particles, chosen, ranks);
+  std::vector<base::Bytes> out = packed_by_rank(particles, static_cast<std::size_t>(ranks.size()), [&](std::size_t j) {
+    return static_cast<std::size_t>(owner[tiles.of(place_of(particles, j))]);
+  });
+  particles = empty_like(particles);  // what is on its way need not stand here as well
+  particles = arrived(ranks.exchange(std::move(out)), particles);
 }
 
 Particles felt_from_elsewhere(const Particles& particles, const Tiles& tiles, const std::vector<int>& owner,
@@ -162,10 +205,9 @@ Particles felt_from_elsewhere(const Particles& particles, const Tiles& tiles, co
 }
 
 Particles gather_particles(const Particles& particles, base::Communicator& ranks) {
-  std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(ranks.size()));
-  chosen.front().resize(particles.size());
-  std::iota(chosen.front().begin(), chosen.front().end(), std::size_t{0});
-  return exchange(particles, chosen, ranks);
+  std::vector<base::Bytes> out =
+      packed_by_rank(particles, static_cast<std::size_t>(ranks.size()), [](std::size_t) { return std::size_t{0}; });
+  return arrived(ranks.exchange(std::move(out)), particles);
 }
 
 }  // namespace gaussdrift

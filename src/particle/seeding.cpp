@@ -158,25 +158,35 @@ Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, doub
   std::vector<double> least;
   ranks.agree_on([&] { least = least_weights(lattice, carried, threshold, lines, threads); });
   ranks.max(std::span(least));
-  std::vector<Part> parts(lines.own);
-  ranks.agree_on([&] {
-    base::parallel_for({lines.own, lines.part() * seeding_seconds(lattice, carried)}, threads,
-                       [&](std::size_t own) { parts[own] = seed_line(lattice, lines.number(own), carried, least); });
-  });
   Particles all;
   all.dimension = lattice.dimension;
   std::vector<double> columns;  // of the reports, line by line: points left out, then all and left_out of each kind
-  for (Part& part : parts) {
-    for (int a = 0; a < lattice.dimension; ++a) append(all.position[a], part.particles.position[a]);
-    append(all.alpha, part.particles.alpha);
-    append(all.id, part.particles.id);
-    columns.push_back(static_cast<double>(part.report.left_out));
-    for (const LeftOut& kind : part.report.carried) {
-      columns.push_back(kind.all);
-      columns.push_back(kind.left_out);
+  // Some lines at a time, so that little stands twice in memory.
+  const std::size_t batch = std::max<std::size_t>(64, 1'000'000 / lattice.points[0]);
+  std::vector<Part> parts;
+  ranks.agree_on([&] {
+    for (std::size_t first = 0; first < lines.own; first += batch) {
+      parts.resize(std::min(batch, lines.own - first));
+      const double share = static_cast<double>(parts.size()) / static_cast<double>(lines.all);
+      base::parallel_for({parts.size(), share * seeding_seconds(lattice, carried)}, threads, [&](std::size_t i) {
+        parts[i] = seed_line(lattice, lines.number(first + i), carried, least);
+      });
+      for (Part& part : parts) {
+        for (int a = 0; a < lattice.dimension; ++a) append(all.position[a], part.particles.position[a]);
+        append(all.alpha, part.particles.alpha);
+        append(all.id, part.particles.id);
+        columns.push_back(static_cast<double>(part.report.left_out));
+        for (const LeftOut& kind : part.report.carried) {
+          columns.push_back(kind.all);
+          columns.push_back(kind.left_out);
+        }
+        part = {};
+      }
     }
-    part = {};
-  }
+    for (int a = 0; a < lattice.dimension; ++a) all.position[a].shrink_to_fit();
+    all.alpha.shrink_to_fit();
+    all.id.shrink_to_fit();
+  });
   if (report) *report = sum_of_lines(columns, carried.size(), lines, ranks);
   return all;
 }

@@ -197,7 +197,7 @@ class Simulation::Parts {
   void take_up(const ObserverStates& seen);
   void take_up_outputs(const ObserverStates& seen);
   std::size_t steps_to_end() const;
-  std::vector<double> velocity_at_particles(double time) const;
+  std::vector<double> velocity_at_particles(double time, bool wanted) const;
   void plan_reference();
   void check_density_seconds() const;
   Cutoff blob() const;
@@ -285,7 +285,7 @@ void Simulation::Parts::make_ready() {
   beyond_at_start_ = part_beyond(scene_.density->mass(), heavy, mass_at_start_);
   const Particles sample = place_.sample(particles_, sampled_particles);
   ranks_.agree_on([&] { carrier_.begin(particles_, sample); });
-  ranks_.agree_on([&] { velocity_at_particles(0); });
+  ranks_.agree_on([&] { velocity_at_particles(0, false); });
   check_density_seconds();
   plan_reference();
   stage_ = Stage::prepared;
@@ -332,15 +332,17 @@ void Simulation::Parts::place(double from) {
   });
 }
 
-// [j][dimension]. Throws NumericalError where the field is not finite.
-std::vector<double> Simulation::Parts::velocity_at_particles(double time) const {
+// [j][dimension], or nothing if only looked at. Throws NumericalError where the field is not finite.
+std::vector<double> Simulation::Parts::velocity_at_particles(double time, bool wanted) const {
   const auto dimension = static_cast<std::size_t>(particles_.dimension);
   const std::size_t count = particles_.size();
-  std::vector<double> columns(count * dimension, 0.0), velocity(count * dimension);
+  std::vector<double> columns(count * dimension, 0.0), velocity;
   VectorsView u{particles_.dimension, count, {}};
   for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * count;
   add_flow_and_drifts(*scene_.velocity, carrier_.drifts(), time, particles_, particles_.view(), u, threads_);
   check_velocity(*scene_.velocity, particles_, u, time, steps_before_);
+  if (!wanted) return velocity;
+  velocity.resize(count * dimension);
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
   return velocity;
@@ -423,7 +425,7 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
   const std::size_t integrals = carrying.path.size();
   for (std::size_t k = 0; k < dimension; ++k) {
     std::vector<double>& column = carrying.path.emplace_back(particles.size());
-    for (std::size_t j = 0; j < column.size(); ++j) column[j] = velocity[j * dimension + k];
+    for (std::size_t j = 0; j < column.size() && !velocity.empty(); ++j) column[j] = velocity[j * dimension + k];
   }
   Particles all = gather_particles(carrying, ranks);
   std::vector<double> of_all(all.size() * dimension);
@@ -467,9 +469,9 @@ void Simulation::Parts::show_frame(double time) {
   summary_.transform_choice = report.choice;
   summary_.transform_achievable = std::max(summary_.transform_achievable, report.achievable);
 
-  std::vector<double> velocity;
-  ranks_.agree_on([&] { velocity = velocity_at_particles(time); });
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
+  std::vector<double> velocity;
+  ranks_.agree_on([&] { velocity = velocity_at_particles(time, velocity_wanted); });
 
   Frame frame;
   frame.index = index_++;
