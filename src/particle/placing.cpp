@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/return_memory.hpp"
+
 namespace gaussdrift {
 
 namespace {
@@ -181,7 +183,9 @@ void place_particles(Particles& particles, const Tiles& tiles, const std::vector
     return static_cast<std::size_t>(owner[tiles.of(place_of(particles, j))]);
   });
   particles = empty_like(particles);  // what is on its way need not stand here as well
+  base::return_memory();
   particles = arrived(ranks.exchange(std::move(out)), particles);
+  base::return_memory();
 }
 
 Particles felt_from_elsewhere(const Particles& particles, const Tiles& tiles, const std::vector<int>& owner,
