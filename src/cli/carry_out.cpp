@@ -11,11 +11,14 @@
 #include <utility>
 
 #include "accuracy/footprint.hpp"
+#include "base/counted.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
+#include "base/process_stopwatch.hpp"
 #include "base/seam.hpp"
 #include "base/stopwatch.hpp"
 #include "cli/checkpoint_keeper.hpp"
+#include "cli/common_ground.hpp"
 #include "cli/look_back.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
@@ -111,6 +114,15 @@ class Run {
   Run(RunTask& task, base::Communicator& ranks)
       : task_(task), spec_(task.spec), folder_(task.folder), ranks_(ranks), first_(ranks.rank() == 0) {}
 
+  /// All ranks: what they need to have in common, before anything is written.
+  void check_common_ground() {
+    check_that_all_see(ranks_, folder_);
+    if (std::string why = warning_of_different_arithmetic(ranks_, arithmetic_here()); !why.empty()) {
+      note("warning: {}\n", why);
+      told_.push_back(std::move(why));
+    }
+  }
+
   /// All ranks. False if it was stopped before it could go on.
   bool simulate() {
     const base::Stopwatch preparing;
@@ -145,13 +157,24 @@ class Run {
       return true;
     });
     try {
+      const base::ProcessStopwatch running;
       summary_ = simulation.run();
+      share_seconds_ = running.seconds();
       if (!complete()) keep(simulation, summary_.time, summary_.steps);
     } catch (const FileError& error) {  // a full disk, mostly
+      if (ranks_.size() > 1 && !ranks_.failed_together(std::current_exception())) throw;
       keep_what_there_is(simulation);
-      throw FileError(fmt::format("{}\n{}", error.what(), how_to_go_on()));
+      ranks_.agree_on([&] { throw FileError(fmt::format("{}\n{}", error.what(), how_to_go_on())); });
     }
     return true;
+  }
+
+  /// All ranks: how evenly they worked.
+  void gather_shares() {
+    if (ranks_.size() == 1) return;
+    const Share own{share_seconds_, static_cast<double>(ranks_.traffic().sent)};
+    for (const base::Bytes& bytes : ranks_.gather(base::to_bytes(std::span(&own, 1))))
+      shares_.push_back(base::from_bytes<Share>(bytes).front());
   }
 
   bool complete() const { return summary_.complete; }
@@ -183,7 +206,9 @@ class Run {
 
   /// Every file before the first word: a terminal that takes no text costs no result.
   void write() {
-    if (!warnings_.empty()) more_["warnings"] = warnings_;
+    std::vector<std::string> warnings = told_;
+    warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
+    if (!warnings.empty()) more_["warnings"] = warnings;
     if (keeper_->written() > 0)
       more_["checkpoints"] = {{"written", keeper_->written()},
                               {"seconds", keeper_->seconds()},
@@ -244,7 +269,7 @@ class Run {
     return code != 0;
   }
 
-  ExitCode stop_code() const { return stop_->made() ? stop_->code() : stop_code_; }
+  ExitCode stop_code() const { return stop_->by_signal() ? stop_->code() : stop_code_; }
 
   /// A checkpoint, and with it the numbers so far: a run that is killed has a page.
   void keep(const Simulation& simulation, double time, std::size_t steps) {
@@ -269,7 +294,7 @@ class Run {
       warnings_.push_back(
           fmt::format("no error budget and no accuracy table: the program was stopped ({}) before they were ready. All "
                       "other results are there.",
-                      stop_->reason()));
+                      reason_to_stop(stop_code())));
     }
   }
 
@@ -290,8 +315,10 @@ class Run {
   /// `without`: lines about the page.
   std::string log_text(const std::string& without) {
     ending_ = (complete() ? "" : stopped_text()) +
-              ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + without + state_text();
+              ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + without + state_text() +
+              shares_text();
     std::string log;
+    for (const std::string& warning : told_) log += "warning: " + warning + "\n";
     for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
     for (const std::string& why : owed_.missing()) log += "error: " + why + "\n";
     return base::printable_lines(log + ending_);
@@ -315,10 +342,10 @@ class Run {
   std::string how_to_go_on() const { return fmt::format("resume with: gaussdrift resume {}", folder_.string()); }
 
   std::string stopped_text() const {
-    return fmt::format("stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end, stop_->reason(),
-                       keeper_->written() > 0
-                           ? how_to_go_on()
-                           : "There is no checkpoint, because output.checkpoint = 0: a resumed run begins again.");
+    return fmt::format(
+        "stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end, reason_to_stop(stop_code()),
+        keeper_->written() > 0 ? how_to_go_on()
+                               : "There is no checkpoint, because output.checkpoint = 0: a resumed run begins again.");
   }
 
   std::string state_text() const {
@@ -329,9 +356,27 @@ class Run {
                        write::checkpoints_folder);
   }
 
+  std::string shares_text() const {
+    if (shares_.empty()) return "";
+    double all = 0, busiest = 0, sent = 0;
+    for (const Share& share : shares_) {
+      all += share.seconds, sent += share.sent;
+      busiest = std::max(busiest, share.seconds);
+    }
+    const double mean = all / static_cast<double>(shares_.size());
+    return fmt::format("ranks  {} on {}: the busiest took {:.2f} times the mean processor time, {} sent\n",
+                       ranks_.size(), base::counted(static_cast<std::size_t>(ranks_.hosts()), "host"),
+                       mean > 0 ? busiest / mean : 1, bytes_text(sent));
+  }
+
   static std::string bytes_text(double bytes) {
     return bytes < 1e6 ? fmt::format("{:.0f} kB", std::ceil(bytes / 1e3)) : fmt::format("{:.3g} MB", bytes / 1e6);
   }
+
+  /// Of the work of one rank.
+  struct Share {
+    double seconds = 0, sent = 0;  // processor seconds, bytes
+  };
 
   RunTask& task_;
   const Case& spec_;
@@ -345,9 +390,11 @@ class Run {
   accuracy::LastFrame::Kept last_;
   RunSummary summary_;
   std::optional<accuracy::Budget> budget_;
-  bool looked_back_ = true;  // or did not want to
-  std::vector<std::string> warnings_, of_observers_;
-  nlohmann::ordered_json more_;  // members of summary.json beside those of the run
+  bool looked_back_ = true;                                  // or did not want to
+  std::vector<std::string> told_, warnings_, of_observers_;  // warnings: at the start, for the end, of observers
+  double share_seconds_ = 0;                                 // processor seconds of this rank in the run
+  std::vector<Share> shares_;                                // of all ranks, on rank 0
+  nlohmann::ordered_json more_;                              // members of summary.json beside those of the run
   std::string summary_text_, ending_;
   OwedFiles owed_;
   std::optional<write::RunFolder> own_folder_;
@@ -363,7 +410,9 @@ ExitCode carry_out(RunTask task, base::Communicator& ranks) {
   Run run(task, ranks);
   bool went_on = true;
   try {
+    run.check_common_ground();
     went_on = run.simulate();
+    run.gather_shares();
   } catch (...) {
     if (first) run.tell_what_is_kept();
     throw;

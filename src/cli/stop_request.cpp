@@ -43,19 +43,6 @@ bool StopRequest::by_signal() const { return received != 0; }
 
 bool StopRequest::made() const { return by_signal() || watch_.seconds() > after_; }
 
-std::string StopRequest::reason() const {
-  switch (received) {
-    case SIGINT:
-      return "interrupted";
-    case SIGTERM:
-      return "terminated";
-    case SIGHUP:
-      return "its terminal was closed";
-    default:
-      return "--stop-after";
-  }
-}
-
 ExitCode StopRequest::code() const {
   switch (received) {
     case SIGINT:
@@ -66,6 +53,19 @@ ExitCode StopRequest::code() const {
       return ExitCode::hung_up;
     default:
       return ExitCode::stopped;
+  }
+}
+
+std::string reason_to_stop(ExitCode code) {
+  switch (code) {
+    case ExitCode::interrupted:
+      return "interrupted";
+    case ExitCode::terminated:
+      return "terminated";
+    case ExitCode::hung_up:
+      return "its terminal was closed";
+    default:
+      return "--stop-after";
   }
 }
 

@@ -22,8 +22,6 @@ class StopRequest {
   bool made() const;
   /// By a signal: its sender does not wait for long.
   bool by_signal() const;
-  /// "interrupted", "terminated", "its terminal was closed", "--stop-after".
-  std::string reason() const;
   /// How the program then ends.
   ExitCode code() const;
 
@@ -31,6 +29,9 @@ class StopRequest {
   double after_;
   base::Stopwatch watch_;
 };
+
+/// "interrupted", "terminated", "its terminal was closed", "--stop-after": why a run ends with such a code.
+std::string reason_to_stop(ExitCode code);
 
 /// --stop-after, for verbs that run a case.
 void declare_stop_after(OptionList& options, std::string& value);

@@ -1,0 +1,56 @@
+// Runs on several ranks that are disturbed: one rank is prepared for a fault, or something happens while they run.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "ranks/mpirun.hpp"
+
+namespace gaussdrift {
+
+/// As root and in containers too. Without OMP_WAIT_POLICY, which ctest sets, so that the program starts itself again.
+inline const std::string mpirun =
+    "env -u OMP_WAIT_POLICY OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+    "OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 100 " MPIRUN " -q ";
+
+inline std::string ranks_of_mpi(int ranks, const std::string& command) {
+  return mpirun + "--oversubscribe --bind-to none -n " + std::to_string(ranks) + " " + command;
+}
+
+/// A command for mpirun: `prepare` is done on one rank alone before the program starts there. Each rank leaves the number
+/// of its process in rank_R.pid.
+inline std::string with_one_rank(int rank, const std::string& prepare, const std::string& arguments) {
+  return "sh -c 'echo $$ > rank_$OMPI_COMM_WORLD_RANK.pid; if [ $OMPI_COMM_WORLD_RANK = " + std::to_string(rank) +
+         " ]; then " + (prepare.empty() ? ":" : prepare) + "; fi; exec " PROGRAM " " + arguments + "'";
+}
+
+/// Starts `command` and does `then` as soon as `file` is there; the outcome is that of the command. Its process is $it.
+inline Outcome when_there(const ScratchFolder& folder, const std::string& file, const std::string& command,
+                          const std::string& then) {
+  return outcome_of(folder, command + " & it=$!; i=0; until [ -e " + file +
+                                " ] || [ $i -ge 900 ]; do sleep 0.02; i=$((i + 1)); done; " + then + "; wait $it");
+}
+
+/// Processes that work in this folder still. They get some seconds to end, a tenth for each try.
+inline std::string left_in(const ScratchFolder& folder, int most_tries = 100) {
+  std::string left;
+  for (int tries = 0; tries < most_tries; ++tries) {
+    left.clear();
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator("/proc", ignored))
+      if (fs::read_symlink(entry.path() / "cwd", ignored) == fs::canonical(folder.path()))
+        left += entry.path().filename().string() + " " + read_file(entry.path() / "cmdline") + "\n";
+    if (left.empty()) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  return left;
+}
+
+inline std::size_t times_in(const std::string& text, const std::string& words) {
+  std::size_t times = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++times;
+  return times;
+}
+
+}  // namespace gaussdrift
