@@ -59,7 +59,7 @@ set(public_field density/density density/radial_density density/shapes density/s
   named/named_fields scalar velocity/differences velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read grid_file missing_data written_run)
-set(public_particle cutoff fgtd_points placing seeding subset tiles)
+set(public_particle columns cutoff fgtd_points placing seeding subset tiles)
 set(public_effect catalogue drift effect path_integral)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample)
 set(public_sim carrier checks comparison landings outside scene stable_step stepper transform work)

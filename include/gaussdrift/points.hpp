@@ -19,6 +19,12 @@ struct PointsView {
   std::size_t count = 0;                            ///< number of points
   std::array<const double*, max_dimension> axis{};  ///< axis[k]: their k-th coordinates; null beyond the dimension
 
+  /// The j-th point.
+  Vector at(std::size_t j) const {
+    Vector x{};
+    for (int k = 0; k < dimension; ++k) x[k] = axis[k][j];
+    return x;
+  }
   /// The points first .. first + length - 1.
   PointsView block(std::size_t first, std::size_t length) const {
     PointsView part{dimension, length, {}};

@@ -28,7 +28,7 @@ double at_place(std::int64_t place) {
 
 /// An error on its way to other ranks: a byte for its exit code, then its words.
 Bytes told(ExitCode code, const std::string& words) {
-  Bytes bytes = to_bytes(std::span<const char>(words));
+  Bytes bytes = to_bytes(words);
   bytes.insert(bytes.begin(), static_cast<std::byte>(code));
   return bytes;
 }
@@ -50,8 +50,7 @@ Bytes told(const std::exception_ptr& trouble, int rank, int size) {
 }
 
 std::exception_ptr error_of(const Bytes& bytes) {
-  const std::vector<char> letters = from_bytes<char>(std::span(bytes).subspan(1));
-  const std::string words(letters.begin(), letters.end());
+  const std::string words = to_text(std::span(bytes).subspan(1));
   switch (const auto code = static_cast<ExitCode>(bytes[0])) {
     case ExitCode::internal:
       return std::make_exception_ptr(std::runtime_error(words));

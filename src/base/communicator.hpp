@@ -7,6 +7,8 @@
 #include <cstring>
 #include <exception>
 #include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -94,6 +96,14 @@ Bytes to_bytes(std::span<const Value> values) {
 template <class Value>
 Bytes to_bytes(const std::vector<Value>& values) {
   return to_bytes(std::span<const Value>(values));
+}
+
+inline Bytes to_bytes(std::string_view text) { return to_bytes(std::span<const char>(text)); }
+inline Bytes to_bytes(const std::string& text) { return to_bytes(std::string_view(text)); }
+
+/// The text whose bytes these are.
+inline std::string to_text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 /// The values whose bytes these are.

@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -55,13 +54,6 @@ class Mark {
   std::string path_;
 };
 
-std::string text_of(const base::Bytes& bytes) {
-  const auto letters = base::from_bytes<char>(bytes);
-  return {letters.begin(), letters.end()};
-}
-
-base::Bytes bytes_of(const std::string& text) { return base::to_bytes(std::span<const char>(text)); }
-
 }  // namespace
 
 void check_that_all_see(base::Communicator& ranks, const fs::path& folder) {
@@ -71,9 +63,9 @@ void check_that_all_see(base::Communicator& ranks, const fs::path& folder) {
   ranks.agree_on([&] {
     if (first) mark.emplace(nearest_there(folder));
   });
-  base::Bytes told = first ? bytes_of(mark->path()) : base::Bytes();
+  base::Bytes told = base::to_bytes(first ? mark->path() : "");
   ranks.broadcast(told);
-  const fs::path path = text_of(told);
+  const fs::path path = base::to_text(told);
   ranks.agree_on([&] {
     if (::access(path.c_str(), F_OK) != 0)
       throw FileError(fmt::format(
@@ -92,13 +84,13 @@ std::string arithmetic_here() {
 }
 
 std::string warning_of_different_arithmetic(base::Communicator& ranks, const std::string& own) {
-  const std::vector<base::Bytes> all = ranks.gather(bytes_of(own + "\n" + host_name()));
+  const std::vector<base::Bytes> all = ranks.gather(base::to_bytes(own + "\n" + host_name()));
   const auto split = [](const std::string& text) {
     const auto end = text.find('\n');
     return std::pair(text.substr(0, end), text.substr(end + 1));
   };
   for (std::size_t r = 1; r < all.size(); ++r) {
-    const auto [words, host] = split(text_of(all[r]));
+    const auto [words, host] = split(base::to_text(all[r]));
     if (words != own)
       return fmt::format(
           "ranks do not compute alike: rank 0 on {} has {}, rank {} on {} has {}. The last digits depend on which host "

@@ -6,21 +6,21 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "base/return_memory.hpp"
+#include "particle/columns.hpp"
+#include "particle/subset.hpp"
 
 namespace gaussdrift {
 
 namespace {
 
-// Calls use(column) for every array of the particles. Ids stand beside, because they are whole numbers.
-template <class SomeParticles, class Use>
-void each_column(SomeParticles& particles, const Use& use) {
-  for (int k = 0; k < particles.dimension; ++k) use(particles.position[k]);
-  use(particles.alpha);
-  for (auto& integral : particles.path) use(integral);
-  if (!particles.volume.empty()) use(particles.volume);
+std::size_t columns_of(const Particles& particles) {
+  std::size_t columns = 0;
+  for_each_column(particles, [&](std::string_view, std::size_t, const auto&) { ++columns; });
+  return columns;
 }
 
 template <class T>
@@ -28,12 +28,6 @@ void permute(std::vector<T>& column, const std::vector<std::size_t>& order) {
   std::vector<T> sorted(column.size());
   for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = column[order[i]];
   column = std::move(sorted);
-}
-
-Vector place_of(const Particles& particles, std::size_t j) {
-  Vector x{};
-  for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
-  return x;
 }
 
 // The same columns, without particles.
@@ -54,8 +48,7 @@ std::vector<base::Bytes> packed_by_rank(const Particles& particles, std::size_t 
     rank[j] = static_cast<std::uint32_t>(rank_of(j));
     ++count[rank[j]];
   }
-  std::size_t columns = 1;
-  each_column(particles, [&](const auto&) { ++columns; });
+  const std::size_t columns = columns_of(particles);
   std::vector<base::Bytes> out(ranks);
   std::vector<std::byte*> to(ranks, nullptr);
   const auto has_volume = static_cast<std::int64_t>(!particles.volume.empty());
@@ -65,32 +58,22 @@ std::vector<base::Bytes> packed_by_rank(const Particles& particles, std::size_t 
     std::memcpy(out[r].data(), &has_volume, 8);
     to[r] = out[r].data() + 8;
   }
-  const auto put = [&](const auto& column) {
+  for_each_column(particles, [&](std::string_view, std::size_t, const auto& column) {
     for (std::size_t j = 0; j < rank.size(); ++j) {
       std::memcpy(to[rank[j]], &column[j], 8);
       to[rank[j]] += 8;
     }
-  };
-  put(particles.id);
-  each_column(particles, put);
+  });
   return out;
 }
 
 // What arrives, in columns that are as long as they have to be. `like`: with the same columns.
 Particles arrived(std::vector<base::Bytes> in, const Particles& like) {
   Particles all = empty_like(like);
-  std::size_t bytes = 0, columns = 2 + static_cast<std::size_t>(like.dimension) + like.path.size();
-  bool volumes = false;
-  for (const base::Bytes& of_rank : in) {
-    bytes += of_rank.size();
-    volumes = volumes || (!of_rank.empty() && of_rank[0] != std::byte{0});
-  }
-  const std::size_t most = bytes / 8 / (columns + (volumes ? 1 : 0));
-  if (volumes) all.volume.reserve(most);
-  all.id.reserve(most);
-  for (int k = 0; k < all.dimension; ++k) all.position[k].reserve(most);
-  all.alpha.reserve(most);
-  for (auto& integral : all.path) integral.reserve(most);
+  std::size_t bytes = 0;
+  for (const base::Bytes& of_rank : in) bytes += of_rank.size();
+  const std::size_t most = bytes / 8 / columns_of(all);
+  for_each_column(all, [&](std::string_view, std::size_t, auto& column) { column.reserve(most); });
   for (base::Bytes& of_rank : in) {
     unpack(of_rank, all);
     of_rank = {};
@@ -115,42 +98,31 @@ std::vector<int> share_tiles(const std::vector<double>& work, int ranks) {
 
 base::Bytes pack(const Particles& particles, const std::vector<std::size_t>& chosen) {
   if (chosen.empty()) return {};
-  std::size_t columns = 1;
-  each_column(particles, [&](const auto&) { ++columns; });
   const std::size_t length = 8 * chosen.size();
-  base::Bytes bytes(8 * (1 + columns * chosen.size()));
+  base::Bytes bytes(8 + columns_of(particles) * length);
   const auto has_volume = static_cast<std::int64_t>(!particles.volume.empty());
   std::byte* to = bytes.data();
   std::memcpy(to, &has_volume, 8), to += 8;
-  const auto put = [&](const auto& column) {
+  for_each_column(particles, [&](std::string_view, std::size_t, const auto& column) {
     for (std::size_t i = 0; i < chosen.size(); ++i) std::memcpy(to + 8 * i, &column[chosen[i]], 8);
     to += length;
-  };
-  put(particles.id);
-  each_column(particles, put);
+  });
   return bytes;
 }
 
 base::Bytes pack_bare(const Particles& particles, const std::vector<std::size_t>& chosen) {
-  if (chosen.empty()) return {};
-  Particles some;
-  some.dimension = particles.dimension;
-  for (const std::size_t j : chosen) {
-    for (int k = 0; k < particles.dimension; ++k) some.position[k].push_back(particles.position[k][j]);
-    some.alpha.push_back(particles.alpha[j]);
-    some.id.push_back(particles.id[j]);
-  }
   std::vector<std::size_t> all(chosen.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return pack(some, all);
+  return pack(subset(particles, chosen), all);
 }
 
 void unpack(std::span<const std::byte> bytes, Particles& particles) {
   if (bytes.empty()) return;
   std::int64_t has_volume = 0;
   std::memcpy(&has_volume, bytes.data(), 8);
-  const std::size_t columns =
-      2 + static_cast<std::size_t>(particles.dimension) + particles.path.size() + static_cast<std::size_t>(has_volume);
+  const bool first_volumes =
+      has_volume != 0 && particles.volume.empty();  // for_each_column() knows nothing of them yet
+  const std::size_t columns = columns_of(particles) + (first_volumes ? 1 : 0);
   const std::size_t count = (bytes.size() - 8) / 8 / columns, before = particles.size();
   if (bytes.size() != 8 * (1 + columns * count)) throw std::logic_error("unpack(): these are not such particles");
   const std::byte* from = bytes.data() + 8;
@@ -159,11 +131,8 @@ void unpack(std::span<const std::byte> bytes, Particles& particles) {
     std::memcpy(column.data() + before, from, 8 * count);
     from += 8 * count;
   };
-  take(particles.id);
-  for (int k = 0; k < particles.dimension; ++k) take(particles.position[k]);
-  take(particles.alpha);
-  for (auto& integral : particles.path) take(integral);
-  if (has_volume != 0) take(particles.volume);
+  for_each_column(particles, [&](std::string_view, std::size_t, auto& column) { take(column); });
+  if (first_volumes) take(particles.volume);
 }
 
 void sort_by_id(Particles& particles) {
@@ -172,15 +141,15 @@ void sort_by_id(Particles& particles) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
-  each_column(particles, [&](auto& column) { permute(column, order); });
-  permute(particles.id, order);
+  for_each_column(particles, [&](std::string_view, std::size_t, auto& column) { permute(column, order); });
 }
 
 void place_particles(Particles& particles, const Tiles& tiles, const std::vector<int>& owner,
                      base::Communicator& ranks) {
   if (ranks.size() == 1) return;
+  const PointsView x = particles.view();
   std::vector<base::Bytes> out = packed_by_rank(particles, static_cast<std::size_t>(ranks.size()), [&](std::size_t j) {
-    return static_cast<std::size_t>(owner[tiles.of(place_of(particles, j))]);
+    return static_cast<std::size_t>(owner[tiles.of(x.at(j))]);
   });
   particles = empty_like(particles);  // what is on its way need not stand here as well
   base::return_memory();
@@ -194,8 +163,9 @@ Particles felt_from_elsewhere(const Particles& particles, const Tiles& tiles, co
   bare.dimension = particles.dimension;
   if (ranks.size() == 1) return bare;
   std::vector<std::vector<std::size_t>> chosen(static_cast<std::size_t>(ranks.size()));
+  const PointsView x = particles.view();
   for (std::size_t j = 0; j < particles.size(); ++j)
-    tiles.within_reach(place_of(particles, j), [&](std::size_t tile) {
+    tiles.within_reach(x.at(j), [&](std::size_t tile) {
       const int rank = owner[tile];
       if (rank == ranks.rank()) return;
       auto& list = chosen[static_cast<std::size_t>(rank)];

@@ -12,12 +12,6 @@ namespace {
 // A tile of fewer points on an axis would be mostly border.
 constexpr double fewest_points = 16;
 
-Vector place(const PointsView& points, std::size_t j) {
-  Vector x{};
-  for (int k = 0; k < points.dimension; ++k) x[k] = points.axis[k][j];
-  return x;
-}
-
 // Pieces of points for threads: not too many, because each keeps a count for every tile.
 struct Chunks {
   explicit Chunks(std::size_t points) : length(std::max<std::size_t>(65536, points / 64 + 1)) {
@@ -41,12 +35,15 @@ TileLimits usual_tiles(int dimension) {
 Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, const TileLimits& limits,
              const SumOverProcesses& sum)
     : lattice_(lattice), reach_(reach) {
+  std::vector<std::int64_t> all{static_cast<std::int64_t>(particles.count)};
+  if (sum) sum(all);
+  const bool large = all[0] > limits.particles || static_cast<std::int64_t>(lattice.size()) > limits.points;
   const double shortest = std::max(fewest_points, std::ceil(limits.reaches * reach / lattice.spacing));
   std::size_t cells = 1;
   for (int k = 0; k < max_dimension; ++k) {
     const std::size_t points = lattice.points[k];
     const double times = static_cast<double>(points) / shortest;
-    if (k < lattice.dimension && times >= 2) levels_[k] = std::bit_width(static_cast<std::size_t>(times)) - 1;
+    if (large && k < lattice.dimension && times >= 2) levels_[k] = std::bit_width(static_cast<std::size_t>(times)) - 1;
     const std::size_t count = std::size_t{1} << levels_[k];
     cells *= count;
     for (std::size_t c = 0; c <= count; ++c) border_[k].push_back(c * points / count);
@@ -60,11 +57,11 @@ Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, 
   std::vector<std::int64_t>& smallest = counts.back();
   smallest.assign(cells, 0);
   if (cells == 1) {
-    smallest[0] = static_cast<std::int64_t>(particles.count);
+    smallest = all;
   } else {
-    for (std::size_t j = 0; j < particles.count; ++j) ++smallest[cell_of(place(particles, j))];
+    for (std::size_t j = 0; j < particles.count; ++j) ++smallest[cell_of(particles.at(j))];
+    if (sum) sum(smallest);
   }
-  if (sum) sum(smallest);
   for (int level = depth_; level > 0; --level) {
     const auto at = static_cast<std::size_t>(level);
     const Indices from = cells_at(level), to = cells_at(level - 1);
@@ -121,7 +118,7 @@ std::vector<std::vector<std::size_t>> Tiles::gather(const PointsView& points, co
   const Chunks chunks(points.count);
   std::vector<std::vector<std::size_t>> start(chunks.count, std::vector<std::size_t>(list_.size(), 0));
   base::parallel_for(chunks.pieces(), threads, [&](std::size_t c) {
-    chunks.each(c, [&](std::size_t j) { within_reach(place(points, j), [&](std::uint32_t t) { ++start[c][t]; }); });
+    chunks.each(c, [&](std::size_t j) { within_reach(points.at(j), [&](std::uint32_t t) { ++start[c][t]; }); });
   });
   std::vector<std::vector<std::size_t>> of_tile(list_.size());
   for (std::size_t t = 0; t < list_.size(); ++t) {
@@ -131,7 +128,7 @@ std::vector<std::vector<std::size_t>> Tiles::gather(const PointsView& points, co
   }
   base::parallel_for(chunks.pieces(), threads, [&](std::size_t c) {
     chunks.each(c, [&](std::size_t j) {
-      within_reach(place(points, j), [&](std::uint32_t t) {
+      within_reach(points.at(j), [&](std::uint32_t t) {
         if (wanted[t]) of_tile[t][start[c][t]++] = j;
       });
     });

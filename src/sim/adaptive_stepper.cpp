@@ -121,20 +121,16 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
 
 std::string AdaptiveStepper::why_no_step(const Particles& particles, std::size_t worst, double time,
                                          std::size_t step) const {
+  const Vector x = particles.view().at(worst);
   std::string place;
-  Vector x{};
-  for (int k = 0; k < particles.dimension; ++k) {
-    x[k] = particles.position[k][worst];
-    place += fmt::format("{}{:.6g}", k ? ", " : "", x[k]);
-  }
+  for (int k = 0; k < particles.dimension; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", x[k]);
   const std::string reason = why_path_ends(velocity_, time, particles.dimension, x, 1e-6 * options_.length);
   if (!reason.empty())
     return fmt::format("in step {} at t = {:.10g} particle {} at ({}) comes to a place without a velocity: {}", step,
                        time, particles.id[worst], place, reason);
   return fmt::format(
       "no step is short enough for time.tolerance = {:g} in step {} at t = {:.10g}: particle {} at ({}) moves too "
-      "fast, or "
-      "the velocity is not finite there; guard the expression, raise the tolerance or shorten time.end",
+      "fast, or the velocity is not finite there; guard the expression, raise the tolerance or shorten time.end",
       options_.tolerance, step, time, particles.id[worst], place);
 }
 

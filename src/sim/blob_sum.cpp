@@ -126,14 +126,48 @@ fgtd::Options BlobSum<d>::options_for(const WidthGroup& group, const fgtd::Tenso
   return options;
 }
 
-fgtd::TensorGrid nodes_of(const Lattice& lattice, const std::array<std::size_t, max_dimension>& first,
-                          const std::array<std::size_t, max_dimension>& count) {
+template <int d>
+double BlobSum<d>::largest_error(const Lattice& lattice, const Tile& tile, const std::vector<double>& rho,
+                                 const std::vector<std::size_t>& numbers) const {
+  fgtd::Points<d> targets(d, static_cast<Eigen::Index>(numbers.size()));
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    std::size_t rest = numbers[i];
+    for (int k = 0; k < d; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      targets(k, static_cast<Eigen::Index>(i)) = lattice.coordinate(k, tile.first[axis] + rest % tile.points[axis]);
+      rest /= tile.points[axis];
+    }
+  }
+  const Eigen::VectorXd exact = direct(targets);
+  double error = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    error = std::max(error, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[numbers[i]]));
+  return error;
+}
+
+fgtd::TensorGrid nodes_of(const Lattice& lattice, const Tile& tile) {
   fgtd::TensorGrid nodes;
   for (int k = 0; k < lattice.dimension; ++k) {
-    std::vector<double>& axis = nodes.axes.emplace_back(count[k]);
-    for (std::size_t i = 0; i < axis.size(); ++i) axis[i] = lattice.coordinate(k, first[k] + i);
+    std::vector<double>& axis = nodes.axes.emplace_back(tile.points[k]);
+    for (std::size_t i = 0; i < axis.size(); ++i) axis[i] = lattice.coordinate(k, tile.first[k] + i);
   }
   return nodes;
+}
+
+std::size_t number_of_largest(const std::vector<double>& rho) {
+  const auto largest =
+      std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return static_cast<std::size_t>(largest - rho.begin());
+}
+
+std::vector<std::size_t> spread_numbers(std::size_t size, std::size_t count) {
+  constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 1; i < count; ++i) {
+    const double fraction = std::fmod(static_cast<double>(i) * golden, 1.0);
+    numbers.push_back(std::min(size - 1, static_cast<std::size_t>(fraction * static_cast<double>(size))));
+  }
+  return numbers;
 }
 
 template class BlobSum<2>;

@@ -4,12 +4,12 @@
 #include <fgtd/fgtd.hpp>
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "gaussdrift/particles.hpp"
 #include "particle/cutoff.hpp"
+#include "particle/tiles.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
@@ -36,6 +36,10 @@ class BlobSum {
   /// The density at some points, pair by pair.
   Eigen::VectorXd direct(const fgtd::Points<d>& targets) const;
 
+  /// The largest error of `rho` on the grid points of a tile, at those with these numbers within it.
+  double largest_error(const Lattice& lattice, const Tile& tile, const std::vector<double>& rho,
+                       const std::vector<std::size_t>& numbers) const;
+
   /// Number of particles.
   std::size_t size() const { return static_cast<std::size_t>(sources_.cols()); }
   const fgtd::Points<d>& sources() const { return sources_; }
@@ -58,8 +62,17 @@ class BlobSum {
   double tolerance_ = 0;
 };
 
-/// The points of a lattice with these indices on each axis: `count` from `first` on.
-fgtd::TensorGrid nodes_of(const Lattice& lattice, const std::array<std::size_t, max_dimension>& first,
-                          const std::array<std::size_t, max_dimension>& count);
+/// All of a lattice.
+inline Tile whole(const Lattice& lattice) { return {.first = {}, .points = lattice.points}; }
+
+/// The grid points of a tile.
+fgtd::TensorGrid nodes_of(const Lattice& lattice, const Tile& tile);
+
+/// The number of the largest |rho|, the first of several.
+std::size_t number_of_largest(const std::vector<double>& rho);
+
+/// count - 1 numbers below `size`, spread evenly however many there are, to be looked at beside that of the largest
+/// value.
+std::vector<std::size_t> spread_numbers(std::size_t size, std::size_t count);
 
 }  // namespace gaussdrift

@@ -1,7 +1,6 @@
 #include "sim/shared_reference.hpp"
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,11 +84,11 @@ class SharedReference : public Reference {
   ReferenceReport of_all(ReferenceReport own) const {
     base::StateBytes said;
     gaussdrift::pass(said, own);
-    const auto of_ranks = ranks_.gather(base::to_bytes(std::span<const char>(said.written())));
+    const auto of_ranks = ranks_.gather(base::to_bytes(said.written()));
     ReferenceReport all;
     for (const base::Bytes& bytes : of_ranks) {
-      const auto letters = base::from_bytes<char>(bytes);
-      base::StateBytes heard(std::string_view(letters.data(), letters.size()));
+      const std::string told = base::to_text(bytes);
+      base::StateBytes heard(told);
       ReferenceReport one;
       gaussdrift::pass(heard, one);
       if (one.untraced > 0 && (all.untraced == 0 || is_before(one.first_untraced, all.first_untraced))) {

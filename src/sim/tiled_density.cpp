@@ -40,11 +40,7 @@ class BothParts {
   double weight(std::size_t j) const { return of(j).alpha[at(j)]; }
   std::int64_t id(std::size_t j) const { return of(j).id[at(j)]; }
   double coordinate(int axis, std::size_t j) const { return of(j).position[axis][at(j)]; }
-  Vector place(std::size_t j) const {
-    Vector x{};
-    for (int k = 0; k < sources_.own.dimension; ++k) x[k] = coordinate(k, j);
-    return x;
-  }
+  Vector place(std::size_t j) const { return of(j).view().at(at(j)); }
   Particles places_and_weights(const std::vector<std::size_t>& chosen) const {
     Particles some;
     some.dimension = sources_.own.dimension;
@@ -174,7 +170,7 @@ class TileSums {
       BlobSum<d> blobs(some, cutoff_, options_);
       DensityReport of_tile;
       blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, of_tile);
-      const Eigen::VectorXd rho = blobs.transform(nodes_of(lattice_, where.first, where.points), of_tile);
+      const Eigen::VectorXd rho = blobs.transform(nodes_of(lattice_, where), of_tile);
       density.rho.assign(rho.data(), rho.data() + rho.size());
       report.requested_tolerance = std::min(report.requested_tolerance, of_tile.requested_tolerance);
       report.achievable = std::max(report.achievable, of_tile.achievable);
@@ -197,7 +193,7 @@ class TileSums {
       BlobSum<d> blobs(some, cutoff_, options_);
       DensityReport ignored;
       blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, ignored);
-      const DensityWork work = blobs.predict(nodes_of(lattice_, where.first, where.points));
+      const DensityWork work = blobs.predict(nodes_of(lattice_, where));
       seconds[work.method] += work.seconds;
     }
     DensityWork all;
@@ -244,11 +240,7 @@ class TileSums {
     // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
     const std::int64_t wanted =
         std::clamp<std::int64_t>(20'000'000 * filled / std::max<std::int64_t>(1, count), 4, 200);
-    constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
-    for (std::int64_t i = 1; i < wanted; ++i) {
-      const double fraction = std::fmod(static_cast<double>(i) * golden, 1.0);
-      const std::size_t last = lattice_.size() - 1;
-      std::size_t rest = std::min(last, static_cast<std::size_t>(fraction * static_cast<double>(lattice_.size())));
+    for (std::size_t rest : spread_numbers(lattice_.size(), static_cast<std::size_t>(wanted))) {
       std::array<std::size_t, max_dimension> index{};
       Vector x{};
       for (int k = 0; k < d; ++k) {
@@ -267,20 +259,8 @@ class TileSums {
   // At the sample of this tile, and where |rho| is largest in it.
   void measure(const BlobSum<d>& blobs, const Tile& where, const std::vector<double>& rho,
                std::vector<std::size_t> sample) {
-    const auto top =
-        std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-    sample.push_back(static_cast<std::size_t>(top - rho.begin()));
-    fgtd::Points<d> targets(d, static_cast<Eigen::Index>(sample.size()));
-    for (std::size_t i = 0; i < sample.size(); ++i) {
-      std::size_t rest = sample[i];
-      for (int k = 0; k < d; ++k) {
-        targets(k, static_cast<Eigen::Index>(i)) = lattice_.coordinate(k, where.first[k] + rest % where.points[k]);
-        rest /= where.points[k];
-      }
-    }
-    const Eigen::VectorXd exact = blobs.direct(targets);
-    for (std::size_t i = 0; i < sample.size(); ++i)
-      error_ = std::max(error_, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[sample[i]]));
+    sample.push_back(number_of_largest(rho));
+    error_ = std::max(error_, blobs.largest_error(lattice_, where, rho, sample));
     sample_ += static_cast<std::int64_t>(sample.size());
   }
 
@@ -304,11 +284,10 @@ double largest_of(base::Communicator& ranks, double number) {
 
 std::string told_by_whom_it_concerns(base::Communicator& ranks, const std::string& own) {
   base::Bytes told;
-  for (const base::Bytes& bytes : ranks.gather(base::to_bytes(std::span<const char>(own))))
+  for (const base::Bytes& bytes : ranks.gather(base::to_bytes(own)))
     if (!bytes.empty()) told = bytes;
   ranks.broadcast(told);
-  const auto letters = base::from_bytes<char>(told);
-  return {letters.begin(), letters.end()};
+  return base::to_text(told);
 }
 
 template <int d>

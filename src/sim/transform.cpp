@@ -36,20 +36,6 @@ std::vector<std::size_t> promising_particles(const Particles& particles) {
   return order;
 }
 
-// Grid points to compare with `direct`: the one of the largest |rho|, and a low-discrepancy choice of others.
-std::vector<std::size_t> points_to_measure(const std::vector<double>& rho, std::size_t wanted) {
-  std::vector<std::size_t> sample;
-  const auto largest =
-      std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  sample.push_back(static_cast<std::size_t>(largest - rho.begin()));
-  constexpr double golden = 0.61803398874989485;  // multiples of the golden ratio fill [0, 1) evenly
-  for (std::size_t i = 1; i < wanted; ++i) {
-    const double fraction = std::fmod(static_cast<double>(i) * golden, 1.0);
-    sample.push_back(std::min(rho.size() - 1, static_cast<std::size_t>(fraction * static_cast<double>(rho.size()))));
-  }
-  return sample;
-}
-
 // Largest |rho| among some promising points, by `direct`: a lower bound of max |rho|.
 template <int d>
 double lower_bound_of_maximum(const BlobSum<d>& blobs, const Particles& particles) {
@@ -64,21 +50,10 @@ template <int d>
 void measure(const BlobSum<d>& blobs, const Lattice& lattice, const std::vector<double>& rho, DensityReport& report) {
   // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
   const std::size_t wanted = std::clamp<std::size_t>(20'000'000 / blobs.size(), 4, 200);
-  const std::vector<std::size_t> sample = points_to_measure(rho, std::min(wanted, rho.size()));
-  fgtd::Points<d> targets(d, static_cast<Eigen::Index>(sample.size()));
-  for (std::size_t i = 0; i < sample.size(); ++i) {
-    std::size_t index = sample[i];
-    for (int k = 0; k < d; ++k) {
-      targets(k, static_cast<Eigen::Index>(i)) =
-          lattice.coordinate(k, index % lattice.points[static_cast<std::size_t>(k)]);
-      index /= lattice.points[static_cast<std::size_t>(k)];
-    }
-  }
-  const Eigen::VectorXd exact = blobs.direct(targets);
-  double error = 0;
-  for (std::size_t i = 0; i < sample.size(); ++i)
-    error = std::max(error, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[sample[i]]));
+  std::vector<std::size_t> sample{number_of_largest(rho)};
   const double maximum = std::abs(rho[sample.front()]);
+  for (const std::size_t number : spread_numbers(rho.size(), std::min(wanted, rho.size()))) sample.push_back(number);
+  const double error = blobs.largest_error(lattice, whole(lattice), rho, sample);
   report.measured_error = maximum > 0 ? error / maximum : error;
   report.sample = sample.size();
 }
@@ -89,14 +64,14 @@ DensityWork predict_in_dimension(const Particles& particles, const Cutoff& cutof
   DensityReport ignored;
   BlobSum<d> blobs(particles, cutoff, options);
   blobs.choose_tolerance(blobs.error_of_unit_tolerance(particles), lower_bound_of_maximum(blobs, particles), ignored);
-  return blobs.predict(nodes_of(lattice, {}, lattice.points));
+  return blobs.predict(nodes_of(lattice, whole(lattice)));
 }
 
 template <int d>
 void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, DensityGrid& grid,
                            const DensityOptions& options, DensityReport& report) {
   const base::Stopwatch evaluating;
-  const fgtd::TensorGrid nodes = nodes_of(grid.lattice, {}, grid.lattice.points);
+  const fgtd::TensorGrid nodes = nodes_of(grid.lattice, whole(grid.lattice));
   BlobSum<d> blobs(particles, cutoff, options);
   const double unit_error = blobs.error_of_unit_tolerance(particles);
   const double expected = lower_bound_of_maximum(blobs, particles);

@@ -10,10 +10,12 @@
 #include <memory>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "base/json_file.hpp"
 #include "gaussdrift/error.hpp"
+#include "particle/columns.hpp"
 #include "write/atomic_file.hpp"
 
 namespace gaussdrift::write {
@@ -32,19 +34,12 @@ fs::path slot(const fs::path& folder, int number) { return folder / checkpoints_
 fs::path piece_file(std::size_t number) { return fmt::format("particles_{:04}.raw", number); }
 constexpr const char* state_file = "run.raw";
 
-/// The arrays of particles in the order of a piece, each as bytes of 8 a particle. Works on const and other particles.
-template <class P, class Visit>
-void for_each_column(P& particles, const Visit& visit) {
-  for (int k = 0; k < particles.dimension; ++k) visit(fmt::format("position_{}", k), particles.position[k]);
-  visit("alpha", particles.alpha);
-  visit("id", particles.id);
-  for (std::size_t q = 0; q < particles.path.size(); ++q) visit(fmt::format("path_{}", q), particles.path[q]);
-  if (!particles.volume.empty()) visit("volume", particles.volume);
-}
-
 json columns_of(const Particles& particles) {
   json names = json::array();
-  for_each_column(particles, [&](const std::string& name, const auto&) { names.push_back(name); });
+  for_each_column(particles, [&](std::string_view name, std::size_t number, const auto&) {
+    const bool numbered = name == "position" || name == "path";
+    names.push_back(numbered ? fmt::format("{}_{}", name, number) : std::string(name));
+  });
   return names;
 }
 
@@ -202,13 +197,14 @@ Checkpoint read_slot(const fs::path& folder, const json& manifest) {
     there += in_piece;
   }
   if (there != count) throw std::runtime_error("its pieces are wrong");
-  for_each_column(particles, [&](const std::string&, auto& column) { column.resize(count); });
+  for_each_column(particles, [&](std::string_view, std::size_t, auto& column) { column.resize(count); });
   std::size_t first = 0;
   for (const json& piece : pieces) {
     const auto in_piece = count_in(piece, "particles");
     RawFile file = open_checked(folder, piece, in_piece * 8 * columns.size());
-    for_each_column(particles,
-                    [&](const std::string&, auto& column) { file.read(column.data() + first, 8 * in_piece); });
+    for_each_column(particles, [&](std::string_view, std::size_t, auto& column) {
+      file.read(column.data() + first, 8 * in_piece);
+    });
     check_sum(file, piece);
     first += in_piece;
     facts.bytes += static_cast<double>(file.bytes());
@@ -253,8 +249,9 @@ CheckpointFacts write_checkpoint(const fs::path& folder, const std::string& past
   for (std::size_t first = 0; first < particles.size(); first += most_in_a_piece, ++number) {
     const std::size_t count = std::min(most_in_a_piece, particles.size() - first);
     json piece = write_raw(here, piece_file(number), [&](RawFile& file) {
-      for_each_column(particles,
-                      [&](const std::string&, const auto& column) { file.write(column.data() + first, 8 * count); });
+      for_each_column(particles, [&](std::string_view, std::size_t, const auto& column) {
+        file.write(column.data() + first, 8 * count);
+      });
     });
     piece["particles"] = count;
     facts.bytes += piece["bytes"].get<double>();
@@ -306,7 +303,7 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& folder, const std::str
 
 double bytes_of_checkpoint(const Particles& particles) {
   double columns = 0;
-  for_each_column(particles, [&](const std::string&, const auto&) { ++columns; });
+  for_each_column(particles, [&](std::string_view, std::size_t, const auto&) { ++columns; });
   return 8 * columns * static_cast<double>(particles.size());
 }
 
