@@ -1,0 +1,318 @@
+// What an output of a run shows: the density, by tiles where it is large, and its numbers.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "base/has_one.hpp"
+#include "base/parallel.hpp"
+#include "base/told_by_first.hpp"
+#include "field/velocity/value_seconds.hpp"
+#include "reference/norms.hpp"
+#include "reference/sample.hpp"
+#include "sim/outside.hpp"
+#include "sim/run_parts.hpp"
+#include "sim/shared_reference.hpp"
+#include "sim/stepper.hpp"
+#include "sim/tiled_density.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+/// What a particle adds to the sums of a frame.
+enum Addend : std::size_t { mass, weight, outside, centroid };  // the last has a number an axis
+
+FrameNumbers measure_particles(const Particles& particles, const Domain& domain, const Placement& place, int threads) {
+  const std::vector<double> sums =
+      place.sums(particles, centroid + static_cast<std::size_t>(particles.dimension), threads,
+                 [&](std::size_t j, double* of_particle) {
+                   const double alpha = particles.alpha[j];
+                   of_particle[mass] = alpha;
+                   of_particle[weight] = std::abs(alpha);
+                   of_particle[outside] = is_outside(particles, j, domain) ? std::abs(alpha) : 0;
+                   for (int k = 0; k < particles.dimension; ++k)
+                     of_particle[centroid + static_cast<std::size_t>(k)] = alpha * particles.position[k][j];
+                 });
+  FrameNumbers numbers;
+  numbers.mass = sums[mass];
+  numbers.weight = sums[weight];
+  numbers.outside = sums[weight] > 0 ? sums[outside] / sums[weight] : 0;
+  // Where positive and negative weights cancel there is no centre of mass.
+  const bool cancelled = std::abs(numbers.mass) <= 1e-12 * numbers.weight;
+  for (int k = 0; k < particles.dimension; ++k)
+    numbers.centroid[k] = cancelled ? std::numeric_limits<double>::quiet_NaN()
+                                    : sums[centroid + static_cast<std::size_t>(k)] / numbers.mass;
+  return numbers;
+}
+
+// Particles and velocities of all ranks, by id.
+std::pair<Particles, std::vector<double>> gathered(const Particles& particles, const std::vector<double>& velocity,
+                                                   base::Communicator& ranks) {
+  const auto dimension = static_cast<std::size_t>(particles.dimension);
+  Particles carrying = particles;  // velocities travel as further integrals
+  const std::size_t integrals = carrying.path.size();
+  for (std::size_t k = 0; k < dimension; ++k) {
+    std::vector<double>& column = carrying.path.emplace_back(particles.size());
+    for (std::size_t j = 0; j < column.size() && !velocity.empty(); ++j) column[j] = velocity[j * dimension + k];
+  }
+  Particles all = gather_particles(carrying, ranks);
+  std::vector<double> of_all(all.size() * dimension);
+  for (std::size_t j = 0; j < all.size(); ++j)
+    for (std::size_t k = 0; k < dimension; ++k) of_all[j * dimension + k] = all.path[integrals + k][j];
+  all.path.resize(integrals);
+  return {std::move(all), std::move(of_all)};
+}
+
+}  // namespace
+
+// Numbers of an output, one by one: a new one must not be forgotten here.
+void pass(base::StateBytes& bytes, FrameNumbers& n) {
+  static_assert(sizeof(FrameNumbers) == 152 + sizeof(std::string), "a number is not passed yet");
+  bytes(n.mass, n.minimum, n.maximum, n.centroid, n.transform_error, n.transform_tolerance, n.evaluate_seconds,
+        n.seconds, n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
+}
+
+DensityOptions Simulation::Parts::density_options() const {
+  const EvaluateSpec& evaluate = case_.evaluate;
+  DensityOptions options;
+  options.tolerance = evaluate.tolerance;
+  options.method = evaluate.method;
+  options.threads = threads_;
+  options.tiles = usual_tiles(case_.domain.dimension);
+  if (evaluate.tile_particles > 0) options.tiles->particles = static_cast<std::int64_t>(evaluate.tile_particles);
+  return options;
+}
+
+Cutoff Simulation::Parts::blob() const {
+  return particles_.spread > 0 ? spread_cutoff(scene_.cutoff, particles_.dimension, particles_.spread) : scene_.cutoff;
+}
+
+// Particles to the ranks that carry them from `from` to the next landing, and sum the density at `from`.
+void Simulation::Parts::place(double from) {
+  if (placed_at_ == from) return;
+  placed_at_ = from;
+  Tiles tiles = tiles_of(particles_, blob(), scene_.evaluation, density_options(),
+                         [&](std::vector<std::int64_t>& counts) { ranks_.sum(counts); });
+  const auto next = std::upper_bound(landings_.begin(), landings_.end(), from);
+  const double to = next == landings_.end() ? from : *next;
+  const double steps =
+      carrier_.is_adaptive() ? 20 : static_cast<double>(time::Interval(from, to, case_.time.step).steps());
+  const double carrying = steps * time::find_tableau(case_.time.method).stages * value_seconds(*scene_.velocity);
+  // Of a particle and a grid point in a Gauss transform, roughly; bench_tiles shows how evenly ranks are loaded.
+  const double of_particle = scene_.evaluation.dimension == 2 ? 0.13e-6 : 0.35e-6, of_point = 12e-9;
+  place_.renew(particles_, std::move(tiles), [&](const Tile& tile) {
+    const auto particles = static_cast<double>(tile.particles), points = static_cast<double>(tile.size());
+    return particles * (carrying + of_particle) + (tile.particles > 0 ? of_point : 0.1 * of_point) * points;
+  });
+}
+
+double Simulation::Parts::mass() const { return measure_particles(particles_, case_.domain, place_, threads_).mass; }
+
+// [j][dimension], or nothing if only looked at. Throws NumericalError where the field is not finite.
+std::vector<double> Simulation::Parts::velocity_at_particles(double time, bool wanted) const {
+  const auto dimension = static_cast<std::size_t>(particles_.dimension);
+  const std::size_t count = particles_.size();
+  std::vector<double> columns(count * dimension, 0.0), velocity;
+  VectorsView u{particles_.dimension, count, {}};
+  for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * count;
+  add_flow_and_drifts(*scene_.velocity, carrier_.drifts(), time, particles_, particles_.view(), u, threads_);
+  check_velocity(*scene_.velocity, particles_, u, time, steps_before_);
+  if (!wanted) return velocity;
+  velocity.resize(count * dimension);
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
+  return velocity;
+}
+
+// The density at the start stands for all: a run that has begun is not stopped.
+void Simulation::Parts::check_density_seconds() const {
+  const EvaluateSpec& evaluate = case_.evaluate;
+  if (!limits_seconds(evaluate)) return;
+  const auto predicted = [&](const std::string& method) {
+    DensityOptions options = density_options();
+    options.method = method;
+    return predict_density(particles_, scene_.cutoff, scene_.evaluation, options);
+  };
+  ranks_.agree_on([&] {
+    check_seconds(evaluate, predicted(evaluate.method), base::resolve_threads(threads_),
+                  [&] { return predicted("auto"); });
+  });
+}
+
+// Paths are shared; a formula is quick on rank 0.
+void Simulation::Parts::plan_reference() {
+  on_first([&] { compared_ = plan_comparison(case_, scene_, particle_count(), threads_); });
+  base::tell_all(ranks_, [&](base::StateBytes& bytes) {
+    bytes(compared_.points, compared_.following.most_steps, compared_.following.by_half_steps, compared_.word,
+          compared_.left_out);
+  });
+  shares_reference_ = ranks_.size() > 1 && case_.reference.kind == ReferenceSpec::Kind::characteristics;
+  if (compared_.points == 0 || !(place_.is_first() || shares_reference_)) return;
+  Following following = compared_.following;
+  if (shares_reference_)
+    following.rank = static_cast<std::size_t>(ranks_.rank()), following.ranks = static_cast<std::size_t>(ranks_.size());
+  reference_ = make_reference(case_, scene_, threads_, following);
+  if (shares_reference_) reference_ = shared_reference(std::move(reference_), scene_.evaluation, ranks_);
+}
+
+// On rank 0 the whole of it.
+DensityGrid Simulation::Parts::sum_density(DensityReport& report) {
+  if (!place_.one_tile()) return sum_tiles(report);
+  DensityGrid density;
+  on_first([&] { density = evaluate_at_once(particles_, blob(), scene_.evaluation, density_options(), &report); });
+  return density;
+}
+
+DensityGrid Simulation::Parts::sum_tiles(DensityReport& report) {
+  const Particles felt = felt_from_elsewhere(particles_, place_.tiles(), place_.owner(), ranks_);
+  const std::vector<TileDensity> own = evaluate_tiles({particles_, felt}, place_.tiles(), place_.owned(), blob(),
+                                                      scene_.evaluation, density_options(), ranks_, report);
+  DensityGrid density{scene_.evaluation, {}};
+  const auto& tiles = place_.tiles().list();
+  if (place_.is_first()) density.rho.resize(scene_.evaluation.size());
+  std::vector<double> values;  // of the others, tile after tile
+  for (const auto& [tile, rho] : own)
+    if (place_.is_first())
+      gaussdrift::place(rho, tiles[tile], scene_.evaluation, density.rho);
+    else
+      values.insert(values.end(), rho.begin(), rho.end());
+  const std::vector<base::Bytes> arrived = ranks_.gather(base::to_bytes(values));
+  if (!place_.is_first()) return density;
+  std::vector<std::size_t> read(arrived.size(), 0);
+  std::vector<double> rho;
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
+    const auto from = static_cast<std::size_t>(place_.owner()[tile]);
+    if (from == 0) continue;
+    const std::size_t bytes = tiles[tile].size() * sizeof(double);
+    rho = base::from_bytes<double>(std::span(arrived[from]).subspan(read[from], bytes));
+    read[from] += bytes;
+    gaussdrift::place(rho, tiles[tile], scene_.evaluation, density.rho);
+  }
+  return density;
+}
+
+// False if it was abandoned. A run that goes on from state() shows it again.
+bool Simulation::Parts::show_or_abandon(double time) {
+  if (abandon_wanted()) {
+    base::StateBytes carrier;
+    carrier_.pass_state(carrier, particles_);
+    before_output_ = {summary_.frames.size(), summary_.reference, carrier.written()};
+  }
+  try {
+    const base::Abandonable while_it_lasts(abandon_wanted());
+    show_frame(time);
+    return true;
+  } catch (const base::Abandoned&) {
+    forget_output();
+    return false;
+  }
+}
+
+void Simulation::Parts::forget_output() {
+  summary_.frames.resize(before_output_.frames);
+  index_ = static_cast<int>(before_output_.frames);
+  summary_.reference = before_output_.reference;
+  base::StateBytes carrier(before_output_.carrier);
+  carrier_.pass_state(carrier, particles_);
+}
+
+void Simulation::Parts::show_frame(double time) {
+  DensityReport report;
+  place(time);
+  const DensityGrid density = sum_density(report);
+  summary_.stages.add("density", report.evaluate_seconds);
+  summary_.stages.add("measure transform error", report.measure_seconds);
+  summary_.transform_choice = report.choice;
+  summary_.transform_achievable = std::max(summary_.transform_achievable, report.achievable);
+
+  const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
+  std::vector<double> velocity;
+  ranks_.agree_on([&] { velocity = velocity_at_particles(time, velocity_wanted); });
+
+  Frame frame;
+  frame.index = index_++;
+  frame.time = time;
+  frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
+  if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
+  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && somebody_needs_particles(time);
+  std::pair<Particles, std::vector<double>> all;
+  if (elsewhere) all = gathered(particles_, velocity, ranks_);
+  frame.particles = elsewhere ? &all.first : &particles_;
+  frame.velocity = !velocity_wanted ? nullptr : elsewhere ? &all.second : &velocity;
+  frame.density = &density;
+  std::vector<double> exact;
+  const auto compare = [&] {
+    if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
+  };
+  if (shares_reference_)
+    compare();
+  else
+    on_first(compare);
+  on_first([&] {
+    const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
+    frame.numbers.minimum = *low;
+    frame.numbers.maximum = *high;
+    frame.numbers.transform_error = report.measured_error;
+    frame.numbers.transform_tolerance = report.requested_tolerance;
+    frame.numbers.evaluate_seconds = report.evaluate_seconds;
+    frame.numbers.seconds = seconds_before_ + watch_.seconds();
+  });
+  // All ranks know what is known of the outputs, and judge the run alike.
+  base::tell_all(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers); });
+  summary_.frames.emplace_back(time, frame.numbers);
+  on_first([&] {
+    for (const auto& observer : observers) {
+      base::seam();
+      summary_.stages.run(observer->name(), [&] { observer->frame(frame); });
+    }
+  });
+}
+
+bool Simulation::Parts::somebody_needs_particles(double time) const {
+  std::int64_t needed = std::any_of(observers.begin(), observers.end(),
+                                    [&](const auto& observer) { return observer->needs_particles(time); });
+  ranks_.max(std::span(&needed, 1));
+  return needed != 0;
+}
+
+// On the whole grid, or on a sample of it. The density is on rank 0, and so is what comes out.
+void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact) {
+  ReferenceReport traced;
+  if (compared_.points >= scene_.evaluation.size()) {
+    traced = reference_->evaluate(frame.time, exact);
+    if (!place_.is_first()) return;
+    frame.exact = &exact;
+    frame.numbers.error = compare(density.rho, exact);
+    frame.numbers.compared = density.rho.size();
+  } else {
+    GridSample sample;
+    if (place_.is_first()) sample = sample_of_grid(scene_.evaluation, density.rho, compared_.points);
+    traced = reference_->evaluate_at(frame.time, sample.points, exact);
+    if (!place_.is_first()) return;
+    frame.numbers.error = compare(density.rho, sample, exact);
+    frame.numbers.compared = sample.points.size();
+  }
+  frame.numbers.untraced = traced.untraced;
+  judge_norms(exact, frame.numbers);
+  if (summary_.reference.untraced == 0)
+    summary_.reference = traced;
+  else
+    summary_.reference.untraced += traced.untraced;
+}
+
+// Norms are relative to the exact density. They mean nothing where that is nearly 0.
+void Simulation::Parts::judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const {
+  double largest = -1;
+  for (const double value : exact) largest = std::max(largest, std::abs(value));  // not of NaN
+  if (largest < 0) {
+    numbers.no_norms = "the exact density is not known anywhere";
+  } else if (largest == 0 || (is_all(numbers.outside) && is_nothing(largest, largest_at_start_))) {
+    numbers.no_norms = why_nothing_is_left(numbers.outside, numbers.weight);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    numbers.error = ErrorNorms{nan, nan, nan};
+  }
+}
+
+}  // namespace gaussdrift

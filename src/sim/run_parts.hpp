@@ -1,0 +1,134 @@
+// The parts of a run: all that its three files share. simulation.cpp carries, run_outputs.cpp shows, run_state.cpp keeps
+// and takes up.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/communicator.hpp"
+#include "base/seam.hpp"
+#include "base/state_bytes.hpp"
+#include "base/stopwatch.hpp"
+#include "gaussdrift/simulation.hpp"
+#include "reference/reference.hpp"
+#include "sim/carrier.hpp"
+#include "sim/comparison.hpp"
+#include "sim/placement.hpp"
+#include "sim/scene.hpp"
+#include "sim/transform.hpp"
+
+namespace gaussdrift {
+
+class Simulation::Parts {
+ public:
+  Parts(const Case& spec, int threads, base::Communicator* ranks);
+
+  void prepare();
+  void restore(Particles particles, const std::string& bytes);
+  std::string state();
+  RunSummary summary();
+  RunSummary run();
+  const Particles& particles() const { return particles_; }
+  Particles all_particles() const { return gather_particles(particles_, ranks_); }
+  std::size_t particle_count() const { return place_.particle_count(); }
+  bool compares_everywhere() const { return reference_ && compared_.points >= scene_.evaluation.size(); }
+  double rough_seconds() const;
+  void abandon_when(std::function<bool()> wanted);
+
+  std::vector<std::unique_ptr<Observer>> observers;
+  std::function<bool(const Progress&)> go_on;
+
+ private:
+  using ObserverStates = std::vector<std::pair<std::string, std::string>>;  // name and state
+
+  template <class Work>
+  void on_first(const Work& work) const {
+    ranks_.agree_on([&] {
+      if (place_.is_first()) work();
+    });
+  }
+
+  // simulation.cpp: from the first step to the last.
+  void make_ready();
+  void begin();
+  bool carry();
+  bool is_output(double time) const {
+    return std::find(case_.output.times.begin(), case_.output.times.end(), time) != case_.output.times.end();
+  }
+  bool finish();
+  void end();
+  void sum_up();
+  /// Ranks do not agree at seams yet: where there are several, what is under way is finished.
+  const base::AbandonWanted* abandon_wanted() const {
+    return abandon_wanted_ && ranks_.size() == 1 ? &abandon_wanted_ : nullptr;
+  }
+
+  // run_outputs.cpp: what an output shows.
+  DensityOptions density_options() const;
+  Cutoff blob() const;
+  void place(double from);
+  double mass() const;
+  std::vector<double> velocity_at_particles(double time, bool wanted) const;
+  void check_density_seconds() const;
+  void plan_reference();
+  DensityGrid sum_density(DensityReport& report);
+  DensityGrid sum_tiles(DensityReport& report);
+  bool show_or_abandon(double time);
+  void forget_output();
+  void show_frame(double time);
+  bool somebody_needs_particles(double time) const;
+  void compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
+  void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
+
+  // run_state.cpp: what the run has come to, for another process that goes on.
+  void pass_state(base::StateBytes& bytes, ObserverStates& seen);
+  void check_leg() const;
+  void check_frames() const;
+  void take_particles(Particles particles);
+  void plan_landings();
+  void take_up(const ObserverStates& seen);
+  void take_up_outputs(const ObserverStates& seen);
+  std::size_t steps_to_end() const;
+
+  const Case case_;
+  int threads_;
+  base::Communicator alone_;
+  base::Communicator& ranks_;
+  Placement place_;
+  std::optional<double> placed_at_;  // the time of the particles when they were placed
+  base::AbandonWanted abandon_wanted_;
+  Scene scene_;
+  Carrier carrier_;
+  std::vector<double> landings_;
+  Particles particles_;
+  std::unique_ptr<Reference> reference_;  // null for none
+  bool shares_reference_ = false;
+  SeedReport seeding_;
+  double seed_seconds_ = 0, mass_at_start_ = 0, beyond_at_start_ = 0;
+  double largest_at_start_ = 0;  // of |rho_0| on the lattice
+  Comparison compared_;
+
+  // How far the run is. `leg_` leads to landings_[landed_].
+  enum class Stage { made, prepared, under_way, ended } stage_ = Stage::made;
+  std::size_t landed_ = 0, steps_before_ = 0, steps_total_ = 0;
+  int index_ = 0;  // of the next output
+  Carrier::Leg leg_;
+  struct {
+    std::size_t frames = 0;
+    ReferenceReport reference;
+    std::string carrier;  // effects count what they do
+  } before_output_;
+  double seconds_before_ = 0;  // of earlier calls of run()
+  base::Stopwatch watch_;
+  RunSummary summary_;
+};
+
+/// The numbers of an output, to be kept or told.
+void pass(base::StateBytes& bytes, FrameNumbers& numbers);
+
+}  // namespace gaussdrift
