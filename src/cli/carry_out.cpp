@@ -16,6 +16,7 @@
 #include "base/printable.hpp"
 #include "base/process_stopwatch.hpp"
 #include "base/seam.hpp"
+#include "base/size_text.hpp"
 #include "base/stopwatch.hpp"
 #include "cli/checkpoint_keeper.hpp"
 #include "cli/common_ground.hpp"
@@ -103,7 +104,7 @@ std::string provenance_of(const RunTask& task) {
 /// Bytes that the run will write.
 double disk_of(const Case& spec, const Simulation& simulation, int threads) {
   return accuracy::disk_of_run(spec,
-                               {.particles = static_cast<double>(simulation.particles().size()),
+                               {.particles = static_cast<double>(simulation.particle_count()),
                                 .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
                                 .compared_everywhere = simulation.compares_everywhere()},
                                simulation.rough_seconds() / base::resolve_threads(threads));
@@ -351,9 +352,8 @@ class Run {
   std::string state_text() const {
     if (keeper_->written() == 0 || !complete()) return "";
     return fmt::format("state  {} took {:.2g} s; the last has {} ({}/{}): gaussdrift resume --until T goes on\n",
-                       keeper_->written() == 1 ? "1 checkpoint" : fmt::format("{} checkpoints", keeper_->written()),
-                       keeper_->seconds(), bytes_text(keeper_->last().bytes), folder_.string(),
-                       write::checkpoints_folder);
+                       base::counted(keeper_->written(), "checkpoint"), keeper_->seconds(),
+                       base::size_text(keeper_->last().bytes), folder_.string(), write::checkpoints_folder);
   }
 
   std::string shares_text() const {
@@ -366,11 +366,7 @@ class Run {
     const double mean = all / static_cast<double>(shares_.size());
     return fmt::format("ranks  {} on {}: the busiest took {:.2f} times the mean processor time, {} sent\n",
                        ranks_.size(), base::counted(static_cast<std::size_t>(ranks_.hosts()), "host"),
-                       mean > 0 ? busiest / mean : 1, bytes_text(sent));
-  }
-
-  static std::string bytes_text(double bytes) {
-    return bytes < 1e6 ? fmt::format("{:.0f} kB", std::ceil(bytes / 1e3)) : fmt::format("{:.3g} MB", bytes / 1e6);
+                       mean > 0 ? busiest / mean : 1, base::size_text(sent));
   }
 
   /// Of the work of one rank.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "base/counted.hpp"
 #include "base/number.hpp"
 #include "cli/terminal.hpp"
 #include "gaussdrift/error.hpp"
@@ -72,8 +73,8 @@ int refuse(const Launcher& launcher, const std::string& words) {
 }
 
 std::string ranks_text(const base::Communicator& ranks) {
-  return fmt::format("{} {} on {} {}", ranks.size(), ranks.size() == 1 ? "rank" : "ranks", ranks.hosts(),
-                     ranks.hosts() == 1 ? "host" : "hosts");
+  return base::counted(static_cast<std::size_t>(ranks.size()), "rank") + " on " +
+         base::counted(static_cast<std::size_t>(ranks.hosts()), "host");
 }
 
 }  // namespace gaussdrift::cli

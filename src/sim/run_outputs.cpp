@@ -91,7 +91,7 @@ Cutoff Simulation::Parts::blob() const {
 
 // Particles to the ranks that carry them from `from` to the next landing, and sum the density at `from`.
 void Simulation::Parts::place(double from) {
-  if (placed_at_ == from) return;
+  if (placed_at_ == from) return;  // nothing has moved since
   placed_at_ = from;
   Tiles tiles = tiles_of(particles_, blob(), scene_.evaluation, density_options(),
                          [&](std::vector<std::int64_t>& counts) { ranks_.sum(counts); });

@@ -8,6 +8,7 @@
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
 #include "ranks_of_threads.hpp"
+#include "same_particles.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -42,14 +43,6 @@ void watch(Simulation& simulation, std::vector<Seen>& seen) {
     seen.push_back({frame.time, frame.numbers, frame.density->rho, frame.exact ? *frame.exact : std::vector<double>(),
                     frame.velocity ? *frame.velocity : std::vector<double>(), *frame.particles});
   });
-}
-
-void expect_same(const Particles& a, const Particles& b) {
-  EXPECT_EQ(a.position, b.position);
-  EXPECT_EQ(a.alpha, b.alpha);
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.volume, b.volume);
-  EXPECT_EQ(a.spread, b.spread);
 }
 
 void expect_same(const std::vector<Seen>& a, const std::vector<Seen>& b) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "effect/scene.hpp"
+#include "same_particles.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -26,14 +27,6 @@ Case spec_of(const Kind& kind, const std::vector<std::string>& more = {}) {
   overrides.insert(overrides.end(), kind.overrides.begin(), kind.overrides.end());
   overrides.insert(overrides.end(), more.begin(), more.end());
   return scene_of(overrides);
-}
-
-void expect_same(const Particles& a, const Particles& b) {
-  EXPECT_EQ(a.position, b.position);
-  EXPECT_EQ(a.alpha, b.alpha);
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.volume, b.volume);
-  EXPECT_EQ(a.spread, b.spread);
 }
 
 class StopAndGo : public testing::TestWithParam<Kind> {};

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "case_text.hpp"
 #include "pictures.hpp"
 #include "program/program.hpp"
 #include "program/same_run.hpp"
@@ -16,29 +17,12 @@ namespace gaussdrift {
 namespace {
 
 /// Some 0.7 s: 200 000 steps of few particles, three outputs.
-const std::string turning = R"(gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [1, 1]
-[velocity]
-u = ["-y", "x"]
-[density]
-shape = "wendland"
-center = [0.5, 0]
-radius = 0.25
-[particles]
-per_axis = 60
-[time]
-end = 4
-step = 0.00002
-[evaluate]
-per_axis = 40
-[output]
-times = [0, 1.5, 3, 4]
-images = []
-report = "none"
-checkpoint = 0.02
-)";
+const std::string turning =
+    case_text({.density = shape_of("wendland", "0.5, 0", "0.25"),
+               .particles = "per_axis = 60",
+               .time = "end = 4\nstep = 0.00002",
+               .evaluate = "per_axis = 40",
+               .output = "times = [0, 1.5, 3, 4]\nimages = []\nreport = \"none\"\ncheckpoint = 0.02"});
 
 /// Starts the program, sends a signal some milliseconds after its first output, and returns what waitpid() says.
 int run_and_signal(const ScratchFolder& folder, const std::vector<std::string>& words, int signal, int milliseconds) {
@@ -98,27 +82,12 @@ TEST_F(Resume, AfterSignalsWhichItAnswersWithTheirExitCodes) {
 }
 
 /// Most of its time goes into three outputs: densities, paths back from their points, files, pictures.
-const std::string showing = R"toml(gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [1, 1]
-[velocity]
-u = ["-y*(1+x*x)", "x*(1+0.3*sin(y))"]
-[density]
-shape = "gaussian"
-center = [0.2, 0]
-radius = 0.3
-[particles]
-per_axis = 60
-[time]
-end = 1
-step = 0.05
-[evaluate]
-per_axis = 100
-[output]
-frames = 3
-report = "none"
-)toml";
+const std::string showing = case_text({.velocity = velocity_of({"-y*(1+x*x)", "x*(1+0.3*sin(y))"}),
+                                       .density = shape_of("gaussian", "0.2, 0", "0.3"),
+                                       .particles = "per_axis = 60",
+                                       .time = "end = 1\nstep = 0.05",
+                                       .evaluate = "per_axis = 100",
+                                       .output = "frames = 3\nreport = \"none\""});
 
 TEST_F(Resume, AfterSignalsInTheMiddleOfOutputs) {
   std::ofstream(folder / "showing.toml") << showing << (draws_pictures ? "images = [\"heatmap\"]\n" : "images = []\n");

@@ -9,15 +9,6 @@
 
 namespace gaussdrift {
 
-/// As root and in containers too. Without OMP_WAIT_POLICY, which ctest sets, so that the program starts itself again.
-inline const std::string mpirun =
-    "env -u OMP_WAIT_POLICY OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-    "OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 100 " MPIRUN " -q ";
-
-inline std::string ranks_of_mpi(int ranks, const std::string& command) {
-  return mpirun + "--oversubscribe --bind-to none -n " + std::to_string(ranks) + " " + command;
-}
-
 /// A command for mpirun: `prepare` is done on one rank alone before the program starts there. Each rank leaves the number
 /// of its process in rank_R.pid.
 inline std::string with_one_rank(int rank, const std::string& prepare, const std::string& arguments) {
@@ -45,12 +36,6 @@ inline std::string left_in(const ScratchFolder& folder, int most_tries = 100) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   return left;
-}
-
-inline std::size_t times_in(const std::string& text, const std::string& words) {
-  std::size_t times = 0;
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++times;
-  return times;
 }
 
 }  // namespace gaussdrift

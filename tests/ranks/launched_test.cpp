@@ -9,12 +9,6 @@
 namespace gaussdrift {
 namespace {
 
-std::size_t times_in(const std::string& text, const std::string& words) {
-  std::size_t times = 0;
-  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++times;
-  return times;
-}
-
 TEST(Communicator, OverMpiKeepsTheLaws) {
   NEEDS_MPIRUN();
   const ScratchFolder folder;

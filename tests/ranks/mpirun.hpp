@@ -16,12 +16,22 @@ namespace gaussdrift {
   if (mpi::library().find("Open MPI") != 0) GTEST_SKIP() << "these tests know the mpirun of Open MPI alone"
 
 /// As root and in containers too. Without OMP_WAIT_POLICY, which ctest sets, so that the program starts itself again.
+inline const std::string mpirun =
+    "env -u OMP_WAIT_POLICY OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+    "OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 100 " MPIRUN " -q ";
+
+inline std::string ranks_of_mpi(int ranks, const std::string& command) {
+  return mpirun + "--oversubscribe --bind-to none -n " + std::to_string(ranks) + " " + command;
+}
+
 inline Outcome on_ranks_of_mpi(int ranks, const std::string& command, const ScratchFolder& folder) {
-  const std::string environment =
-      "env -u OMP_WAIT_POLICY OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-      "OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 100 ";
-  return outcome_of(
-      folder, environment + MPIRUN + " -q --oversubscribe --bind-to none -n " + std::to_string(ranks) + " " + command);
+  return outcome_of(folder, ranks_of_mpi(ranks, command));
+}
+
+inline std::size_t times_in(const std::string& text, const std::string& words) {
+  std::size_t times = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++times;
+  return times;
 }
 
 }  // namespace gaussdrift

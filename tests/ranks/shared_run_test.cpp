@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "case_text.hpp"
 #include "program/same_run.hpp"
 #include "ranks/mpirun.hpp"
 
@@ -125,29 +126,12 @@ TEST(SharedRun, TellsAFailureOnce) {
   NEEDS_MPIRUN();
   const ScratchFolder folder;
   // Particles that come to x = 0.85 have no velocity: those are on one rank.
-  write_file(folder / "case.toml", R"toml(gaussdrift = 1
-[domain]
-min = [-1, -1]
-max = [1, 1]
-[velocity]
-u = ["1 + 0*sqrt(0.85 - x)", "0"]
-[density]
-shape = "wendland"
-center = [0.3, 0]
-radius = 0.3
-[particles]
-per_axis = 201
-overlap = 0.7
-[time]
-end = 1
-step = 0.01
-[evaluate]
-per_axis = 201
-tile_particles = 200
-[output]
-frames = 5
-images = []
-)toml");
+  write_file(folder / "case.toml", case_text({.velocity = velocity_of({"1 + 0*sqrt(0.85 - x)", "0"}),
+                                              .density = shape_of("wendland", "0.3, 0", "0.3"),
+                                              .particles = "per_axis = 201\noverlap = 0.7",
+                                              .time = "end = 1\nstep = 0.01",
+                                              .evaluate = "per_axis = 201\ntile_particles = 200",
+                                              .output = "frames = 5\nimages = []"}));
   const Outcome alone = outcome_of(folder, run + "case.toml --out alone");
   const Outcome shared = on_ranks_of_mpi(3, run + "case.toml --out shared", folder);
   EXPECT_EQ(alone.exit_code, 4);

@@ -12,6 +12,7 @@
 #include "particle/placing.hpp"
 #include "particle/seeding.hpp"
 #include "ranks_of_threads.hpp"
+#include "same_particles.hpp"
 #include "sim/tiled_density.hpp"
 
 namespace gaussdrift {
@@ -32,12 +33,6 @@ Particles cloud(int dimension, std::size_t count) {
 }
 
 Lattice box(int dimension, int per_axis) { return make_lattice(dimension, {-1, -1, -1}, {1, 1, 0.7}, per_axis); }
-
-Vector place(const Particles& particles, std::size_t j) {
-  Vector x{};
-  for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
-  return x;
-}
 
 class EveryDimension : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Tiles, EveryDimension, ::testing::Values(2, 3));
@@ -166,18 +161,14 @@ TEST(Placing, LosesAndDoublesNothing) {
       for (const Tile& tile : tiles.list()) work.push_back(static_cast<double>(tile.particles));
       const std::vector<int> owner = share_tiles(work, size);
       place_particles(own, tiles, owner, ranks);
-      for (std::size_t j = 0; j < own.size(); ++j) EXPECT_EQ(owner[tiles.of(place(own, j))], ranks.rank());
+      for (std::size_t j = 0; j < own.size(); ++j) EXPECT_EQ(owner[tiles.of(own.view().at(j))], ranks.rank());
       EXPECT_TRUE(std::is_sorted(own.id.begin(), own.id.end()));
       const Particles all = gather_particles(own, ranks);
       if (ranks.rank() != 0) {
         EXPECT_EQ(all.size(), 0u);
         return;
       }
-      EXPECT_EQ(all.id, particles.id);
-      EXPECT_EQ(all.position, particles.position);
-      EXPECT_EQ(all.alpha, particles.alpha);
-      EXPECT_EQ(all.path, particles.path);
-      EXPECT_EQ(all.volume, particles.volume);
+      expect_same(all, particles);
     });
   }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gaussdrift/error.hpp"
+#include "same_particles.hpp"
 #include "scratch_folder.hpp"
 #include "write/disk.hpp"
 
@@ -31,16 +32,6 @@ Particles some_particles(std::size_t count, double first) {
   particles.volume.assign(count, 0.5);
   particles.spread = 0.1;
   return particles;
-}
-
-void expect_same(const Particles& a, const Particles& b) {
-  EXPECT_EQ(a.dimension, b.dimension);
-  EXPECT_EQ(a.position, b.position);
-  EXPECT_EQ(a.alpha, b.alpha);
-  EXPECT_EQ(a.id, b.id);
-  EXPECT_EQ(a.path, b.path);
-  EXPECT_EQ(a.volume, b.volume);
-  EXPECT_EQ(a.spread, b.spread);
 }
 
 /// Two of them: of 5 particles at t = 1, then of 3 at t = 2.
