@@ -35,7 +35,7 @@ struct Uninitialised : std::allocator<T> {
   }
   void deallocate(T* block, std::size_t count) {
     if (count < aligned_below / sizeof(T)) {
-      ::operator delete (block, count * sizeof(T), std::align_val_t{cache_line});
+      ::operator delete (block, std::align_val_t{cache_line});  // clang has no form with a size
     } else {
       std::allocator<T>::deallocate(block, count);
     }

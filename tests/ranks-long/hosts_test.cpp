@@ -63,7 +63,7 @@ TEST_F(Hosts, EndWhenTheWireIsCut) {
              hosts.on_both(folder, "'" PROGRAM "' run long.toml --set time.end=100 --out part --threads 1",
                            "--mca oob_tcp_keepalive_time 5 --mca oob_tcp_keepalive_intvl 2 --mca "
                            "oob_tcp_keepalive_probes 3"));
-  const Outcome cut = when_there(folder, "part/density/density_0001.vti", "sh command.sh", hosts.cut_the_wire());
+  const Outcome cut = when_there(folder, "part/state/0/manifest.json", "sh command.sh", hosts.cut_the_wire());
   EXPECT_NE(cut.exit_code, 0);
   EXPECT_NE(cut.exit_code, 124) << "it would have gone on: " << cut.err;
   EXPECT_EQ(left_in(folder, 300), "");
