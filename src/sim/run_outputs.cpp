@@ -8,12 +8,12 @@
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
 #include "base/told_by_first.hpp"
-#include "field/velocity/value_seconds.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
 #include "sim/outside.hpp"
 #include "sim/run_parts.hpp"
 #include "sim/shared_reference.hpp"
+#include "sim/sharing.hpp"
 #include "sim/stepper.hpp"
 #include "sim/tiled_density.hpp"
 
@@ -95,17 +95,7 @@ void Simulation::Parts::place(double from) {
   placed_at_ = from;
   Tiles tiles = tiles_of(particles_, blob(), scene_.evaluation, density_options(),
                          [&](std::vector<std::int64_t>& counts) { ranks_.sum(counts); });
-  const auto next = std::upper_bound(landings_.begin(), landings_.end(), from);
-  const double to = next == landings_.end() ? from : *next;
-  const double steps =
-      carrier_.is_adaptive() ? 20 : static_cast<double>(time::Interval(from, to, case_.time.step).steps());
-  const double carrying = steps * time::find_tableau(case_.time.method).stages * value_seconds(*scene_.velocity);
-  // Of a particle and a grid point in a Gauss transform, roughly; bench_tiles shows how evenly ranks are loaded.
-  const double of_particle = scene_.evaluation.dimension == 2 ? 0.13e-6 : 0.35e-6, of_point = 12e-9;
-  place_.renew(particles_, std::move(tiles), [&](const Tile& tile) {
-    const auto particles = static_cast<double>(tile.particles), points = static_cast<double>(tile.size());
-    return particles * (carrying + of_particle) + (tile.particles > 0 ? of_point : 0.1 * of_point) * points;
-  });
+  place_.renew(particles_, std::move(tiles), work_of_tiles(case_, *scene_.velocity, from));
 }
 
 double Simulation::Parts::mass() const { return measure_particles(particles_, case_.domain, place_, threads_).mass; }

@@ -13,25 +13,13 @@
 #include "sim/landings.hpp"
 #include "sim/outside.hpp"
 #include "sim/run_parts.hpp"
+#include "sim/sharing.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/work.hpp"
 
 namespace gaussdrift {
 
 namespace {
-
-/// What keeps ranks from sharing a case, for the user; empty: nothing.
-std::string why_not_shared(const Case& spec, const VelocityField& velocity) {
-  for (const auto& [effect, values] : effects_of(spec.effects)) {
-    const EffectTraits& traits = effect->traits;
-    const int dimension = spec.domain.dimension;
-    const bool by_widths = effect->spreading && effect->spreading(values) > 0;  // each blob spreads by itself
-    if (traits.particles_interact || traits.adds_particles.of(values, dimension) ||
-        traits.replaces_particles.of(values, dimension) || (traits.moves_weight.of(values, dimension) && !by_widths))
-      return fmt::format("[effects.{}] needs all particles in one process", values.name);
-  }
-  return velocity.evaluates_in_blocks() ? "" : "this velocity is evaluated at all particles at once";
-}
 
 void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& summary) {
   summary.effects.push_back({"transport",

@@ -1,0 +1,193 @@
+#include "accuracy/rank_forecast.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
+
+#include "accuracy/footprint.hpp"
+#include "accuracy/trial.hpp"
+#include "base/counted.hpp"
+#include "base/size_text.hpp"
+#include "gaussdrift/accuracy.hpp"
+#include "particle/cutoff.hpp"
+#include "particle/placing.hpp"
+#include "particle/tiles.hpp"
+#include "sim/scene.hpp"
+#include "sim/sharing.hpp"
+#include "sim/tiled_density.hpp"
+#include "write/output_files.hpp"
+
+namespace gaussdrift::accuracy {
+
+namespace {
+
+constexpr std::size_t trial_particles = 400'000;
+
+/// What a rank has: as many particles and grid points as its tiles, and particles of others that are felt there.
+struct Share {
+  double work = 0, particles = 0, felt = 0, points = 0;
+  std::size_t tiles = 0;
+};
+
+/// Some particles stand for `each` of the case.
+std::vector<Share> shares(const Trial& trial, const Tiles& tiles, const std::vector<int>& owner,
+                          const std::vector<double>& work, int ranks) {
+  const double each = trial.each();
+  std::vector<Share> all(static_cast<std::size_t>(ranks));
+  for (std::size_t t = 0; t < owner.size(); ++t) {
+    Share& share = all[static_cast<std::size_t>(owner[t])];
+    const Tile& tile = tiles.list()[t];
+    ++share.tiles;
+    share.work += work[t];
+    share.particles += static_cast<double>(tile.particles) * each;
+    share.points += static_cast<double>(tile.size());
+  }
+  const Particles& particles = trial.particles;
+  std::vector<int> told;  // ranks that have been given this particle
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    Vector x{};
+    for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
+    const int home = owner[tiles.of(x)];
+    told.assign(1, home);
+    tiles.within_reach(x, [&](std::size_t tile) {
+      const int rank = owner[tile];
+      if (std::find(told.begin(), told.end(), rank) != told.end()) return;
+      told.push_back(rank);
+      all[static_cast<std::size_t>(rank)].felt += each;
+    });
+  }
+  return all;
+}
+
+/// The case as the ranks beside the first see it: they draw, write and explain nothing.
+Case without_outputs(Case spec) {
+  spec.output.images.clear();
+  spec.output.files.clear();
+  spec.output.report = false;
+  spec.accuracy.budget = AccuracySpec::Budget::none;
+  return spec;
+}
+
+/// Rank 0 gets all particles where a file, a checkpoint or what explains the errors needs them.
+bool first_needs_all_particles(const Case& spec) {
+  return std::any_of(spec.output.files.begin(), spec.output.files.end(),
+                     [](const OutputFile& file) {
+                       const write::FileKind& kind = write::find_output_file(file.name);
+                       return kind.bytes({.particles = 1e6}) > kind.bytes({});
+                     }) ||
+         spec.output.report || spec.accuracy.budget != AccuracySpec::Budget::none || spec.output.checkpoint != 0.0;
+}
+
+TileLimits limits_of(const Case& spec, double each) {
+  TileLimits limits = usual_tiles(spec.domain.dimension);
+  if (spec.evaluate.tile_particles > 0) limits.particles = static_cast<std::int64_t>(spec.evaluate.tile_particles);
+  limits.particles = std::max<std::int64_t>(1, std::llround(static_cast<double>(limits.particles) / each));
+  return limits;
+}
+
+}  // namespace
+
+std::size_t most_useful_ranks(const std::vector<double>& work) {
+  const double all = std::accumulate(work.begin(), work.end(), 0.0);
+  if (!(all > 0)) return 1;
+  // Each part of the work as long as the largest distance between middles of tiles has one of them.
+  double before = 0, last = 0, widest = 0;
+  for (const double of_tile : work) {
+    const double middle = before + of_tile / 2;
+    widest = std::max(widest, middle - last);
+    last = middle, before += of_tile;
+  }
+  widest = std::max(widest, all - last);
+  const auto busy = [&](std::size_t ranks) {
+    std::vector<int> owner = share_tiles(work, static_cast<int>(ranks));
+    owner.erase(std::unique(owner.begin(), owner.end()), owner.end());
+    return owner.size() == ranks;
+  };
+  std::size_t ranks = std::max<std::size_t>(1, static_cast<std::size_t>(all / widest));
+  while (ranks > 1 && !busy(ranks)) --ranks;  // rounding
+  while (ranks < work.size() && busy(ranks + 1)) ++ranks;
+  return ranks;
+}
+
+RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) {
+  const Trial trial = make_trial(spec, trial_particles, 1);
+  RankForecast result;
+  result.ranks = ranks;
+  result.whole = trial.whole;
+  result.refused = why_not_shared(spec, *trial.scene.velocity);
+  // Blobs as wide as those of the case, whose sample has wider ones.
+  const Cutoff blob = make_cutoff(spec.particles.cutoff, spec.domain.dimension,
+                                  spec.particles.overlap * trial.lattice.spacing, spec.particles.cutoff_arguments);
+  const Lattice grid = evaluation_lattice(spec);
+  const double each = trial.each();
+  const Tiles tiles(grid, reach_of_blob(blob), trial.particles.view(), limits_of(spec, each));
+  const auto work_of = work_of_tiles(spec, *trial.scene.velocity, 0);
+  std::vector<double> work;
+  for (Tile tile : tiles.list()) {
+    tile.particles = std::llround(static_cast<double>(tile.particles) * each);
+    work.push_back(work_of(tile));
+  }
+  const bool one = work.size() == 1;
+  const std::vector<int> owner = one ? std::vector<int>{0} : share_tiles(work, ranks);
+  const std::vector<Share> all = shares(trial, tiles, owner, work, ranks);
+
+  result.tiles = work.size();
+  result.most_ranks = most_useful_ranks(work);
+  double most = 0, sum = 0;
+  for (const Share& share : all) most = std::max(most, share.work), sum += share.work;
+  result.balance = sum > 0 ? most * ranks / sum : 1;
+  const double bytes = 8.0 * (spec.domain.dimension + 2);  // of a particle: its place, weight and id
+  const Case bare = without_outputs(spec);
+  Extent extent{.lattice_points = static_cast<double>(known.lattice_points) / ranks};
+  for (std::size_t r = 0; r < all.size(); ++r) {
+    result.idle += all[r].tiles == 0;
+    result.halo_bytes = std::max(result.halo_bytes, bytes * all[r].felt);
+    if (r == 0) continue;
+    result.gathered_bytes += 8 * all[r].points;
+    extent.particles = all[r].particles + all[r].felt, extent.grid_points = all[r].points;
+    result.other_memory = std::max(result.other_memory, memory_of_run(bare, extent).all() + known.program_bytes);
+  }
+  extent.particles = first_needs_all_particles(spec) ? known.particles_at_most : all[0].particles + all[0].felt;
+  extent.grid_points = static_cast<double>(known.grid_points);
+  extent.compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none;
+  result.first_memory = memory_of_run(spec, extent).all() + known.program_bytes;
+  return result;
+}
+
+std::string to_text(const RankForecast& r) {
+  const std::string ranks = base::counted(static_cast<std::size_t>(r.ranks), "rank");
+  if (!r.refused.empty() && r.ranks > 1)
+    return fmt::format("ranks      {}, so that {} cannot share this case; start it on one rank\n", r.refused, ranks);
+  std::string text = fmt::format("ranks      {}: {}", ranks, base::counted(r.tiles, "tile"));
+  text += r.idle > 0 ? fmt::format(", {} idle", base::counted(r.idle, "rank"))
+                     : fmt::format(", the busiest has {:.2f} times the mean work", r.balance);
+  text += fmt::format("; with more than {} some are idle\n", r.most_ranks);
+  text += fmt::format("           of a density a rank receives up to {} of particles, and rank 0 gathers {}\n",
+                      base::size_text(r.halo_bytes), base::size_text(r.gathered_bytes));
+  text += fmt::format("           memory of rank 0 {}", base::size_text(r.first_memory));
+  if (r.ranks > 1) text += fmt::format(", of the largest other {}", base::size_text(r.other_memory));
+  return text + fmt::format("; all of this is computed from {} at the start, not measured\n",
+                            r.whole ? "the particles" : "a sample of the particles");
+}
+
+std::string to_json(const RankForecast& r) {
+  const nlohmann::ordered_json document{{"ranks", r.ranks},
+                                        {"refused", r.refused},
+                                        {"tiles", r.tiles},
+                                        {"most_useful_ranks", r.most_ranks},
+                                        {"idle", r.idle},
+                                        {"balance", r.balance},
+                                        {"received_bytes", r.halo_bytes},
+                                        {"gathered_bytes", r.gathered_bytes},
+                                        {"memory_bytes_rank_0", r.first_memory},
+                                        {"memory_bytes_largest_other", r.other_memory},
+                                        {"particles_counted", r.whole}};
+  return document.dump();
+}
+
+}  // namespace gaussdrift::accuracy

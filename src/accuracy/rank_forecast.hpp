@@ -1,0 +1,36 @@
+// What N ranks would make of a case, computed without having them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "accuracy/forecast.hpp"
+#include "gaussdrift/case.hpp"
+
+namespace gaussdrift::accuracy {
+
+struct RankForecast {
+  int ranks = 1;
+  std::string refused;         // why they cannot share it; empty: they can
+  std::size_t tiles = 1;       // at the start
+  std::size_t most_ranks = 1;  // with more than these some have nothing to do
+  std::size_t idle = 0;        // ranks without a tile
+  double balance = 1;          // predicted work of the busiest rank over the mean
+  double halo_bytes = 0;       // that the rank which receives most gets of others' particles, for one density
+  double gathered_bytes = 0;   // of one density, to rank 0
+  double first_memory = 0, other_memory = 0;  // of rank 0, and of the largest of the others, with the program
+  bool whole = true;                          // from all particles; else from a sample
+};
+
+/// `known`: the forecast of the same case. Takes as much memory as a trial does, and a second at most.
+RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks);
+
+/// The largest number of ranks up to which every rank gets a tile of this work.
+std::size_t most_useful_ranks(const std::vector<double>& work);
+
+/// The lines that `gaussdrift check --ranks` adds, and the member "ranks" of its JSON.
+std::string to_text(const RankForecast& forecast);
+std::string to_json(const RankForecast& forecast);
+
+}  // namespace gaussdrift::accuracy

@@ -1,0 +1,43 @@
+#include "sim/sharing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "effect/catalogue.hpp"
+#include "field/velocity/value_seconds.hpp"
+#include "sim/landings.hpp"
+#include "time/schedule.hpp"
+#include "time/tableau.hpp"
+
+namespace gaussdrift {
+
+std::string why_not_shared(const Case& spec, const VelocityField& velocity) {
+  for (const auto& [effect, values] : effects_of(spec.effects)) {
+    const EffectTraits& traits = effect->traits;
+    const int dimension = spec.domain.dimension;
+    const bool by_widths = effect->spreading && effect->spreading(values) > 0;  // each blob spreads by itself
+    if (traits.particles_interact || traits.adds_particles.of(values, dimension) ||
+        traits.replaces_particles.of(values, dimension) || (traits.moves_weight.of(values, dimension) && !by_widths))
+      return fmt::format("[effects.{}] needs all particles in one process", values.name);
+  }
+  return velocity.evaluates_in_blocks() ? "" : "this velocity is evaluated at all particles at once";
+}
+
+std::function<double(const Tile& tile)> work_of_tiles(const Case& spec, const VelocityField& velocity, double from) {
+  const time::Tableau& tableau = time::find_tableau(spec.time.method);
+  const std::vector<double> landing = landings(spec);
+  const auto next = std::upper_bound(landing.begin(), landing.end(), from);
+  const double to = next == landing.end() ? from : *next;
+  const double steps =
+      time::is_adaptive(tableau) ? 20 : static_cast<double>(time::Interval(from, to, spec.time.step).steps());
+  const double carrying = steps * tableau.stages * value_seconds(velocity);
+  // Of a particle and a grid point in a Gauss transform.
+  const double of_particle = spec.domain.dimension == 2 ? 0.13e-6 : 0.35e-6, of_point = 12e-9;
+  return [=](const Tile& tile) {
+    const auto particles = static_cast<double>(tile.particles), points = static_cast<double>(tile.size());
+    return particles * (carrying + of_particle) + (tile.particles > 0 ? of_point : 0.1 * of_point) * points;
+  };
+}
+
+}  // namespace gaussdrift
