@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "effect/catalogue.hpp"
-#include "field/velocity/differences.hpp"
+#include "field/velocity/sampled_gradients.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
@@ -30,20 +29,9 @@ void CoreSpreading::begin(Particles& particles, double time) { since_ = time - p
 
 void CoreSpreading::look_at(const Particles& sample) {
   if (end_ <= 0) return;
-  constexpr std::size_t sampled_particles = 500;
-  const int dimension = sample.dimension;
-  const Columns x = sample_of(sample.view(), sampled_particles);
-  for (const double t : {0.0, 0.5 * end_, end_}) {
-    const auto gradient = gradient_by_differences(velocity_, t, x, dimension, distance_);
-    for (std::size_t j = 0; j < x[0].size(); ++j) {
-      Eigen::MatrixXd rate(dimension, dimension);
-      for (int k = 0; k < dimension; ++k)
-        for (int i = 0; i < dimension; ++i) rate(k, i) = (gradient[k][i][j] + gradient[i][k][j]) / 2;
-      if (!rate.allFinite()) continue;
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rate, Eigen::EigenvaluesOnly);
-      strain_ = std::max(strain_, solver.eigenvalues().cwiseAbs().maxCoeff());
-    }
-  }
+  for (const SampledGradient& at : sampled_gradients(velocity_, sample.view(), end_, distance_))
+    for (const std::complex<double>& rate : eigenvalues_of((at.gradient + at.gradient.transpose()) / 2))
+      strain_ = std::max(strain_, std::abs(rate));
 }
 
 void CoreSpreading::land(Particles& particles, double time) {

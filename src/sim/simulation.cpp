@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "effect/catalogue.hpp"
+#include "field/velocity/sampled_gradients.hpp"
 #include "gaussdrift/error.hpp"
 #include "sim/checks.hpp"
 #include "sim/landings.hpp"

@@ -1,34 +1,17 @@
 #include "sim/stable_step.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 
+#include "field/velocity/sampled_gradients.hpp"
 #include "time/stability.hpp"
 
 namespace gaussdrift {
 
 FlowRates sample_flow_rates(const VelocityField& velocity, const Particles& particles, double length, double distance) {
   FlowRates flow;
-  const int dimension = particles.dimension;
-  const Columns x = sample_of(particles.view(), sampled_particles);
-  for (const double t : {0.0, 0.5 * length, length}) {
-    const auto gradient = gradient_by_differences(velocity, t, x, dimension, distance, &flow.jumps);
-    for (std::size_t j = 0; j < x[0].size(); ++j) {
-      Eigen::MatrixXd matrix(dimension, dimension);
-      for (int k = 0; k < dimension; ++k)
-        for (int i = 0; i < dimension; ++i) matrix(k, i) = gradient[k][i][j];
-      if (!matrix.allFinite()) continue;
-      FlowRate rate;
-      for (int k = 0; k < dimension; ++k) rate.place[k] = x[k][j];
-      rate.time = t;
-      const auto eigenvalues = matrix.eigenvalues();
-      for (Eigen::Index n = 0; n < eigenvalues.size(); ++n) {
-        rate.value = eigenvalues(n);
-        flow.rates.push_back(rate);
-      }
-    }
-  }
+  for (const SampledGradient& sample : sampled_gradients(velocity, particles.view(), length, distance, &flow.jumps))
+    for (const std::complex<double>& value : eigenvalues_of(sample.gradient))
+      flow.rates.push_back({value, sample.place, sample.time});
   return flow;
 }
 

@@ -34,9 +34,6 @@ struct StableStep {
   std::optional<FlowRate> limited_by;  // nothing if that is stable
 };
 
-/// Particles at which rates are looked at, at most.
-constexpr std::size_t sampled_particles = 500;
-
 /// A motion that only turns or decays may grow by this part over a run. If it grows by more the step is unstable.
 /// euler and heun amplify a rotation with every step, however short, so they are judged by what they do in this
 /// run.
