@@ -121,12 +121,13 @@ struct TimeSpec {
 
 /// `[evaluate]`: the grid on which the density is summed for output.
 struct EvaluateSpec {
-  int per_axis = 200;           ///< n_ge on the longest axis
-  double spacing = 0;           ///< of the points on all axes; 0: per_axis says it
-  double tolerance = 1e-8;      ///< of the Gauss transform, relative to max |rho| at that output
-  std::string method = "auto";  ///< auto, or a method of fgtd by name
-  double tile_particles = 0;    ///< most particles of a tile; 0: 2^18 in the plane, 2^20 in space
-  double most_seconds = 0;      ///< that a density may be predicted to take; 0: 300 for a named method, any for auto
+  int per_axis = 200;              ///< n_ge on the longest axis
+  double spacing = 0;              ///< of the points on all axes; 0: per_axis says it
+  double tolerance = 1e-8;         ///< of the Gauss transform, relative to max |rho| at that output
+  std::string method = "auto";     ///< auto, or a method of fgtd by name
+  double tile_particles = 0;       ///< most particles of a tile; 0: 2^18 in the plane, 2^20 in space
+  double piece_points = 33554432;  ///< most points of a grid, or of a piece of it, that is held and written at once
+  double most_seconds = 0;         ///< that a density may be predicted to take; 0: 300 for a named method, any for auto
 };
 
 /// A kind of files that a run writes for ParaView, as far as a case and predictions need to know it. `write` has all

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gaussdrift/density_grid.hpp"
+#include "gaussdrift/lattice_pieces.hpp"
 #include "gaussdrift/norms.hpp"
 #include "gaussdrift/particles.hpp"
 #include "gaussdrift/points.hpp"
@@ -43,10 +44,24 @@ struct Frame {
   const Particles* particles = nullptr;  ///< never null; see Observer::needs_particles()
   /// u(X_j, t) [j][dimension]; only if files that the case names need it, else null
   const std::vector<double>* velocity = nullptr;
-  const DensityGrid* density = nullptr;  ///< never null
+  /// On all of the evaluation lattice, or on every k-th point of it where there are pieces; never null.
+  const DensityGrid* density = nullptr;
   /// rho at the points of the density, NaN where not known; null without a reference and where a sample is compared
   const std::vector<double>* exact = nullptr;
   FrameNumbers numbers;  ///< of this output
+  /// The pieces of a density that is too large to be held as a whole; null: there is one, and it is `density`.
+  const LatticePieces* pieces = nullptr;
+  const Lattice* lattice = nullptr;  ///< with pieces: of all of them
+  std::size_t every = 1;             ///< k
+  bool pieces_have_exact = false;    ///< whether they come with the exact density
+};
+
+/// A piece of a density that is too large to be held as a whole (`evaluate.piece_points`).
+struct DensityPiece {
+  std::size_t number = 0;  ///< from 0
+  LatticeBox box;          ///< the points that it shows, with the layers that the next pieces have too
+  const std::vector<double>* rho = nullptr;    ///< at its points, first axis fastest; never null
+  const std::vector<double>* exact = nullptr;  ///< the same of the exact density; null where it is not known
 };
 
 /// Looks at the frames of a run. What it throws ends the run, and comes out of Simulation::run().
@@ -60,6 +75,10 @@ class Observer {
   virtual bool needs_particles(double /*time*/) const { return true; }
   /// Called once for each output time, in their order, on the thread of run().
   virtual void frame(const Frame& frame) = 0;
+  /// Before frame(), if the density comes in pieces: called for each piece on the rank that has it, so that observers
+  /// that look at pieces are added on all ranks. Of the frame only index, time, pieces, lattice and every are there.
+  /// All pieces of an output may come twice: the second ones, with a finer tolerance, replace the first.
+  virtual void piece(const Frame& /*frame*/, const DensityPiece& /*piece*/) {}
   /// Bytes that restore() needs, beside what is known of the outputs.
   virtual std::string state() const { return {}; }
   /// The run goes on after these outputs of an earlier process: files that hold all of them are made again. `state` is

@@ -33,7 +33,8 @@ class Simulation {
   /// is not looked at (see choose_settings()). threads: 0 for all; results do not depend on it. Throws InputError.
   explicit Simulation(const Case& spec, int threads = 0);
   /// The share of a rank, where N processes carry out one run together: all call the same functions in the same order,
-  /// and throw the same errors. Observers are added on rank 0 alone; frames, states and summaries are complete there.
+  /// and throw the same errors. Observers are added on rank 0, where frames, states and summaries are complete; those
+  /// that look at pieces are added on the others, too.
   /// `threads` counts for a rank. Throws InputError for a case that cannot be shared.
   Simulation(const Case& spec, int threads, base::Communicator& ranks);
   Simulation(Simulation&&) noexcept;             ///< what is left may only be destroyed

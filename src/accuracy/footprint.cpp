@@ -21,6 +21,7 @@
 #include "render/styles.hpp"
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
+#include "sim/grid_pieces.hpp"
 #include "sim/scene.hpp"
 #include "write/checkpoint.hpp"
 
@@ -69,6 +70,19 @@ double particles_at_most(const Case& spec, Trial& trial) {
   return carrier.replaces_particles() && spec.time.end > 0 ? at_start * grow(spec, trial).most : at_start;
 }
 
+/// What the files of the density hold: pieces show layers that others have, too, and of exact densities formulas alone.
+Extent in_files(const Case& spec, Extent extent) {
+  const LatticePieces pieces = pieces_of_grid(spec);
+  if (pieces.count() == 1) return extent;
+  const Lattice lattice = evaluation_lattice(spec);
+  extent.pieces = static_cast<double>(pieces.count());
+  extent.grid_points = 1;
+  for (std::size_t k = 0; k < max_dimension; ++k)
+    extent.grid_points *= static_cast<double>(lattice.points[k]) + std::ldexp(1.0, pieces.halvings()[k]) - 1;
+  extent.compared_everywhere = extent.compared_everywhere && spec.reference.kind == ReferenceSpec::Kind::exact;
+  return extent;
+}
+
 /// Of all effects, a particle.
 EffectMemory memory_of_effects(const Case& spec) {
   EffectMemory effects;
@@ -87,7 +101,8 @@ double bytes_of_particle(const Case& spec, const EffectMemory& effects) {
 
 }  // namespace
 
-double disk_of_run(const Case& spec, const Extent& extent, double seconds) {
+double disk_of_run(const Case& spec, const Extent& all, double seconds) {
+  const Extent extent = in_files(spec, all);
   const auto frames = static_cast<double>(spec.output.times.size());
   double bytes = 1e4 + 250 * frames;
   for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
@@ -99,8 +114,12 @@ double disk_of_run(const Case& spec, const Extent& extent, double seconds) {
 }
 
 RunMemory memory_of_run(const Case& spec, const Extent& extent) {
-  const double n = extent.particles, m = extent.grid_points, d = spec.domain.dimension,
-               frames = static_cast<double>(spec.output.times.size());
+  const LatticePieces pieces = pieces_of_grid(spec);
+  const bool in_pieces = pieces.count() > 1;
+  // What is kept and drawn of an output, and what is summed and written at once.
+  const double m = in_pieces ? static_cast<double>(shown_grid(spec).size()) : extent.grid_points,
+               at_once = in_pieces ? static_cast<double>(pieces.shown(0).size()) : extent.grid_points;
+  const double n = extent.particles, d = spec.domain.dimension, frames = static_cast<double>(spec.output.times.size());
   const EffectMemory effects = memory_of_effects(spec);
   const bool pictures = !spec.output.images.empty();
 
@@ -110,7 +129,7 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   // The last output is kept for the error budget and the page.
   const bool explained =
       spec.reference.kind != ReferenceSpec::Kind::none && spec.accuracy.budget != AccuracySpec::Budget::none;
-  const bool kept = spec.output.report || explained;
+  const bool kept = !in_pieces && (spec.output.report || explained);
   const RunMemory copy =
       kept ? RunMemory{.particles = n * particle, .grid = m * number * (extent.compared_everywhere ? 2 : 1)}
            : RunMemory{};
@@ -127,8 +146,11 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
       stays + RunMemory{.particles = 2 * n * number * (d + effects.integrals) + n * effects.step + before};
 
   // The transform holds the points sorted, with its boxes; in space boxes have more neighbours.
+  // Of pieces two layers each are held from the beginning to the end of an output, beside the thinned grid.
+  const Extent files = in_files(spec, extent);
+  const double layers = in_pieces ? 2 * (files.grid_points - extent.grid_points) + m : 0;
   const RunMemory density = stays + RunMemory{.particles = n * number * (in_space(spec) ? 20 : 11),
-                                              .grid = m * number * (in_space(spec) ? 4.5 : 3)};
+                                              .grid = number * (at_once * (in_space(spec) ? 4.5 : 3) + layers)};
   // An output: density, velocity at the particles, exact density with the feet of its paths.
   const bool traced = spec.reference.kind == ReferenceSpec::Kind::characteristics && extent.compared_everywhere;
   const RunMemory shown =
@@ -137,8 +159,9 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
                 .grid = m * number + (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0)};
   const auto larger = [](const RunMemory& a, const RunMemory& b) { return a.all() < b.all() ? b : a; };
   RunMemory output = shown + RunMemory{.particles = n * number * d};
+  const RunMemory piece{.grid = in_pieces ? number * (at_once + layers) : 0};
   for (const OutputFile& file : spec.output.files)
-    output = larger(output, shown + memory_of_file(write::find_output_file(file.name), extent));
+    output = larger(output, shown + piece + memory_of_file(write::find_output_file(file.name), files));
   if (pictures) output = output + RunMemory{.grid = m * number};
   // The error budget carries particles near a few probes once more, within a share of the run's work.
   const RunMemory budget =

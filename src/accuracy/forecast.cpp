@@ -22,6 +22,7 @@
 #include "render/picture.hpp"
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
+#include "sim/grid_pieces.hpp"
 #include "sim/landings.hpp"
 #include "sim/outside.hpp"
 #include "sim/work.hpp"
@@ -256,7 +257,7 @@ void describe_trial(const Case& spec, const Trial& trial, Forecast& result) {
 /// Seconds of pictures and report, and the sums of all that was timed.
 void add_up(const Case& spec, const Extent& extent, double most_memory, Forecast& result) {
   const auto frames = static_cast<double>(result.frames);
-  result.picture_seconds = seconds_of_pictures(spec, result.grid_points, redrawn(spec, result));
+  result.picture_seconds = seconds_of_pictures(spec, shown_grid(spec).size(), redrawn(spec, result));
   const double run = result.seed_seconds + static_cast<double>(result.steps) * result.step_seconds +
                      frames * result.evaluate_seconds + result.reference_seconds + result.picture_seconds +
                      result.file_seconds;

@@ -63,6 +63,13 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
   }
 }
 
+/// On the ranks but the first: each writes the pieces that it has.
+void observe_pieces(Simulation& simulation, const Case& spec, const fs::path& folder) {
+  for (const OutputFile& file : spec.output.files)
+    if (const write::FileKind& kind = write::find_output_file(file.name); kind.piece)
+      simulation.observe(write::file_series(kind, folder));
+}
+
 /// Lines for the end of the run: what the page does without. `in_haste`: it draws no picture that takes long.
 std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed, bool in_haste = false) {
   constexpr std::size_t soon_drawn = 250'000;  // points of the grid
@@ -137,7 +144,10 @@ class Run {
     // A signal before has ended the program at once: there was nothing to save.
     stop_.emplace(task_.stop_after - preparing.seconds());
     ranks_.agree_on([&] {
-      if (first_) prepare_to_write(simulation);
+      if (first_)
+        prepare_to_write(simulation);
+      else
+        observe_pieces(simulation, spec_, folder_);
     });
     simulation.abandon_when([this] { return stop_->by_signal() || (moved_on_ && stop_->made()); });
     try {

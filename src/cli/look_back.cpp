@@ -6,6 +6,7 @@
 
 #include "accuracy/accuracy_table.hpp"
 #include "base/stopwatch.hpp"
+#include "sim/grid_pieces.hpp"
 
 namespace gaussdrift::cli {
 
@@ -18,6 +19,8 @@ bool budgeted(const Case& spec) {
 }  // namespace
 
 bool looks_back(const Case& spec) {
+  // It needs the density as a whole.
+  if (pieces_of_grid(spec).count() > 1) return false;
   return (budgeted(spec) && accuracy::budget_not_covered(spec).empty()) || spec.output.report;
 }
 

@@ -19,8 +19,9 @@ std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place) 
   const std::string_view series = write::density_output().about.name;
   auto outputs = read::written_outputs(place, series);
   if (outputs.empty())
-    throw FileError(fmt::format("{} holds no densities: name the folder of a run that wrote vtk = [\"{}\"], or a .vti",
-                                place.string(), series));
+    throw FileError(
+        fmt::format("{} holds no densities: name the folder of a run that wrote vtk = [\"{}\"], or a .vti or .pvti",
+                    place.string(), series));
   return outputs;
 }
 

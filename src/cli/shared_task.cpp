@@ -14,10 +14,13 @@ RunTask shared_task(base::Communicator& ranks, const std::function<RunTask()>& m
     if (first) task = make();
   });
   if (ranks.size() == 1) return task;
-  std::string text = first && !task.done ? case_text(task.spec) : "", name = task.spec.name;
+  std::string text = first && !task.done ? case_text(task.spec) : "", name = task.spec.name,
+              folder = task.folder.string();
   int done = task.done ? static_cast<int>(*task.done) : -1;
-  base::tell_all(
-      ranks, [&](base::StateBytes& bytes) { bytes(text, name, task.threads, task.stop_after, task.goes_on, done); });
+  base::tell_all(ranks, [&](base::StateBytes& bytes) {
+    bytes(text, name, folder, task.threads, task.stop_after, task.goes_on, done);
+  });
+  task.folder = folder;
   if (done >= 0) task.done = static_cast<ExitCode>(done);
   ranks.agree_on([&] {
     if (first || task.done) return;

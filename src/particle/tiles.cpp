@@ -34,7 +34,7 @@ TileLimits usual_tiles(int dimension) {
 
 Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, const TileLimits& limits,
              const SumOverProcesses& sum)
-    : lattice_(lattice), reach_(reach) {
+    : lattice_(lattice), reach_(reach), pieces_(limits.pieces) {
   std::vector<std::int64_t> all{static_cast<std::int64_t>(particles.count)};
   if (sum) sum(all);
   const bool large = all[0] > limits.particles || static_cast<std::int64_t>(lattice.size()) > limits.points;
@@ -44,13 +44,14 @@ Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, 
     const std::size_t points = lattice.points[k];
     const double times = static_cast<double>(points) / shortest;
     if (large && k < lattice.dimension && times >= 2) levels_[k] = std::bit_width(static_cast<std::size_t>(times)) - 1;
+    levels_[k] = std::max(levels_[k], pieces_[k]);
     const std::size_t count = std::size_t{1} << levels_[k];
     cells *= count;
     for (std::size_t c = 0; c <= count; ++c) border_[k].push_back(c * points / count);
     for (std::size_t c = 0; c < count; ++c)
       cell_of_index_[k].insert(cell_of_index_[k].end(), border_[k][c + 1] - border_[k][c],
                                static_cast<std::uint32_t>(c));
-    depth_ = std::max(depth_, levels_[k]);
+    depth_ = std::max(depth_, levels_[k] - pieces_[k]);
   }
 
   std::vector<std::vector<std::int64_t>> counts(static_cast<std::size_t>(depth_) + 1);
@@ -74,7 +75,10 @@ Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, 
     }
   }
   tile_of_cell_.assign(cells, 0);
-  divide(counts, limits, 0, {});
+  const Indices pieces = cells_at(0);
+  for (std::size_t l = 0; l < pieces[2]; ++l)
+    for (std::size_t j = 0; j < pieces[1]; ++j)
+      for (std::size_t i = 0; i < pieces[0]; ++i) divide(counts, limits, 0, {i, j, l});
 }
 
 Tiles::Indices Tiles::cells_at(int level) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gaussdrift/lattice.hpp"
+#include "gaussdrift/lattice_pieces.hpp"
 #include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
@@ -21,17 +22,15 @@ struct TileLimits {
   std::int64_t particles = 0;  // if it holds more
   std::int64_t points = 0;     // if it has more grid points
   double reaches = 8;          // and if its halves are no shorter than this many reaches of a blob
+  // Whatever these say, a tile lies in one piece of the lattice (lattice_pieces.hpp), which has halved it so often.
+  std::array<int, max_dimension> pieces{};
 };
 
 /// Those of a run: cases of usual size have one tile.
 TileLimits usual_tiles(int dimension);
 
-struct Tile {
-  std::array<std::size_t, max_dimension> first{};          // index of its first grid point on each axis
-  std::array<std::size_t, max_dimension> points{1, 1, 1};  // grid points on each axis
-  std::int64_t particles = 0;                              // that lie in it
-
-  std::size_t size() const { return points[0] * points[1] * points[2]; }
+struct Tile : LatticeBox {
+  std::int64_t particles = 0;  // that lie in it
 };
 
 class Tiles {
@@ -44,7 +43,8 @@ class Tiles {
   Tiles(const Lattice& lattice, double reach, const PointsView& particles, const TileLimits& limits,
         const SumOverProcesses& sum = {});
 
-  /// In the order of the tree, so that neighbours in the list are mostly neighbours in space.
+  /// Piece after piece, and in each in the order of its tree, so that neighbours in the list are mostly neighbours in
+  /// space.
   const std::vector<Tile>& list() const { return list_; }
 
   /// The number of the tile where a particle at this place counts.
@@ -63,7 +63,9 @@ class Tiles {
   using Indices = std::array<std::size_t, max_dimension>;
 
   Indices cells_at(int level) const;
-  int halvings(int axis, int level) const { return std::max(0, level - (depth_ - levels_[axis])); }
+  int halvings(int axis, int level) const {
+    return pieces_[axis] + std::max(0, level - (depth_ - (levels_[axis] - pieces_[axis])));
+  }
   void divide(const std::vector<std::vector<std::int64_t>>& counts, const TileLimits& limits, int level, Indices cell);
   // Of the grid point at or below a coordinate; those beyond the lattice get the first or the last.
   std::size_t index_below(int axis, double x) const {
@@ -81,8 +83,8 @@ class Tiles {
   Lattice lattice_;
   double reach_ = 0;
   // The smallest cells that a tile may be: 2^levels_[k] on an axis, of nearly equal numbers of grid points.
-  std::array<int, max_dimension> levels_{};
-  int depth_ = 0;  // the most of them
+  std::array<int, max_dimension> levels_{}, pieces_{};
+  int depth_ = 0;  // the most of them, within a piece
   std::array<std::vector<std::uint32_t>, max_dimension> cell_of_index_;
   std::array<std::vector<std::size_t>, max_dimension> border_;  // first index of each cell, and the end
   std::vector<std::uint32_t> tile_of_cell_;                     // first axis fastest

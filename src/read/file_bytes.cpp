@@ -13,9 +13,9 @@ namespace gaussdrift::read {
 
 namespace {
 
-// Before a file is opened: the numbers that are read as text, three times as long, and a line for each of a million
-// times.
-constexpr double largest_data_file = 3 * 8 * most_numbers, largest_series_file = 2e8;
+// Before a file is opened: the numbers that are read as text, three times as long, a line for each of a million times,
+// and one for each of 131072 pieces.
+constexpr double largest_data_file = 3 * 8 * most_numbers, largest_series_file = 2e8, largest_index_file = 4e7;
 constexpr std::size_t block_bytes = 65536;
 
 constexpr unsigned char no_digit = 64, blank = 65;
@@ -48,7 +48,9 @@ void check_readable(const std::filesystem::path& file) {
   if (!std::ifstream(file, std::ios::binary))
     throw GridFileError(fmt::format("the file {} cannot be read", file.string()));
   const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  const double most = file.extension() == ".pvd" ? largest_series_file : largest_data_file;
+  const double most = file.extension() == ".pvd"    ? largest_series_file
+                      : file.extension() == ".pvti" ? largest_index_file
+                                                    : largest_data_file;
   if (!error && static_cast<double>(bytes) > most)
     throw GridFileError(fmt::format("{} has {:.3g} MB; at most {:.3g} MB are read", file.string(),
                                     static_cast<double>(bytes) / 1e6, most / 1e6),

@@ -127,15 +127,15 @@ fgtd::Options BlobSum<d>::options_for(const WidthGroup& group, const fgtd::Tenso
 }
 
 template <int d>
-double BlobSum<d>::largest_error(const Lattice& lattice, const Tile& tile, const std::vector<double>& rho,
+double BlobSum<d>::largest_error(const Lattice& lattice, const LatticeBox& box, const std::vector<double>& rho,
                                  const std::vector<std::size_t>& numbers) const {
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(numbers.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     std::size_t rest = numbers[i];
     for (int k = 0; k < d; ++k) {
       const auto axis = static_cast<std::size_t>(k);
-      targets(k, static_cast<Eigen::Index>(i)) = lattice.coordinate(k, tile.first[axis] + rest % tile.points[axis]);
-      rest /= tile.points[axis];
+      targets(k, static_cast<Eigen::Index>(i)) = lattice.coordinate(k, box.first[axis] + rest % box.points[axis]);
+      rest /= box.points[axis];
     }
   }
   const Eigen::VectorXd exact = direct(targets);
@@ -145,11 +145,11 @@ double BlobSum<d>::largest_error(const Lattice& lattice, const Tile& tile, const
   return error;
 }
 
-fgtd::TensorGrid nodes_of(const Lattice& lattice, const Tile& tile) {
+fgtd::TensorGrid nodes_of(const Lattice& lattice, const LatticeBox& box) {
   fgtd::TensorGrid nodes;
   for (int k = 0; k < lattice.dimension; ++k) {
-    std::vector<double>& axis = nodes.axes.emplace_back(tile.points[k]);
-    for (std::size_t i = 0; i < axis.size(); ++i) axis[i] = lattice.coordinate(k, tile.first[k] + i);
+    std::vector<double>& axis = nodes.axes.emplace_back(box.points[k]);
+    for (std::size_t i = 0; i < axis.size(); ++i) axis[i] = lattice.coordinate(k, box.first[k] + i);
   }
   return nodes;
 }

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "gaussdrift/lattice_pieces.hpp"
 #include "gaussdrift/particles.hpp"
 #include "particle/cutoff.hpp"
-#include "particle/tiles.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
@@ -36,8 +36,8 @@ class BlobSum {
   /// The density at some points, pair by pair.
   Eigen::VectorXd direct(const fgtd::Points<d>& targets) const;
 
-  /// The largest error of `rho` on the grid points of a tile, at those with these numbers within it.
-  double largest_error(const Lattice& lattice, const Tile& tile, const std::vector<double>& rho,
+  /// The largest error of `rho` on the points of a box, at those with these numbers within it.
+  double largest_error(const Lattice& lattice, const LatticeBox& box, const std::vector<double>& rho,
                        const std::vector<std::size_t>& numbers) const;
 
   /// Number of particles.
@@ -63,10 +63,10 @@ class BlobSum {
 };
 
 /// All of a lattice.
-inline Tile whole(const Lattice& lattice) { return {.first = {}, .points = lattice.points}; }
+inline LatticeBox whole(const Lattice& lattice) { return {.first = {}, .points = lattice.points}; }
 
-/// The grid points of a tile.
-fgtd::TensorGrid nodes_of(const Lattice& lattice, const Tile& tile);
+/// The points of a box.
+fgtd::TensorGrid nodes_of(const Lattice& lattice, const LatticeBox& box);
 
 /// The number of the largest |rho|, the first of several.
 std::size_t number_of_largest(const std::vector<double>& rho);

@@ -10,7 +10,9 @@
 #include "base/told_by_first.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
+#include "sim/density_pieces.hpp"
 #include "sim/outside.hpp"
+#include "sim/piece_comparison.hpp"
 #include "sim/run_parts.hpp"
 #include "sim/shared_reference.hpp"
 #include "sim/sharing.hpp"
@@ -82,6 +84,7 @@ DensityOptions Simulation::Parts::density_options() const {
   options.threads = threads_;
   options.tiles = usual_tiles(case_.domain.dimension);
   if (evaluate.tile_particles > 0) options.tiles->particles = static_cast<std::int64_t>(evaluate.tile_particles);
+  options.tiles->pieces = pieces_.halvings();
   return options;
 }
 
@@ -139,7 +142,7 @@ void Simulation::Parts::plan_reference() {
           compared_.left_out);
   });
   shares_reference_ = ranks_.size() > 1 && case_.reference.kind == ReferenceSpec::Kind::characteristics;
-  if (compared_.points == 0 || !(place_.is_first() || shares_reference_)) return;
+  if (compared_.points == 0 || !(place_.is_first() || shares_reference_ || compares_pieces())) return;
   Following following = compared_.following;
   if (shares_reference_)
     following.rank = static_cast<std::size_t>(ranks_.rank()), following.ranks = static_cast<std::size_t>(ranks_.size());
@@ -183,6 +186,37 @@ DensityGrid Simulation::Parts::sum_tiles(DensityReport& report) {
   return density;
 }
 
+// Every k-th value on rank 0; the pieces go to the observers.
+DensityGrid Simulation::Parts::sum_in_pieces(Frame& frame, DensityReport& report) {
+  const Particles felt = felt_from_elsewhere(particles_, place_.tiles(), place_.owner(), ranks_);
+  frame.pieces = &pieces_;
+  frame.lattice = &scene_.evaluation;
+  frame.every = thinning(scene_.evaluation);
+  frame.pieces_have_exact = compares_pieces();
+  PieceComparison comparison(scene_.evaluation, pieces_, largest_at_start_);
+  const PieceReceiver receiver{
+      .begin = [&] { comparison.begin(); },
+      .piece =
+          [&](std::size_t number, const std::vector<double>& rho) {
+            std::vector<double> exact;
+            DensityPiece piece{number, pieces_.shown(number), &rho, nullptr};
+            if (frame.pieces_have_exact) {
+              summary_.stages.run("reference", [&] { comparison.compare(*reference_, frame.time, piece, exact); });
+              piece.exact = &exact;
+            }
+            for (const auto& observer : observers) {
+              base::seam();
+              summary_.stages.run(observer->name(), [&] { observer->piece(frame, piece); });
+            }
+          }};
+  PiecesSummary all = sum_pieces({particles_, felt}, place_.tiles(), place_.owner(), blob(), scene_.evaluation, pieces_,
+                                 density_options(), ranks_, receiver, report);
+  frame.numbers.minimum = all.minimum;
+  frame.numbers.maximum = all.maximum;
+  if (frame.pieces_have_exact) comparison.tell(ranks_, frame.numbers);
+  return std::move(all.thin);
+}
+
 // False if it was abandoned. A run that goes on from state() shows it again.
 bool Simulation::Parts::show_or_abandon(double time) {
   if (abandon_wanted()) {
@@ -211,7 +245,11 @@ void Simulation::Parts::forget_output() {
 void Simulation::Parts::show_frame(double time) {
   DensityReport report;
   place(time);
-  const DensityGrid density = sum_density(report);
+  Frame frame;
+  frame.index = index_;
+  frame.time = time;
+  frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
+  const DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);
   summary_.stages.add("density", report.evaluate_seconds);
   summary_.stages.add("measure transform error", report.measure_seconds);
   summary_.transform_choice = report.choice;
@@ -221,10 +259,6 @@ void Simulation::Parts::show_frame(double time) {
   std::vector<double> velocity;
   ranks_.agree_on([&] { velocity = velocity_at_particles(time, velocity_wanted); });
 
-  Frame frame;
-  frame.index = index_++;
-  frame.time = time;
-  frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
   if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
   const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && somebody_needs_particles(time);
   std::pair<Particles, std::vector<double>> all;
@@ -241,9 +275,11 @@ void Simulation::Parts::show_frame(double time) {
   else
     on_first(compare);
   on_first([&] {
-    const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
-    frame.numbers.minimum = *low;
-    frame.numbers.maximum = *high;
+    if (!in_pieces()) {
+      const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
+      frame.numbers.minimum = *low;
+      frame.numbers.maximum = *high;
+    }
     frame.numbers.transform_error = report.measured_error;
     frame.numbers.transform_tolerance = report.requested_tolerance;
     frame.numbers.evaluate_seconds = report.evaluate_seconds;
@@ -252,6 +288,7 @@ void Simulation::Parts::show_frame(double time) {
   // All ranks know what is known of the outputs, and judge the run alike.
   base::tell_all(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers); });
   summary_.frames.emplace_back(time, frame.numbers);
+  ++index_;  // not before: a disk that fills up with pieces leaves a state without this output
   on_first([&] {
     for (const auto& observer : observers) {
       base::seam();
@@ -270,7 +307,10 @@ bool Simulation::Parts::somebody_needs_particles(double time) const {
 // On the whole grid, or on a sample of it. The density is on rank 0, and so is what comes out.
 void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact) {
   ReferenceReport traced;
-  if (compared_.points >= scene_.evaluation.size()) {
+  if (in_pieces()) {
+    traced = compare_thinned(density, frame, exact);
+    if (!place_.is_first()) return;
+  } else if (compares_everywhere()) {
     traced = reference_->evaluate(frame.time, exact);
     if (!place_.is_first()) return;
     frame.exact = &exact;
@@ -284,12 +324,31 @@ void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame
     frame.numbers.error = compare(density.rho, sample, exact);
     frame.numbers.compared = sample.points.size();
   }
-  frame.numbers.untraced = traced.untraced;
+  if (!compares_pieces()) frame.numbers.untraced = traced.untraced;
   judge_norms(exact, frame.numbers);
   if (summary_.reference.untraced == 0)
     summary_.reference = traced;
   else
     summary_.reference.untraced += traced.untraced;
+}
+
+// On the points that the thinned grid has, or on a sample of these.
+ReferenceReport Simulation::Parts::compare_thinned(const DensityGrid& density, Frame& frame,
+                                                   std::vector<double>& exact) {
+  GridSample sample;
+  const bool all = compared_.points >= density.lattice.size();
+  std::vector<std::size_t> points;
+  if (place_.is_first()) {
+    sample = sample_of_grid(density.lattice, density.rho, compared_.points);
+    points = points_of_thinned(sample.points, density.lattice, frame.every, scene_.evaluation);
+  }
+  const ReferenceReport traced = reference_->evaluate_at(frame.time, points, exact);
+  if (!place_.is_first()) return traced;
+  if (all) frame.exact = &exact;
+  if (compares_pieces()) return traced;
+  frame.numbers.error = compare(density.rho, sample, exact);
+  frame.numbers.compared = sample.points.size();
+  return traced;
 }
 
 // Norms are relative to the exact density. They mean nothing where that is nearly 0.

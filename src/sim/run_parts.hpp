@@ -78,11 +78,19 @@ class Simulation::Parts {
   void plan_reference();
   DensityGrid sum_density(DensityReport& report);
   DensityGrid sum_tiles(DensityReport& report);
+  DensityGrid sum_in_pieces(Frame& frame, DensityReport& report);
   bool show_or_abandon(double time);
   void forget_output();
   void show_frame(double time);
   bool somebody_needs_particles(double time) const;
+  bool in_pieces() const { return pieces_.count() > 1; }
+  /// A formula is evaluated wherever a piece is. Paths are followed from points of the thinned grid alone.
+  bool compares_pieces() const {
+    return in_pieces() && compared_.points >= scene_.evaluation.size() &&
+           case_.reference.kind == ReferenceSpec::Kind::exact;
+  }
   void compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
+  ReferenceReport compare_thinned(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
   void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
 
   // run_state.cpp: what the run has come to, for another process that goes on.
@@ -105,6 +113,7 @@ class Simulation::Parts {
   Scene scene_;
   Carrier carrier_;
   std::vector<double> landings_;
+  LatticePieces pieces_;  // of the evaluation lattice
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
   bool shares_reference_ = false;

@@ -13,6 +13,7 @@
 #include "sim/checks.hpp"
 #include "sim/landings.hpp"
 #include "sim/outside.hpp"
+#include "sim/piece_comparison.hpp"
 #include "sim/run_parts.hpp"
 #include "sim/sharing.hpp"
 #include "sim/stable_step.hpp"
@@ -69,7 +70,8 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
       place_(ranks_),
       scene_(make_scene(case_, threads_)),
       carrier_(case_, scene_, threads_, ranks_),
-      landings_(landings(case_)) {
+      landings_(landings(case_)),
+      pieces_(scene_.evaluation, case_.evaluate.piece_points) {
   if (ranks_.size() == 1) return;
   if (const std::string why = why_not_shared(case_, *scene_.velocity); !why.empty())
     throw InputError(
@@ -201,6 +203,8 @@ void Simulation::Parts::sum_up() {
   summary_.steps_rejected = carrier_.steps_rejected();
   summary_.warnings = carrier_.warnings();
   if (!compared_.left_out.empty()) summary_.warnings.push_back(compared_.left_out);
+  if (in_pieces() && !case_.output.times.empty())
+    summary_.warnings.push_back(words_for_pieces(pieces_, scene_.evaluation, compared_, compares_pieces()));
   summary_.reference_word = compared_.word;
   summary_.effects.clear();
   summarise_effects(carrier_.effects(), scene_, summary_);

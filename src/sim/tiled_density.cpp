@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,15 +21,6 @@ namespace gaussdrift {
 namespace {
 
 constexpr std::size_t most_candidates = 16;  // of each kind: the heaviest, and one of each of the fullest tiles
-
-/// A particle where the density is probably large.
-struct Candidate {
-  double weight = 0;
-  std::int64_t id = 0;
-  bool operator<(const Candidate& other) const {
-    return weight != other.weight ? weight > other.weight : id < other.id;
-  }
-};
 
 // Particles by number: a process's own first, then those of others.
 class BothParts {
@@ -111,10 +102,10 @@ std::vector<std::size_t> fullest(const Tiles& tiles) {
 }
 
 template <int d>
-class TileSums {
+class SumsInDimension : public TileSums {
  public:
-  TileSums(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
-           const Lattice& lattice, const DensityOptions& options)
+  SumsInDimension(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
+                  const Lattice& lattice, const DensityOptions& options)
       : particles_(sources),
         tiles_(tiles),
         owned_(owned),
@@ -125,7 +116,7 @@ class TileSums {
         of_tile_(sources_of_tiles(sources, tiles, owned, options.threads)) {}
 
   // The largest |rho| at some promising particles: a lower bound of max |rho|.
-  double lower_bound_of_maximum(const std::vector<Candidate>& heaviest) const {
+  double lower_bound_of_maximum(const std::vector<Candidate>& heaviest) const override {
     std::map<std::size_t, std::vector<Vector>> places;  // by tile
     std::vector<std::int64_t> ids;
     for (const Candidate& candidate : heaviest) ids.push_back(candidate.id);
@@ -151,39 +142,36 @@ class TileSums {
     return largest;
   }
 
-  // All tiles, to an error of options.tolerance * maximum.
-  void sum(double maximum, std::vector<TileDensity>& densities, DensityReport& report) {
-    densities.clear();
+  void begin(double maximum, DensityReport& report) override {
+    maximum_ = maximum;
     error_ = 0, largest_ = 0, sample_ = 0;
     report.requested_tolerance = 1, report.achievable = 0, report.measure_seconds = 0;
     choice_of_fullest_.clear();
-    const std::vector<std::vector<std::size_t>> samples = sample_of_tiles();
-    for (std::size_t tile = 0; tile < owned_.size(); ++tile) {
-      if (!owned_[tile]) continue;
-      TileDensity& density = densities.emplace_back(TileDensity{tile, {}});
-      const Tile& where = tiles_.list()[tile];
-      if (of_tile_[tile].empty()) {
-        density.rho.assign(where.size(), 0.0);
-        continue;
-      }
-      const Particles some = particles_.places_and_weights(of_tile_[tile]);
-      BlobSum<d> blobs(some, cutoff_, options_);
-      DensityReport of_tile;
-      blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, of_tile);
-      const Eigen::VectorXd rho = blobs.transform(nodes_of(lattice_, where), of_tile);
-      density.rho.assign(rho.data(), rho.data() + rho.size());
-      report.requested_tolerance = std::min(report.requested_tolerance, of_tile.requested_tolerance);
-      report.achievable = std::max(report.achievable, of_tile.achievable);
-      if (tile == fullest_) choice_of_fullest_ = of_tile.choice;
-      largest_ = std::max(largest_, rho.cwiseAbs().maxCoeff());
-      if (!options_.measure) continue;
-      const base::Stopwatch measuring;
-      measure(blobs, where, density.rho, samples[tile]);
-      report.measure_seconds += measuring.seconds();
-    }
+    samples_ = sample_of_tiles();
   }
 
-  // The work of sum(), predicted and not done.
+  std::vector<double> sum(std::size_t tile, const LatticeBox& where, bool main, DensityReport& report) override {
+    if (of_tile_[tile].empty() || where.size() == 0) return std::vector<double>(where.size(), 0.0);
+    const Particles some = particles_.places_and_weights(main ? of_tile_[tile] : within_reach(tile, where));
+    if (some.size() == 0) return std::vector<double>(where.size(), 0.0);
+    BlobSum<d> blobs(some, cutoff_, options_);
+    DensityReport of_tile;
+    blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum_, of_tile);
+    const Eigen::VectorXd values = blobs.transform(nodes_of(lattice_, where), of_tile);
+    const std::vector<double> rho(values.data(), values.data() + values.size());
+    report.requested_tolerance = std::min(report.requested_tolerance, of_tile.requested_tolerance);
+    report.achievable = std::max(report.achievable, of_tile.achievable);
+    if (main && tile == fullest_) choice_of_fullest_ = of_tile.choice;
+    largest_ = std::max(largest_, values.cwiseAbs().maxCoeff());
+    if (options_.measure) {
+      const base::Stopwatch measuring;
+      measure(blobs, where, rho, samples_of(tile, where), main);
+      report.measure_seconds += measuring.seconds();
+    }
+    return rho;
+  }
+
+  // The work of all tiles, predicted and not done.
   DensityWork predict(double maximum) const {
     std::map<std::string, double> seconds;  // of each method
     for (std::size_t tile = 0; tile < owned_.size(); ++tile) {
@@ -205,11 +193,10 @@ class TileSums {
     return all;
   }
 
-  double largest() const { return largest_; }  // |rho| on the grid
-  double error() const { return error_; }      // on the sample
-  std::int64_t sample() const { return sample_; }
-  /// What fgtd chose for the fullest tile, if this process has it.
-  const std::string& choice_of_fullest() const { return choice_of_fullest_; }
+  double largest() const override { return largest_; }
+  double error() const override { return error_; }
+  std::int64_t sample() const override { return sample_; }
+  const std::string& choice_of_fullest() const override { return choice_of_fullest_; }
 
  private:
   // By pairs within reach, because only these count.
@@ -256,10 +243,43 @@ class TileSums {
     return samples;
   }
 
-  // At the sample of this tile, and where |rho| is largest in it.
-  void measure(const BlobSum<d>& blobs, const Tile& where, const std::vector<double>& rho,
-               std::vector<std::size_t> sample) {
-    sample.push_back(number_of_largest(rho));
+  // Those of the sample that lie there, as numbers within the box.
+  std::vector<std::size_t> samples_of(std::size_t tile, const LatticeBox& where) const {
+    const Tile& all = tiles_.list()[tile];
+    std::vector<std::size_t> chosen;
+    for (const std::size_t number : samples_[tile]) {
+      const std::size_t i = all.first[0] + number % all.points[0];
+      const std::size_t j = all.first[1] + number / all.points[0] % all.points[1];
+      const std::size_t l = all.first[2] + number / all.points[0] / all.points[1];
+      if (i >= where.first[0] && i < where.end(0) && j >= where.first[1] && j < where.end(1) && l >= where.first[2] &&
+          l < where.end(2))
+        chosen.push_back(where.number(i, j, l));
+    }
+    return chosen;
+  }
+
+  // Of the particles that reach the tile, those that reach this part of it.
+  std::vector<std::size_t> within_reach(std::size_t tile, const LatticeBox& where) const {
+    const double reach = reach_of_blob(cutoff_);
+    std::vector<std::size_t> near;
+    for (const std::size_t j : of_tile_[tile]) {
+      bool within = true;
+      for (int k = 0; k < d; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        const double x = particles_.coordinate(k, j), low = lattice_.coordinate(k, where.first[axis]),
+                     high = lattice_.coordinate(k, where.end(axis) - 1);
+        within = within && x >= low - reach && x <= high + reach;
+      }
+      if (within) near.push_back(j);
+    }
+    return near;
+  }
+
+  // At the sample, and in the main part of a tile where |rho| is largest in it.
+  void measure(const BlobSum<d>& blobs, const LatticeBox& where, const std::vector<double>& rho,
+               std::vector<std::size_t> sample, bool main) {
+    if (main) sample.push_back(number_of_largest(rho));
+    if (sample.empty()) return;
     error_ = std::max(error_, blobs.largest_error(lattice_, where, rho, sample));
     sample_ += static_cast<std::int64_t>(sample.size());
   }
@@ -272,7 +292,8 @@ class TileSums {
   const DensityOptions& options_;
   std::size_t fullest_;
   std::vector<std::vector<std::size_t>> of_tile_;  // numbers of the particles that count, by id
-  double error_ = 0, largest_ = 0;
+  std::vector<std::vector<std::size_t>> samples_;  // numbers of grid points within the tile
+  double maximum_ = 0, error_ = 0, largest_ = 0;
   std::int64_t sample_ = 0;
   std::string choice_of_fullest_;
 };
@@ -290,22 +311,28 @@ std::string told_by_whom_it_concerns(base::Communicator& ranks, const std::strin
   return base::to_text(told);
 }
 
-template <int d>
-std::vector<TileDensity> evaluate_in(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned,
-                                     const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
-                                     base::Communicator& ranks, DensityReport& report) {
+}  // namespace
+
+double reach_of_blob(const Cutoff& cutoff) { return reach(cutoff, 1e-14); }
+
+void sum_by_tiles(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
+                  const Lattice& lattice, const DensityOptions& options, base::Communicator& ranks,
+                  const std::function<void(TileSums&)>& sum_all, DensityReport& report) {
   const base::Stopwatch evaluating;
-  std::vector<TileDensity> densities;
-  std::optional<TileSums<d>> sums;
+  std::unique_ptr<TileSums> sums;
   double expected = 0;
   const std::vector<Candidate> candidates = heaviest(sources, ranks);
   ranks.agree_on([&] {
-    sums.emplace(sources, tiles, owned, cutoff, lattice, options);
+    if (lattice.dimension == 2)
+      sums = std::make_unique<SumsInDimension<2>>(sources, tiles, owned, cutoff, lattice, options);
+    else
+      sums = std::make_unique<SumsInDimension<3>>(sources, tiles, owned, cutoff, lattice, options);
     expected = sums->lower_bound_of_maximum(candidates);
   });
   expected = largest_of(ranks, expected);
   const auto sum_to = [&](double maximum) {
-    ranks.agree_on([&] { in_words_of_a_case([&] { sums->sum(maximum, densities, report); }); });
+    ranks.agree_on([&] { sums->begin(maximum, report); });
+    sum_all(*sums);
     return largest_of(ranks, sums->largest());
   };
   double found = sum_to(expected);
@@ -322,18 +349,25 @@ std::vector<TileDensity> evaluate_in(const TileSources& sources, const Tiles& ti
   report.choice = fmt::format("{} tiles, the fullest by {}", tiles.list().size(),
                               told_by_whom_it_concerns(ranks, sums->choice_of_fullest()));
   report.evaluate_seconds = evaluating.seconds() - report.measure_seconds;
-  return densities;
 }
-
-}  // namespace
-
-double reach_of_blob(const Cutoff& cutoff) { return reach(cutoff, 1e-14); }
 
 std::vector<TileDensity> evaluate_tiles(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned,
                                         const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
                                         base::Communicator& ranks, DensityReport& report) {
-  return lattice.dimension == 2 ? evaluate_in<2>(sources, tiles, owned, cutoff, lattice, options, ranks, report)
-                                : evaluate_in<3>(sources, tiles, owned, cutoff, lattice, options, ranks, report);
+  std::vector<TileDensity> densities;
+  sum_by_tiles(
+      sources, tiles, owned, cutoff, lattice, options, ranks,
+      [&](TileSums& sums) {
+        ranks.agree_on([&] {
+          in_words_of_a_case([&] {
+            densities.clear();
+            for (std::size_t tile = 0; tile < owned.size(); ++tile)
+              if (owned[tile]) densities.push_back({tile, sums.sum(tile, tiles.list()[tile], true, report)});
+          });
+        });
+      },
+      report);
+  return densities;
 }
 
 void place(const std::vector<double>& rho, const Tile& tile, const Lattice& lattice, std::vector<double>& whole) {
@@ -352,8 +386,8 @@ DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const 
   const TileSources sources{particles, none};
   base::Communicator alone;
   const auto predict = [&](auto sums) { return sums.predict(sums.lower_bound_of_maximum(heaviest(sources, alone))); };
-  return lattice.dimension == 2 ? predict(TileSums<2>(sources, tiles, all, cutoff, lattice, options))
-                                : predict(TileSums<3>(sources, tiles, all, cutoff, lattice, options));
+  return lattice.dimension == 2 ? predict(SumsInDimension<2>(sources, tiles, all, cutoff, lattice, options))
+                                : predict(SumsInDimension<3>(sources, tiles, all, cutoff, lattice, options));
 }
 
 }  // namespace gaussdrift

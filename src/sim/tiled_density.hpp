@@ -4,6 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -23,6 +26,41 @@ struct TileSources {
   const Particles& own;   // in its tiles
   const Particles& felt;  // those of other processes, whose blobs reach its tiles; ids ascend in either
 };
+
+/// A particle where the density is probably large.
+struct Candidate {
+  double weight = 0;
+  std::int64_t id = 0;
+  bool operator<(const Candidate& other) const {
+    return weight != other.weight ? weight > other.weight : id < other.id;
+  }
+};
+
+/// The sums of the tiles of this process, one by one.
+class TileSums {
+ public:
+  virtual ~TileSums() = default;
+  /// The largest |rho| at some promising particles: a lower bound of max |rho|.
+  virtual double lower_bound_of_maximum(const std::vector<Candidate>& heaviest) const = 0;
+  /// From now on sums are right to options.tolerance * maximum.
+  virtual void begin(double maximum, DensityReport& report) = 0;
+  /// The density at some grid points of a tile, first axis fastest. main: they are all of the tile, or nearly. Else they
+  /// are a thin part of it, and only particles within reach of that are taken.
+  virtual std::vector<double> sum(std::size_t tile, const LatticeBox& where, bool main, DensityReport& report) = 0;
+
+  virtual double largest() const = 0;  // |rho| in all sums since begin()
+  virtual double error() const = 0;    // on a sample of the grid
+  virtual std::int64_t sample() const = 0;
+  /// What fgtd chose for the fullest tile, if this process has it.
+  virtual const std::string& choice_of_fullest() const = 0;
+};
+
+/// Calls sum_all, which is to sum all tiles of this process and to agree on how it went. Where the density turns out to
+/// be much smaller than expected, it is called once more for a finer tolerance. All processes call it, and get the same
+/// report but for its seconds. Throws InputError as evaluate_density() does, on this process alone.
+void sum_by_tiles(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
+                  const Lattice& lattice, const DensityOptions& options, base::Communicator& ranks,
+                  const std::function<void(TileSums&)>& sum_all, DensityReport& report);
 
 /// What one tile has come to.
 struct TileDensity {

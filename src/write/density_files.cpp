@@ -7,7 +7,7 @@ namespace gaussdrift::write {
 namespace {
 
 double bytes(const Extent& extent) {
-  return bytes_as_text(extent.grid_points) * (extent.compared_everywhere ? 3 : 1) + 1500;
+  return bytes_as_text(extent.grid_points) * (extent.compared_everywhere ? 3 : 1) + 1500 * extent.pieces;
 }
 
 std::string view(int dimension) {
@@ -30,8 +30,12 @@ FileKind density_files() {
           .ending = ".vti",
           .text = [](const std::filesystem::path& file,
                      const Frame& frame) { return density_text(file, *frame.density, frame.time, frame.exact); },
+          .piece = [](const std::filesystem::path& file, const Frame& frame,
+                      const DensityPiece& piece) { return density_piece_text(file, frame, piece); },
+          .index = density_index_text,
+          .index_ending = ".pvti",
           .bytes = bytes,
-          .memory = [](const Extent& extent) { return 2 * bytes(extent); },  // as arrays and as text
+          .memory = [](const Extent& extent) { return 2 * bytes(extent) / extent.pieces; },  // as arrays and as text
           .view = view};
 }
 

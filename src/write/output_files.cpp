@@ -35,20 +35,44 @@ class FileSeries : public Observer {
       : kind_(kind), folder_(folder / kind.about.name), collection_(folder / fmt::format("{}.pvd", kind.about.name)) {}
   std::string name() const override { return fmt::format("write {}", kind_.about.name); }
   bool needs_particles(double /*time*/) const override { return kind_.about.needs_velocity; }
+  void piece(const Frame& frame, const DensityPiece& piece) override {
+    if (!kind_.piece) return;
+    const fs::path file = folder_ / piece_name(frame, piece.number);
+    write_text(file, kind_.piece(file, frame, piece));
+  }
   void frame(const Frame& frame) override {
-    const fs::path file = file_of(static_cast<std::size_t>(frame.index));
-    write_text(file, kind_.text(file, frame));
+    const auto index = static_cast<std::size_t>(frame.index);
+    const bool in_pieces = frame.pieces && kind_.piece;
+    const fs::path file = in_pieces ? index_of(index) : file_of(index);
+    if (in_pieces) {
+      std::vector<std::string> pieces;
+      for (std::size_t number = 0; number < frame.pieces->count(); ++number)
+        pieces.push_back(piece_name(frame, number));
+      write_text(file, kind_.index(frame, pieces));
+    } else {
+      write_text(file, kind_.text(file, frame));
+    }
     collection_.add(frame.time, file);
   }
   void restore(const std::vector<std::pair<double, FrameNumbers>>& frames, const std::string& /*state*/) override {
     std::vector<std::pair<double, fs::path>> entries;
-    for (const auto& [time, numbers] : frames) entries.emplace_back(time, file_of(entries.size()));
+    for (const auto& [time, numbers] : frames) {
+      const fs::path index = index_of(entries.size());
+      entries.emplace_back(time, kind_.piece && fs::exists(index) ? index : file_of(entries.size()));
+    }
     if (!entries.empty()) collection_.begin(entries);
   }
 
  private:
   fs::path file_of(std::size_t index) const {
     return folder_ / fmt::format("{}_{:04}{}", kind_.about.name, index, kind_.ending);
+  }
+  fs::path index_of(std::size_t index) const {
+    return folder_ / fmt::format("{}_{:04}{}", kind_.about.name, index, kind_.index_ending);
+  }
+  /// As the index names it.
+  std::string piece_name(const Frame& frame, std::size_t number) const {
+    return fmt::format("{}_{:04}/{:04}{}", kind_.about.name, frame.index, number, kind_.ending);
   }
 
   const FileKind kind_;

@@ -20,6 +20,7 @@ struct Extent {
   double particles = 0;       // carried, with those that effects add
   double grid_points = 0;
   bool compared_everywhere = false;  // with the exact density
+  double pieces = 1;                 // of the grid
 };
 
 struct FileKind {
@@ -27,7 +28,11 @@ struct FileKind {
   std::string_view ending;  // ".vti"
   /// All that the file of an output holds; messages call it `file`. Of the frame it may take what `about` says.
   std::string (*text)(const std::filesystem::path& file, const Frame& frame) = nullptr;
-  double (*bytes)(const Extent& extent) = nullptr;   // of the file of one output
+  /// Where the density comes in pieces: the file of one, and the index that names all. Null: there is one file always.
+  std::string (*piece)(const std::filesystem::path& file, const Frame& frame, const DensityPiece& piece) = nullptr;
+  std::string (*index)(const Frame& frame, const std::vector<std::string>& files) = nullptr;
+  std::string_view index_ending = {};                // ".pvti"
+  double (*bytes)(const Extent& extent) = nullptr;   // of the files of one output
   double (*memory)(const Extent& extent) = nullptr;  // bytes held at most while it is made, beside the frame
   /// What view.py does after ParaView has read the files into `NAME`, where they are what is looked at.
   std::string (*view)(int dimension) = nullptr;
@@ -45,7 +50,8 @@ const FileKind& density_output();
 /// Bytes that numbers take as text in a ParaView file: four letters for three bytes.
 constexpr double bytes_as_text(double numbers) { return 4. / 3 * 8 * numbers; }
 
-/// Writes NAME.pvd and NAME/NAME_0000.vti, ...
+/// Writes NAME.pvd and NAME/NAME_0000.vti, ...; where the density comes in pieces NAME/NAME_0000.pvti, ... and
+/// NAME/NAME_0000/0000.vti, ...
 std::unique_ptr<Observer> file_series(const FileKind& kind, const std::filesystem::path& folder);
 
 }  // namespace gaussdrift::write

@@ -40,7 +40,20 @@ bool stays_inside(const std::string& name) {
   if (name.empty() || name.front() == '/' || name.find('\0') != name.npos) return false;
   const fs::path path(name);
   return std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".." || part == "."; }) &&
-         std::count(name.begin(), name.end(), '/') <= 1;
+         std::count(name.begin(), name.end(), '/') <= (name.back() == '/' ? 2 : 1);
+}
+
+/// "folder/" and "folder/range{0000..0012}/" have all that is in there.
+bool in_folder(std::string_view folder, std::string_view file) {
+  if (!folder.ends_with('/')) return false;
+  if (folder.find('{') == folder.npos) return file.starts_with(folder);
+  const std::size_t slash = file.find('/', file.find('/') + 1);
+  return slash != file.npos && in_range(folder.substr(0, folder.size() - 1), file.substr(0, slash));
+}
+
+/// Folders on the way to a file that is gone, from the inside out.
+void remove_empty(const fs::path& folder, fs::path parent) {
+  for (; !parent.empty() && fs::is_empty(folder / parent); parent = parent.parent_path()) fs::remove(folder / parent);
 }
 
 template <class Action>
@@ -73,7 +86,7 @@ void OwnFiles::add(const std::string& name) {
 
 bool OwnFiles::has(std::string_view file) const {
   return single_.contains(std::string(file)) || std::any_of(many_.begin(), many_.end(), [&](const std::string& name) {
-           return name == file || (name.ends_with('/') && file.starts_with(name)) || in_range(name, file);
+           return name == file || in_folder(name, file) || in_range(name, file);
          });
 }
 
@@ -86,8 +99,15 @@ std::vector<std::string> OwnFiles::found_in(const fs::path& folder) const {
         if (has(name)) found.push_back(name);
         continue;
       }
-      for (const auto& inner : fs::directory_iterator(entry.path()))
-        if (const std::string file = name + "/" + inner.path().filename().string(); has(file)) found.push_back(file);
+      for (const auto& inner : fs::directory_iterator(entry.path())) {
+        const std::string file = name + "/" + inner.path().filename().string();
+        // What may hold a folder of pieces; a link in its place is the run's own, too.
+        const bool of_pieces = !has(file) && has(file + "/");
+        if (has(file) || (of_pieces && inner.is_symlink())) found.push_back(file);
+        if (!of_pieces || inner.is_symlink() || !inner.is_directory()) continue;
+        for (const auto& piece : fs::directory_iterator(inner.path()))
+          found.push_back(file + "/" + piece.path().filename().string());
+      }
     }
   });
   std::sort(found.begin(), found.end());
@@ -106,8 +126,7 @@ void OwnFiles::remove_from(const fs::path& folder) const {
   on_files(folder, "removed", [&] {
     for (const std::string& file : found_in(folder)) {
       fs::remove_all(folder / file);  // a folder among them only below one that is the run's own
-      if (const fs::path parent = fs::path(file).parent_path(); !parent.empty() && fs::is_empty(folder / parent))
-        fs::remove(folder / parent);
+      remove_empty(folder, fs::path(file).parent_path());
     }
   });
 }
@@ -118,7 +137,7 @@ void OwnFiles::move(const fs::path& folder, const fs::path& to) const {
       const fs::path parent = fs::path(file).parent_path();
       fs::create_directories(to / parent);
       fs::rename(folder / file, to / file);
-      if (!parent.empty() && fs::is_empty(folder / parent)) fs::remove(folder / parent);
+      remove_empty(folder, parent);
     }
   });
 }

@@ -10,7 +10,8 @@
 namespace gaussdrift::write {
 
 /// Names as seen from the folder of the run, in one of three forms: "series.csv"; "density/density_{0000..0012}.vti", a
-/// range as shells write it; "state/", all that is in a folder. Names that lead out of the folder are not taken.
+/// range as shells write it; "state/", all that is in a folder, or in a range of folders as
+/// "density/density_{0000..0012}/". Names that lead out of the folder are not taken.
 class OwnFiles {
  public:
   OwnFiles() = default;

@@ -13,6 +13,7 @@
 
 #include "base/json_file.hpp"
 #include "gaussdrift/error.hpp"
+#include "sim/grid_pieces.hpp"
 #include "write/atomic_file.hpp"
 #include "write/output_files.hpp"
 #include "write/provenance.hpp"
@@ -29,14 +30,20 @@ constexpr const char* status_name = "status.json";
 constexpr const char* earlier_name = "earlier";
 constexpr std::size_t most_names = 40'000;  // in status.json, and as many as most_json_of_names has room for
 
-/// The files that a run writes. `most`: of a series.
-OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_t most) {
+/// The files that a run writes. `most`: of a series. `in_pieces`: where its grid has several.
+OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_t most, bool in_pieces) {
   OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
                   "state/", "summary.json", "summary.png", "view.py"});
   for (const FileKind& kind : output_files()) {
     const std::string name(kind.about.name);
     files.add(name + ".pvd");
-    files.add(numbered_names(name + "/" + name + "_", most, kind.ending));
+    const std::string numbered = name + "/" + name + "_";
+    if (!in_pieces || !kind.piece) {
+      files.add(numbered_names(numbered, most, kind.ending));
+      continue;
+    }
+    files.add(numbered_names(numbered, most, kind.index_ending));
+    files.add(numbered_names(numbered, most, "/"));
   }
   for (const std::string& style : picture_styles) files.add(numbered_names("images/" + style + "_", most, ".png"));
   return files;
@@ -45,7 +52,7 @@ OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_
 OwnFiles files_of(const Case& spec) {
   std::vector<std::string> styles;
   for (const PictureStyle& style : spec.output.images) styles.emplace_back(style.name);
-  return files_of_run(styles, spec.output.times.size());
+  return files_of_run(styles, spec.output.times.size(), pieces_of_grid(spec).count() > 1);
 }
 
 /// What status.json says. The folder may be a stranger's. Throws FileError if the file is damaged: which files are the
@@ -125,9 +132,18 @@ void check_links(const fs::path& folder) {
   std::vector<std::string> folders{"images", "state", earlier_name};
   for (const FileKind& kind : output_files()) folders.emplace_back(kind.about.name);
   std::error_code ignored;
-  for (const std::string& name : folders)
+  const auto check = [&](const std::string& name) {
     if (fs::is_symlink(fs::symlink_status(folder / name, ignored)))
       refuse(folder, fmt::format("{} in it is a link, and links are not followed; remove the link", name));
+  };
+  for (const std::string& name : folders) check(name);
+  for (const FileKind& kind : output_files()) {  // folders of pieces
+    const std::string name(kind.about.name);
+    for (auto entry = fs::directory_iterator(folder / name, ignored); !ignored && entry != fs::directory_iterator();
+         entry.increment(ignored))
+      if (entry->is_directory(ignored)) check(name + "/" + entry->path().filename().string());
+    ignored.clear();
+  }
 }
 
 std::string view_script(const Case& spec) {
@@ -172,7 +188,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
   check_links(folder_);
   const Status run(folder_), aside(folder_ / earlier_name);
   const bool old_version = !run.there && fs::exists(folder_ / "run.toml");
-  const OwnFiles files = old_version ? files_of_run(options.picture_styles, 1'000'000'000) : run.files;
+  const OwnFiles files = old_version ? files_of_run(options.picture_styles, 1'000'000'000, false) : run.files;
   keeps_earlier_ = aside.is_set_aside;
   if (options.go_on) {
     for (const std::string& name : files.names()) own_.add(name);

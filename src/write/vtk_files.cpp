@@ -21,6 +21,7 @@
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <new>
@@ -128,28 +129,66 @@ void check_size(const fs::path& file, std::string_view what, std::size_t is, std
                 fmt::format("{}: {} has {} values, must have {}", file.string(), what, is, should_be));
 }
 
-}  // namespace
-
-std::string density_text(const fs::path& file, const DensityGrid& density, double time,
-                         const std::vector<double>* exact) {
-  const Lattice& lattice = density.lattice;
-  check_size(file, "rho", density.rho.size(), lattice.size());
+/// Values at the points of a box of the lattice.
+std::string box_text(const fs::path& file, const Lattice& lattice, const LatticeBox& box,
+                     const std::vector<double>& rho, const std::vector<double>* exact, double time) {
+  check_size(file, "rho", rho.size(), box.size());
   vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(lattice.points[0]), static_cast<int>(lattice.points[1]),
-                       static_cast<int>(lattice.points[2]));
+  std::array<int, 6> extent{};
+  for (std::size_t k = 0; k < 3; ++k)
+    extent[2 * k] = static_cast<int>(box.first[k]), extent[2 * k + 1] = static_cast<int>(box.end(k)) - 1;
+  image->SetExtent(extent.data());
   image->SetOrigin(lattice.origin[0], lattice.origin[1], lattice.origin[2]);
   image->SetSpacing(lattice.spacing, lattice.spacing, lattice.spacing);
-  image->GetPointData()->SetScalars(borrowed<vtkDoubleArray>("rho", density.rho));
+  image->GetPointData()->SetScalars(borrowed<vtkDoubleArray>("rho", rho));
   std::vector<double> error;
   if (exact) {
-    check_size(file, "rho_exact", exact->size(), lattice.size());
-    error.reserve(lattice.size());
-    for (std::size_t i = 0; i < lattice.size(); ++i) error.push_back(density.rho[i] - (*exact)[i]);
+    check_size(file, "rho_exact", exact->size(), box.size());
+    error.reserve(box.size());
+    for (std::size_t i = 0; i < box.size(); ++i) error.push_back(rho[i] - (*exact)[i]);
     image->GetPointData()->AddArray(borrowed<vtkDoubleArray>("rho_exact", *exact));
     image->GetPointData()->AddArray(borrowed<vtkDoubleArray>("error", error));
   }
   set_time(image, time);
   return text_of<vtkXMLImageDataWriter>(file, image);
+}
+
+std::string extent_text(const LatticeBox& box) {
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) text += fmt::format("{}{} {}", k == 0 ? "" : " ", box.first[k], box.end(k) - 1);
+  return text;
+}
+
+}  // namespace
+
+std::string density_text(const fs::path& file, const DensityGrid& density, double time,
+                         const std::vector<double>* exact) {
+  return box_text(file, density.lattice, {{}, density.lattice.points}, density.rho, exact, time);
+}
+
+std::string density_piece_text(const fs::path& file, const Frame& frame, const DensityPiece& piece) {
+  return box_text(file, *frame.lattice, piece.box, *piece.rho, piece.exact, frame.time);
+}
+
+std::string density_index_text(const Frame& frame, const std::vector<std::string>& files) {
+  const Lattice& lattice = *frame.lattice;
+  // As VTK's writer has it in the pieces: numbers that give the same double.
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "  <PImageData WholeExtent=\"{}\" GhostLevel=\"0\" Origin=\"{:.17g} {:.17g} {:.17g}\" "
+      "Spacing=\"{:.17g} {:.17g} {:.17g}\">\n"
+      "    <PPointData Scalars=\"rho\">\n      <PDataArray type=\"Float64\" Name=\"rho\"/>\n",
+      extent_text({{}, lattice.points}), lattice.origin[0], lattice.origin[1], lattice.origin[2], lattice.spacing,
+      lattice.spacing, lattice.spacing);
+  if (frame.pieces_have_exact)
+    for (const char* name : {"rho_exact", "error"})
+      text += fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\"/>\n", name);
+  text += "    </PPointData>\n";
+  for (std::size_t number = 0; number < files.size(); ++number)
+    text += fmt::format("    <Piece Extent=\"{}\" Source=\"{}\"/>\n", extent_text(frame.pieces->shown(number)),
+                        escaped(files[number]));
+  return text + "  </PImageData>\n</VTKFile>\n";
 }
 
 void write_density(const fs::path& file, const DensityGrid& density, double time, const std::vector<double>* exact) {

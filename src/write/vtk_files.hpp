@@ -28,6 +28,11 @@ std::string density_text(const std::filesystem::path& file, const DensityGrid& d
 std::string particle_text(const std::filesystem::path& file, const Particles& particles,
                           const std::vector<double>& velocity, double time);
 
+/// density/density_0000/0000.vti: the same of a piece; its extent is that within the whole grid.
+std::string density_piece_text(const std::filesystem::path& file, const Frame& frame, const DensityPiece& piece);
+/// density/density_0000.pvti: names the files of the pieces, as seen from its folder.
+std::string density_index_text(const Frame& frame, const std::vector<std::string>& files);
+
 /// A ParaView collection, whole after every call. Data are named relative to the folder of the .pvd. Throws FileError.
 class Collection {
  public:

@@ -141,5 +141,27 @@ TEST(SharedRun, TellsAFailureOnce) {
   EXPECT_EQ(bits_of(folder / "alone"), bits_of(folder / "shared")) << "what was written before is whole";
 }
 
+TEST(SharedPieces, AreTheSameFilesOnAnyNumberOfRanks) {
+  NEEDS_MPIRUN();
+  const ScratchFolder folder;
+  const std::string arguments =
+      copy_of("rotating_cone", folder) +
+      small("--set time.end=0.2 --set output.frames=2 --set evaluate.piece_points=1200 --set output.report=none ");
+  ASSERT_EQ(outcome_of(folder, run + arguments + "--out alone").exit_code, 0);
+  ASSERT_TRUE(fs::exists(folder / "alone/density/density_0001.pvti"));
+  ASSERT_TRUE(fs::exists(folder / "alone/density/density_0001/0015.vti"));
+  for (const int ranks : {2, 3}) {
+    const std::string name = "on" + std::to_string(ranks);
+    const Outcome shared = on_ranks_of_mpi(ranks, run + arguments + "--out " + name, folder);
+    ASSERT_EQ(shared.exit_code, 0) << shared.err;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "alone/density")) {
+      if (!entry.is_regular_file()) continue;
+      const fs::path other = folder / name / fs::relative(entry.path(), folder / "alone");
+      EXPECT_EQ(read_file(entry.path()), read_file(other)) << other;
+    }
+    EXPECT_EQ(read_file(folder / "alone/density.pvd"), read_file(folder / name / "density.pvd"));
+  }
+}
+
 }  // namespace
 }  // namespace gaussdrift

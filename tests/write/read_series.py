@@ -6,7 +6,7 @@ import os
 import sys
 import xml.etree.ElementTree as ElementTree
 
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPImageDataReader, vtkXMLPolyDataReader
 
 
 def numbers(values):
@@ -21,14 +21,15 @@ def show_array(where, array):
 
 
 def show(name):
-    reader = vtkXMLImageDataReader() if name.endswith(".vti") else vtkXMLPolyDataReader()
+    kinds = {".vti": vtkXMLImageDataReader, ".pvti": vtkXMLPImageDataReader, ".vtp": vtkXMLPolyDataReader}
+    reader = kinds[os.path.splitext(name)[1]]()
     reader.SetFileName(name)
     reader.Update()
     if reader.GetErrorCode() != 0:
         sys.exit("%s: error %d" % (name, reader.GetErrorCode()))
     data = reader.GetOutput()
     print(data.GetClassName())
-    if name.endswith(".vti"):
+    if name.endswith("vti"):
         print("extent", numbers(data.GetExtent()))
         print("origin", numbers(data.GetOrigin()))
         print("spacing", numbers(data.GetSpacing()))

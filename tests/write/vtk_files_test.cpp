@@ -16,6 +16,7 @@
 #include "message_of.hpp"
 #include "scratch_folder.hpp"
 #include "write/disk.hpp"
+#include "write/output_files.hpp"
 
 namespace gaussdrift::write {
 namespace {
@@ -119,6 +120,45 @@ TEST(DensityFile, OfThreeDimensionsIsReadBack) {
   const std::string text = read_series(python, folder / "rho.pvd");
   EXPECT_NE(text.find("extent 0 4 0 2 0 3\n"), std::string::npos) << text;
   EXPECT_NE(text.find("array rho double 1" + numbers(density.rho) + "\n"), std::string::npos) << text;
+}
+
+TEST(DensityFile, InPiecesIsReadAsOne) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  for (const int dimension : {2, 3}) {
+    const ScratchFolder folder;
+    const auto density = some_density(dimension, {1e6 + 1 / 7., -2, 0}, {1e6 + 1 / 7. + 2, -1, 0.5}, 21);
+    const Lattice& lattice = density.lattice;
+    const LatticePieces pieces(lattice, dimension == 2 ? 50 : 300);
+    ASSERT_GT(pieces.count(), 3u);
+    Frame frame;
+    frame.index = 12, frame.time = 1 / 3.;
+    frame.density = &density;
+    frame.pieces = &pieces, frame.lattice = &lattice, frame.pieces_have_exact = dimension == 3;
+    std::vector<double> all_exact;
+    for (const double value : density.rho) all_exact.push_back(0.9 * value);
+    const auto series = file_series(find_output_file("density"), folder.path());
+    for (std::size_t number = 0; number < pieces.count(); ++number) {
+      const LatticeBox box = pieces.shown(number);
+      std::vector<double> rho, exact;
+      for (std::size_t l = box.first[2]; l < box.end(2); ++l)
+        for (std::size_t j = box.first[1]; j < box.end(1); ++j)
+          for (std::size_t i = box.first[0]; i < box.end(0); ++i) {
+            const std::size_t point = i + lattice.points[0] * (j + lattice.points[1] * l);
+            rho.push_back(density.rho[point]), exact.push_back(all_exact[point]);
+          }
+      series->piece(frame, {number, box, &rho, frame.pieces_have_exact ? &exact : nullptr});
+    }
+    series->frame(frame);
+    const std::string text = read_series(python, folder / "density.pvd");
+    EXPECT_NE(text.find(" density/density_0012.pvti\nvtkImageData\n"), std::string::npos) << text.substr(0, 500);
+    EXPECT_NE(text.find("origin" + numbers<double>({lattice.origin[0], lattice.origin[1], lattice.origin[2]}) + "\n"),
+              std::string::npos)
+        << text.substr(0, 500);
+    EXPECT_NE(text.find("array rho double 1" + numbers(density.rho) + "\n"), std::string::npos);
+    EXPECT_EQ(text.find("array rho_exact double 1" + numbers(all_exact) + "\n") != std::string::npos,
+              frame.pieces_have_exact);
+  }
 }
 
 TEST(DensityFile, HasTheExactDensityAndTheErrorBesideIt) {

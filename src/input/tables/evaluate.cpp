@@ -59,9 +59,15 @@ Section evaluate_section() {
        {.name = "tile_particles",
         .type = Type::whole,
         .range = {1, infinity},
-        .meaning =
-            "most particles of a tile: a density with more is summed part by part. Smaller tiles take less "
-            "memory, and more ranks can share them. Without this key 262144 in the plane and 1048576 in space"}}};
+        .meaning = "most particles of a tile: a density with more is summed part by part. Smaller tiles take less "
+                   "memory, and more ranks can share them. Without this key 262144 in the plane and 1048576 in space"},
+       {.name = "piece_points",
+        .type = Type::whole,
+        .fallback = "33554432",
+        .range = {1000, 134217728},
+        .meaning = "most points of a grid that is held as a whole. A larger one is summed and written in pieces, none "
+                   "of which "
+                   "has more points. Smaller pieces take less memory"}}};
 }
 
 namespace {
@@ -103,10 +109,10 @@ void read_spacing(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
     in.diagnostics.error(place,
                          fmt::format("evaluate.spacing = {} is longer than the domain, {}", spacing->number, longest),
                          "a lattice has at least two points on the longest axis");
-  else if (!(size <= largest_lattice))
+  else if (!(size <= largest_grid))
     in.diagnostics.error(place,
                          fmt::format("the evaluation lattice would have {:.3g} points; at most {} are possible", size,
-                                     static_cast<long long>(largest_lattice)),
+                                     static_cast<long long>(largest_grid)),
                          "raise evaluate.spacing");
   else if (lost_to_rounding(in, "evaluation lattice", domain, spacing->number, place, "raise evaluate.spacing"))
     return;
@@ -126,7 +132,7 @@ void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
   else if (spacing)
     read_spacing(in, evaluate, domain);
   else if (const auto count = per_axis(in, "evaluate", "a lattice has at least two points an axis")) {
-    if (const auto lattice = make_checked_lattice(in, "evaluation lattice", domain, *count))
+    if (const auto lattice = make_checked_lattice(in, "evaluation lattice", domain, *count, largest_grid))
       warn_narrow(in, *lattice, domain, count->written ? count->written->place : in.source.end());
     evaluate.per_axis = to_int(*count);
   }
@@ -134,6 +140,7 @@ void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
   evaluate.method = in.choice("evaluate", "method");
   if (const auto most = in.number("evaluate", "most_seconds")) evaluate.most_seconds = most->number;
   if (const auto most = in.number("evaluate", "tile_particles")) evaluate.tile_particles = most->number;
+  if (const auto most = in.number("evaluate", "piece_points")) evaluate.piece_points = most->number;
 }
 
 void write_evaluate(Writer& out, const EvaluateSpec& evaluate) {
@@ -146,6 +153,8 @@ void write_evaluate(Writer& out, const EvaluateSpec& evaluate) {
   out.entry("method", written(evaluate.method));
   if (evaluate.most_seconds > 0) out.entry("most_seconds", written(evaluate.most_seconds));
   if (evaluate.tile_particles > 0) out.entry("tile_particles", fmt::format("{:.0f}", evaluate.tile_particles));
+  if (evaluate.piece_points != EvaluateSpec{}.piece_points)
+    out.entry("piece_points", fmt::format("{:.0f}", evaluate.piece_points));
 }
 
 }  // namespace gaussdrift::input

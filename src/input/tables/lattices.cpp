@@ -38,10 +38,10 @@ bool lost_to_rounding(Reader& in, const std::string& what, const Domain& domain,
 
 /// The lattice, or nothing (with a complaint) if it has too many points; it is not allocated.
 std::optional<Lattice> make_checked_lattice(Reader& in, const std::string& what, const Domain& domain,
-                                            const Number& count) {
+                                            const Number& count, double most_points) {
   if (!in.facts.domain_valid) return std::nullopt;
   const Place place = count.written ? count.written->place : in.source.end();
-  const auto limit = static_cast<long long>(largest_lattice);
+  const auto limit = static_cast<long long>(most_points);
   if (count.number > largest_lattice - 1) {
     in.diagnostics.error(place,
                          fmt::format("the {} would have {} points on one axis; at most {} in all are possible", what,
@@ -56,7 +56,7 @@ std::optional<Lattice> make_checked_lattice(Reader& in, const std::string& what,
     points.push_back(lattice.points[k]);
     size *= static_cast<double>(lattice.points[k]);
   }
-  if (size > largest_lattice) {
+  if (size > most_points) {
     in.diagnostics.error(place,
                          fmt::format("the {} would have {:.3g} points ({}); at most {} are possible", what, size,
                                      fmt::join(points, " x "), limit),

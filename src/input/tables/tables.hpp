@@ -86,6 +86,7 @@ template <class FileSpec>
 void write_grid_file(Writer& out, const FileSpec& spec);
 
 constexpr double largest_lattice = 2147483648.0;  // 2^31 points: 16 GiB a column
+constexpr double largest_grid = 1099511627776.0;  // 2^40 points: of the evaluation lattice, which is held in pieces
 
 /// Only for numbers that passed their range; larger ones have been complained about.
 int to_int(const Number& count);
@@ -95,6 +96,6 @@ bool lost_to_rounding(Reader& in, const std::string& what, const Domain& domain,
                       const std::string& remedy);
 /// The lattice, or nothing (with a complaint) if it has too many points; it is not allocated.
 std::optional<Lattice> make_checked_lattice(Reader& in, const std::string& what, const Domain& domain,
-                                            const Number& count);
+                                            const Number& count, double most_points = largest_lattice);
 
 }  // namespace gaussdrift::input
