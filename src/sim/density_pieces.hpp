@@ -1,5 +1,5 @@
 // A density whose grid is too large to be held as a whole: summed piece by piece, each on the rank that writes it.
-// Pieces and their bits follow from the case alone. docs/distributed.md, docs/decisions/0028.
+// Pieces and their bits follow from the case alone. docs/distributed.md, docs/decisions/0028-pieces-are-boxes.md.
 #pragma once
 
 #include <cstddef>

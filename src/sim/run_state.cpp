@@ -190,10 +190,7 @@ void Simulation::Parts::take_up(const ObserverStates& seen) {
   });
   std::vector<double> times;
   for (const auto& [time, numbers] : summary_.frames) times.push_back(time);
-  if (compares_everywhere() && !in_pieces())
-    ranks_.agree_on([&] {
-      reference_->pass(times);
-    });
+  if (compares_everywhere() && !in_pieces()) ranks_.agree_on([&] { reference_->pass(times); });
 }
 
 }  // namespace gaussdrift

@@ -150,7 +150,7 @@ TEST(SharedPieces, AreTheSameFilesOnAnyNumberOfRanks) {
   ASSERT_EQ(outcome_of(folder, run + arguments + "--out alone").exit_code, 0);
   ASSERT_TRUE(fs::exists(folder / "alone/density/density_0001.pvti"));
   ASSERT_TRUE(fs::exists(folder / "alone/density/density_0001/0015.vti"));
-  for (const int ranks : {2, 3}) {
+  for (const int ranks : {1, 2, 3, 4}) {
     const std::string name = "on" + std::to_string(ranks);
     const Outcome shared = on_ranks_of_mpi(ranks, run + arguments + "--out " + name, folder);
     ASSERT_EQ(shared.exit_code, 0) << shared.err;

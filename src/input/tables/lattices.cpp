@@ -41,11 +41,10 @@ std::optional<Lattice> make_checked_lattice(Reader& in, const std::string& what,
                                             const Number& count, double most_points) {
   if (!in.facts.domain_valid) return std::nullopt;
   const Place place = count.written ? count.written->place : in.source.end();
-  const auto limit = static_cast<long long>(most_points);
   if (count.number > largest_lattice - 1) {
     in.diagnostics.error(place,
-                         fmt::format("the {} would have {} points on one axis; at most {} in all are possible", what,
-                                     count.number, limit),
+                         fmt::format("the {} would have {} points on one axis; at most {:.0f} are possible", what,
+                                     count.number, largest_lattice - 1),
                          "lower per_axis");
     return std::nullopt;
   }
@@ -58,8 +57,8 @@ std::optional<Lattice> make_checked_lattice(Reader& in, const std::string& what,
   }
   if (size > most_points) {
     in.diagnostics.error(place,
-                         fmt::format("the {} would have {:.3g} points ({}); at most {} are possible", what, size,
-                                     fmt::join(points, " x "), limit),
+                         fmt::format("the {} would have {:.3g} points ({}); at most {:.0f} are possible", what, size,
+                                     fmt::join(points, " x "), most_points),
                          "lower per_axis");
     return std::nullopt;
   }
