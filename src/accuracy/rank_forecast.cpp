@@ -17,6 +17,7 @@
 #include "particle/cutoff.hpp"
 #include "particle/placing.hpp"
 #include "particle/tiles.hpp"
+#include "sim/grid_pieces.hpp"
 #include "sim/scene.hpp"
 #include "sim/sharing.hpp"
 #include "sim/tiled_density.hpp"
@@ -64,10 +65,13 @@ std::vector<Share> shares(const Trial& trial, const Tiles& tiles, const std::vec
   return all;
 }
 
-/// The case as the ranks beside the first see it: they draw, write and explain nothing.
+/// The case as the ranks beside the first see it: they draw and explain nothing, and write their pieces alone.
 Case without_outputs(Case spec) {
   spec.output.images.clear();
-  spec.output.files.clear();
+  if (pieces_of_grid(spec).count() > 1)
+    std::erase_if(spec.output.files, [](const OutputFile& file) { return !write::find_output_file(file.name).piece; });
+  else
+    spec.output.files.clear();
   spec.output.report = false;
   spec.accuracy.budget = AccuracySpec::Budget::none;
   return spec;
@@ -86,6 +90,7 @@ bool first_needs_all_particles(const Case& spec) {
 TileLimits limits_of(const Case& spec, double each) {
   TileLimits limits = usual_tiles(spec.domain.dimension);
   if (spec.evaluate.tile_particles > 0) limits.particles = static_cast<std::int64_t>(spec.evaluate.tile_particles);
+  limits.pieces = pieces_of_grid(spec).halvings();
   limits.particles = std::max<std::int64_t>(1, std::llround(static_cast<double>(limits.particles) / each));
   return limits;
 }
@@ -143,12 +148,13 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
   result.balance = sum > 0 ? most * ranks / sum : 1;
   const double bytes = 8.0 * (spec.domain.dimension + 2);  // of a particle: its place, weight and id
   const Case bare = without_outputs(spec);
+  const double gathered = static_cast<double>(shown_grid(spec).size()) / static_cast<double>(grid.size());
   Extent extent{.lattice_points = static_cast<double>(known.lattice_points) / ranks};
   for (std::size_t r = 0; r < all.size(); ++r) {
     result.idle += all[r].tiles == 0;
     result.halo_bytes = std::max(result.halo_bytes, bytes * all[r].felt);
     if (r == 0) continue;
-    result.gathered_bytes += 8 * all[r].points;
+    result.gathered_bytes += 8 * all[r].points * gathered;
     extent.particles = all[r].particles + all[r].felt, extent.grid_points = all[r].points;
     result.other_memory = std::max(result.other_memory, memory_of_run(bare, extent).all() + known.program_bytes);
   }

@@ -26,16 +26,16 @@ class HostilePieces : public testing::Test {
     piece("0.vti", 0, 3, 0);  // outside
   }
 
-  /// Points from `first` to `last` along x, 0 to 2 along y.
-  void piece(const std::string& name, int first, int last, int seed, const std::string& attributes = standing) const {
+  /// Points from `begin` to `last` along x, 0 to 2 along y.
+  void piece(const std::string& name, int begin, int last, int seed, const std::string& attributes = standing) const {
     std::string numbers;
-    for (int i = 0; i < 3 * (last - first + 1); ++i) numbers += fmt::format("{} ", seed + i);
+    for (int i = 0; i < 3 * (last - begin + 1); ++i) numbers += fmt::format("{} ", seed + i);
     std::ofstream(folder_ / name) << fmt::format(
         "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"{0} {1} 0 2 "
         "0 "
         "0\" {2}><Piece Extent=\"{0} {1} 0 2 0 0\"><PointData><DataArray type=\"Float64\" Name=\"rho\" "
         "format=\"ascii\">{3}</DataArray></PointData></Piece></ImageData></VTKFile>\n",
-        first, last, attributes, numbers);
+        begin, last, attributes, numbers);
   }
 
   fs::path index(const std::string& pieces, const std::string& extent = "0 5 0 2 0 0",

@@ -64,6 +64,16 @@ TEST(CheckRanks, SpreadsADenseCone) {
   EXPECT_LT(four.at("memory_bytes_largest_other"), four.at("memory_bytes_rank_0"));
 }
 
+// A grid of 101 x 101 points is halved four times, and each piece is a tile at least.
+TEST(CheckRanks, SharesTheTilesOfPieces) {
+  const ScratchFolder folder;
+  write_file(folder / "cone.toml", small_case);
+  const auto ranks = ranks_of(
+      folder, "--ranks 4 --set evaluate.per_axis=101 --set evaluate.piece_points=1000 --set 'output.images=[]'");
+  EXPECT_EQ(ranks.at("tiles"), 16);
+  EXPECT_EQ(ranks.at("idle"), 0);
+}
+
 TEST(CheckRanks, SaysWhatIsRefused) {
   const ScratchFolder folder;
   write_file(folder / "cone.toml", small_case + "\n[effects.remesh]\n");
