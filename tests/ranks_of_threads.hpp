@@ -24,14 +24,45 @@ class RankGone : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whether one rank works at a time, as if each had a machine of its own, or all at once.
+enum class InTurns { no, yes };
+
 /// Where the threads meet.
 class MeetingOfRanks {
  public:
-  explicit MeetingOfRanks(int size)
-      : size_(static_cast<std::size_t>(size)), letters_(size_, std::vector<base::Bytes>(size_)) {}
+  explicit MeetingOfRanks(int size, InTurns in_turns = InTurns::no)
+      : size_(static_cast<std::size_t>(size)),
+        in_turns_(in_turns == InTurns::yes),
+        letters_(size_, std::vector<base::Bytes>(size_)) {}
+
+  /// A rank begins to work.
+  void take_turn() {
+    if (in_turns_) turn_.lock();
+  }
 
   /// Hands out[r] to rank r; returns what came, by rank. `call` is the name of the function that all have to be in.
   std::vector<base::Bytes> meet(std::size_t rank, const std::string& call, std::vector<base::Bytes> out) {
+    struct Elsewhere {  // others work meanwhile
+      MeetingOfRanks& meeting;
+      explicit Elsewhere(MeetingOfRanks& of) : meeting(of) { meeting.give_turn(); }
+      ~Elsewhere() { meeting.take_turn(); }
+    } const elsewhere(*this);
+    return letters_of_others(rank, call, std::move(out));
+  }
+
+  /// The thread of a rank ends: whoever waits for it, now or later, would wait for ever.
+  void leave(std::size_t rank) {
+    give_turn();
+    const std::lock_guard lock(mutex_);
+    if (gone_.empty()) gone_ = "rank " + std::to_string(rank) + " has ended";
+    all_.notify_all();
+  }
+
+ private:
+  void give_turn() {
+    if (in_turns_) turn_.unlock();
+  }
+  std::vector<base::Bytes> letters_of_others(std::size_t rank, const std::string& call, std::vector<base::Bytes> out) {
     std::unique_lock lock(mutex_);
     if (come_ == 0) call_ = call;
     if (call != call_) {
@@ -46,15 +77,6 @@ class MeetingOfRanks {
     wait(lock);  // nobody writes the next letter before all have read this one
     return in;
   }
-
-  /// The thread of a rank ends: whoever waits for it, now or later, would wait for ever.
-  void leave(std::size_t rank) {
-    const std::lock_guard lock(mutex_);
-    if (gone_.empty()) gone_ = "rank " + std::to_string(rank) + " has ended";
-    all_.notify_all();
-  }
-
- private:
   void wait(std::unique_lock<std::mutex>& lock) {
     const std::uint64_t round = round_;
     if (++come_ < size_) {
@@ -73,7 +95,8 @@ class MeetingOfRanks {
   }
 
   const std::size_t size_;
-  std::mutex mutex_;
+  const bool in_turns_;
+  std::mutex turn_, mutex_;
   std::condition_variable all_;
   std::vector<std::vector<base::Bytes>> letters_;  // [to][from]
   std::string call_, gone_;
@@ -132,13 +155,15 @@ class RankOfThread : public base::Communicator {
 /// Calls body(communicator) on `size` ranks at once and returns what each threw, by rank; null: nothing. A rank that
 /// waits for one that has ended throws RankGone.
 template <class Body>
-std::vector<std::exception_ptr> ends_on_ranks(int size, const Body& body, int hosts = 1) {
-  MeetingOfRanks meeting(size);
+std::vector<std::exception_ptr> ends_on_ranks(int size, const Body& body, int hosts = 1,
+                                              InTurns in_turns = InTurns::no) {
+  MeetingOfRanks meeting(size, in_turns);
   std::vector<std::exception_ptr> ends(static_cast<std::size_t>(size));
   std::vector<std::thread> threads;
   for (int rank = 0; rank < size; ++rank)
     threads.emplace_back([&, rank] {
       const auto own = static_cast<std::size_t>(rank);
+      meeting.take_turn();
       try {
         RankOfThread communicator(meeting, rank, size, hosts);
         body(static_cast<base::Communicator&>(communicator));
@@ -153,9 +178,9 @@ std::vector<std::exception_ptr> ends_on_ranks(int size, const Body& body, int ho
 
 /// The same for a body that must not throw: throws here what the rank threw that began it.
 template <class Body>
-void on_ranks(int size, const Body& body, int hosts = 1) {
+void on_ranks(int size, const Body& body, int hosts = 1, InTurns in_turns = InTurns::no) {
   std::exception_ptr first;
-  for (const std::exception_ptr& end : ends_on_ranks(size, body, hosts)) {
+  for (const std::exception_ptr& end : ends_on_ranks(size, body, hosts, in_turns)) {
     if (!end) continue;
     try {
       std::rethrow_exception(end);

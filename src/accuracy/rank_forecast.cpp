@@ -135,6 +135,7 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
   std::vector<double> work;
   for (Tile tile : tiles.list()) {
     tile.particles = std::llround(static_cast<double>(tile.particles) * each);
+    tile.sources *= each;
     work.push_back(work_of(tile));
   }
   const bool one = work.size() == 1;

@@ -24,9 +24,9 @@ std::size_t columns_of(const Particles& particles) {
 }
 
 template <class T>
-void permute(std::vector<T>& column, const std::vector<std::size_t>& order) {
+void permute(std::vector<T>& column, const std::vector<std::pair<std::int64_t, std::size_t>>& order) {
   std::vector<T> sorted(column.size());
-  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = column[order[i]];
+  for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = column[order[i].second];
   column = std::move(sorted);
 }
 
@@ -135,13 +135,22 @@ void unpack(std::span<const std::byte> bytes, Particles& particles) {
   if (first_volumes) take(particles.volume);
 }
 
+// Few ascending runs, one of each rank, are merged.
 void sort_by_id(Particles& particles) {
-  if (std::is_sorted(particles.id.begin(), particles.id.end())) return;
-  std::vector<std::size_t> order(particles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return particles.id[a] < particles.id[b]; });
-  for_each_column(particles, [&](std::string_view, std::size_t, auto& column) { permute(column, order); });
+  std::vector<std::size_t> start{0};  // of each run, and the end
+  for (std::size_t j = 1; j < particles.id.size(); ++j)
+    if (particles.id[j] < particles.id[j - 1]) start.push_back(j);
+  if (start.size() == 1) return;
+  start.push_back(particles.id.size());
+  using Place = std::pair<std::int64_t, std::size_t>;  // an id, and where it stands
+  std::vector<Place> places(particles.id.size());
+  for (std::size_t j = 0; j < places.size(); ++j) places[j] = {particles.id[j], j};
+  const auto at = [&](std::size_t run) { return places.begin() + static_cast<std::ptrdiff_t>(start[run]); };
+  const std::size_t runs = start.size() - 1;
+  for (std::size_t step = 1; step < runs; step *= 2)
+    for (std::size_t run = 0; run + step < runs; run += 2 * step)
+      std::inplace_merge(at(run), at(run + step), at(std::min(run + 2 * step, runs)));
+  for_each_column(particles, [&](std::string_view, std::size_t, auto& column) { permute(column, places); });
 }
 
 void place_particles(Particles& particles, const Tiles& tiles, const std::vector<int>& owner,

@@ -79,6 +79,7 @@ Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, 
   for (std::size_t l = 0; l < pieces[2]; ++l)
     for (std::size_t j = 0; j < pieces[1]; ++j)
       for (std::size_t i = 0; i < pieces[0]; ++i) divide(counts, limits, 0, {i, j, l});
+  for (Tile& tile : list_) tile.sources = sources_of(tile, counts.back());
 }
 
 Tiles::Indices Tiles::cells_at(int level) const {
@@ -115,6 +116,32 @@ void Tiles::divide(const std::vector<std::vector<std::int64_t>>& counts, const T
     for (std::size_t j = 0; j < parts[1]; ++j)
       for (std::size_t i = 0; i < parts[0]; ++i)
         divide(counts, limits, level + 1, {cell[0] * parts[0] + i, cell[1] * parts[1] + j, cell[2] * parts[2] + l});
+}
+
+// As if particles were spread evenly over each of the smallest cells.
+double Tiles::sources_of(const Tile& tile, const std::vector<std::int64_t>& smallest) const {
+  const double reach = reach_ / lattice_.spacing;  // in grid points
+  Indices low{}, high{};                           // cells that have a part within reach
+  std::array<std::vector<double>, max_dimension> within;  // that part of each of them
+  for (int k = 0; k < max_dimension; ++k) {
+    const double from = static_cast<double>(tile.first[k]) - reach;
+    const double to = static_cast<double>(tile.first[k] + tile.points[k]) + std::max(0.0, reach - 1);
+    low[k] = border_[k].size(), high[k] = 0;
+    for (std::size_t c = 0; c + 1 < border_[k].size(); ++c) {
+      const auto begin = static_cast<double>(border_[k][c]), end = static_cast<double>(border_[k][c + 1]);
+      const double part = (std::min(end, to) - std::max(begin, from)) / (end - begin);
+      if (part <= 0) continue;
+      low[k] = std::min(low[k], c), high[k] = c + 1;
+      within[k].push_back(part);
+    }
+  }
+  double sources = 0;
+  for (std::size_t l = low[2]; l < high[2]; ++l)
+    for (std::size_t j = low[1]; j < high[1]; ++j)
+      for (std::size_t i = low[0]; i < high[0]; ++i)
+        sources += within[0][i - low[0]] * within[1][j - low[1]] * within[2][l - low[2]] *
+                   static_cast<double>(smallest[i + ((j + (l << levels_[1])) << levels_[0])]);
+  return sources;
 }
 
 std::vector<std::vector<std::size_t>> Tiles::gather(const PointsView& points, const std::vector<char>& wanted,

@@ -31,6 +31,7 @@ TileLimits usual_tiles(int dimension);
 
 struct Tile : LatticeBox {
   std::int64_t particles = 0;  // that lie in it
+  double sources = 0;          // about how many reach it, these among them
 };
 
 class Tiles {
@@ -67,6 +68,7 @@ class Tiles {
     return pieces_[axis] + std::max(0, level - (depth_ - (levels_[axis] - pieces_[axis])));
   }
   void divide(const std::vector<std::vector<std::int64_t>>& counts, const TileLimits& limits, int level, Indices cell);
+  double sources_of(const Tile& tile, const std::vector<std::int64_t>& smallest) const;
   // Of the grid point at or below a coordinate; those beyond the lattice get the first or the last.
   std::size_t index_below(int axis, double x) const {
     const double steps = std::floor((x - lattice_.origin[axis]) / lattice_.spacing);

@@ -36,7 +36,7 @@ std::function<double(const Tile& tile)> work_of_tiles(const Case& spec, const Ve
   const double of_particle = spec.domain.dimension == 2 ? 0.13e-6 : 0.35e-6, of_point = 12e-9;
   return [=](const Tile& tile) {
     const auto particles = static_cast<double>(tile.particles), points = static_cast<double>(tile.size());
-    return particles * (carrying + of_particle) + (tile.particles > 0 ? of_point : 0.1 * of_point) * points;
+    return particles * carrying + tile.sources * of_particle + (tile.sources > 0 ? of_point : 0.1 * of_point) * points;
   };
 }
 

@@ -21,11 +21,11 @@ struct Kind {
 
 std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 
-// A cone of 12 000 particles that turns and leaves its tiles; the smallest are sixteenths of the box.
+// A cone of 18 000 particles that turns and leaves its tiles; the smallest are an eighth of the box wide.
 Case spec_of(const Kind& kind) {
   std::vector<std::string> overrides = {
-      "particles.per_axis=601", "density.shape=\"wendland\"",       "density.center=[0.4, 0.05]",
-      "density.radius=0.2",     "velocity.u=[\"-y+0.1*x\", \"x\"]", "output.times=[0, 0.3, 0.5]",
+      "particles.per_axis=1001", "density.shape=\"wendland\"",       "density.center=[0.4, 0.05]",
+      "density.radius=0.15",     "velocity.u=[\"-y+0.1*x\", \"x\"]", "output.times=[0, 0.3, 0.5]",
       "evaluate.per_axis=300",  "evaluate.tile_particles=500",      "output.vtk=[\"particles\"]"};
   overrides.insert(overrides.end(), kind.overrides.begin(), kind.overrides.end());
   return scene_of(overrides);
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
     , SharedRun,
     testing::Values(Kind{"transport", {}}, Kind{"adaptive", {"time.method=\"dopri5\"", "time.tolerance=1e-6"}},
                     Kind{"reaction", {"effects.reaction.rate=\"1+x\"", characteristics}},
-                    Kind{"spreading", {"effects.diffusion.D=1e-5", "effects.diffusion.method=\"core-spreading\""}},
+                    Kind{"spreading", {"effects.diffusion.D=1e-6", "effects.diffusion.method=\"core-spreading\""}},
                     Kind{"compared", {characteristics}},
                     Kind{"everywhere", {characteristics, "reference.points=1000000"}},
                     Kind{"formula", {"reference.kind=\"exact\"", "reference.rho=\"exp(-x^2-y^2-t)\""}},

@@ -89,6 +89,24 @@ TEST_P(EveryDimension, TakeAllThatReachesThem) {
   }
 }
 
+// Work is shared by this number, so that tiles among others count for what they take from them.
+TEST_P(EveryDimension, TellAboutHowManyParticlesReachThem) {
+  const Lattice lattice = box(GetParam(), 400);
+  const Particles particles = cloud(GetParam(), 50'000);
+  const Tiles tiles(lattice, 0.01, particles.view(), {.particles = 500, .points = 1 << 28, .reaches = 8});
+  ASSERT_GT(tiles.list().size(), 8u);
+  const auto reaching = tiles.gather(particles.view(), std::vector<char>(tiles.list().size(), 1), 1);
+  double told = 0, found = 0, wrong = 0;
+  for (std::size_t t = 0; t < reaching.size(); ++t) {
+    const auto number = static_cast<double>(reaching[t].size());
+    EXPECT_GE(tiles.list()[t].sources, static_cast<double>(tiles.list()[t].particles) * (1 - 1e-12));
+    told += tiles.list()[t].sources, found += number, wrong += std::abs(tiles.list()[t].sources - number);
+  }
+  EXPECT_GT(found, 1.05 * 50'000) << "few are near a border";
+  EXPECT_NEAR(told, found, 0.1 * found);
+  EXPECT_LT(wrong, 0.15 * found);
+}
+
 TEST_P(EveryDimension, FollowFromTheParticlesAlone) {
   const Lattice lattice = box(GetParam(), GetParam() == 2 ? 200 : 60);
   const Particles particles = cloud(GetParam(), 3000);

@@ -1,5 +1,6 @@
 // A density by tiles against one sum for all: processor seconds on one thread, alternating, and what the tiles of N
-// ranks take together and at most, each rank a thread. docs/distributed.md has the table.
+// ranks take together and at most. Each rank is a thread, and they work in turns, so that none has to share caches and
+// memory with another. docs/distributed.md has the table.
 //
 //   bench_tiles [rounds]          all rows
 //   bench_tiles [rounds] ROW      one of: cone2 cone3 uniform3
@@ -119,7 +120,7 @@ OfRanks on(int size, const Scene& scene) {
     const Tiles tiles = tiles_now();
     std::vector<double> work;
     for (const Tile& tile : tiles.list())
-      work.push_back(static_cast<double>(tile.particles) + 0.1 * static_cast<double>(tile.size()));
+      work.push_back(tile.sources + (own.dimension == 2 ? 0.1 : 0.035) * static_cast<double>(tile.size()));
     const std::vector<int> owner = share_tiles(work, size);
     place_particles(own, tiles, owner, ranks);
     std::vector<char> owned;
@@ -132,7 +133,7 @@ OfRanks on(int size, const Scene& scene) {
     const double seconds = processor_seconds() - begun;
     const std::lock_guard lock(mutex);
     all.sum += seconds, all.largest = std::max(all.largest, seconds), all.felt += felt.size();
-  });
+  }, 1, InTurns::yes);
   return all;
 }
 
