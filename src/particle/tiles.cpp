@@ -120,8 +120,8 @@ void Tiles::divide(const std::vector<std::vector<std::int64_t>>& counts, const T
 
 // As if particles were spread evenly over each of the smallest cells.
 double Tiles::sources_of(const Tile& tile, const std::vector<std::int64_t>& smallest) const {
-  const double reach = reach_ / lattice_.spacing;  // in grid points
-  Indices low{}, high{};                           // cells that have a part within reach
+  const double reach = reach_ / lattice_.spacing;         // in grid points
+  Indices low{}, high{};                                  // cells that have a part within reach
   std::array<std::vector<double>, max_dimension> within;  // that part of each of them
   for (int k = 0; k < max_dimension; ++k) {
     const double from = static_cast<double>(tile.first[k]) - reach;

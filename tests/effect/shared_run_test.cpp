@@ -26,7 +26,7 @@ Case spec_of(const Kind& kind) {
   std::vector<std::string> overrides = {
       "particles.per_axis=1001", "density.shape=\"wendland\"",       "density.center=[0.4, 0.05]",
       "density.radius=0.15",     "velocity.u=[\"-y+0.1*x\", \"x\"]", "output.times=[0, 0.3, 0.5]",
-      "evaluate.per_axis=300",  "evaluate.tile_particles=500",      "output.vtk=[\"particles\"]"};
+      "evaluate.per_axis=300",   "evaluate.tile_particles=500",      "output.vtk=[\"particles\"]"};
   overrides.insert(overrides.end(), kind.overrides.begin(), kind.overrides.end());
   return scene_of(overrides);
 }

@@ -106,34 +106,37 @@ struct OfRanks {
 OfRanks on(int size, const Scene& scene) {
   OfRanks all;
   std::mutex mutex;
-  on_ranks(size, [&](base::Communicator& ranks) {
-    std::vector<std::size_t> some;
-    for (std::size_t j = 0; j < scene.particles.size(); ++j)
-      if (j / 1024 % static_cast<std::size_t>(size) == static_cast<std::size_t>(ranks.rank())) some.push_back(j);
-    Particles own;
-    own.dimension = scene.particles.dimension;
-    unpack(pack(scene.particles, some), own);
-    const auto tiles_now = [&] {
-      return tiles_of(own, scene.cutoff, scene.lattice, scene.options,
-                      [&](std::vector<std::int64_t>& counts) { ranks.sum(counts); });
-    };
-    const Tiles tiles = tiles_now();
-    std::vector<double> work;
-    for (const Tile& tile : tiles.list())
-      work.push_back(tile.sources + (own.dimension == 2 ? 0.1 : 0.035) * static_cast<double>(tile.size()));
-    const std::vector<int> owner = share_tiles(work, size);
-    place_particles(own, tiles, owner, ranks);
-    std::vector<char> owned;
-    for (const int rank : owner) owned.push_back(rank == ranks.rank());
-    ranks.barrier();
-    const double begun = processor_seconds();
-    const Particles felt = felt_from_elsewhere(own, tiles, owner, ranks);
-    DensityReport report;
-    evaluate_tiles({own, felt}, tiles, owned, scene.cutoff, scene.lattice, scene.options, ranks, report);
-    const double seconds = processor_seconds() - begun;
-    const std::lock_guard lock(mutex);
-    all.sum += seconds, all.largest = std::max(all.largest, seconds), all.felt += felt.size();
-  }, 1, InTurns::yes);
+  on_ranks(
+      size,
+      [&](base::Communicator& ranks) {
+        std::vector<std::size_t> some;
+        for (std::size_t j = 0; j < scene.particles.size(); ++j)
+          if (j / 1024 % static_cast<std::size_t>(size) == static_cast<std::size_t>(ranks.rank())) some.push_back(j);
+        Particles own;
+        own.dimension = scene.particles.dimension;
+        unpack(pack(scene.particles, some), own);
+        const auto tiles_now = [&] {
+          return tiles_of(own, scene.cutoff, scene.lattice, scene.options,
+                          [&](std::vector<std::int64_t>& counts) { ranks.sum(counts); });
+        };
+        const Tiles tiles = tiles_now();
+        std::vector<double> work;
+        for (const Tile& tile : tiles.list())
+          work.push_back(tile.sources + (own.dimension == 2 ? 0.1 : 0.035) * static_cast<double>(tile.size()));
+        const std::vector<int> owner = share_tiles(work, size);
+        place_particles(own, tiles, owner, ranks);
+        std::vector<char> owned;
+        for (const int rank : owner) owned.push_back(rank == ranks.rank());
+        ranks.barrier();
+        const double begun = processor_seconds();
+        const Particles felt = felt_from_elsewhere(own, tiles, owner, ranks);
+        DensityReport report;
+        evaluate_tiles({own, felt}, tiles, owned, scene.cutoff, scene.lattice, scene.options, ranks, report);
+        const double seconds = processor_seconds() - begun;
+        const std::lock_guard lock(mutex);
+        all.sum += seconds, all.largest = std::max(all.largest, seconds), all.felt += felt.size();
+      },
+      1, InTurns::yes);
   return all;
 }
 
