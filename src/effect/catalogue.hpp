@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/catalogue.hpp"
+#include "base/communicator.hpp"
 #include "base/named.hpp"
 #include "effect/effect.hpp"
 #include "field/scalar.hpp"
@@ -81,6 +82,8 @@ struct EffectScene {
   const ScalarField* carried;  // and of NamedEffect::carried
   /// Carries particles from their lattice nodes to the places that they would have reached by now.
   std::function<void(Particles& particles)> follow;
+  base::Communicator& ranks;  // that share the particles
+  RankAt rank_at;
   int threads;
 
   /// Volume of a particle at the start.

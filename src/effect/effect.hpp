@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -32,6 +33,9 @@ struct Changes {
   bool width = false;      // of the blobs
   bool particles = false;  // adds or replaces particles
 };
+
+/// The rank that has the tile in which this place lies.
+using RankAt = std::function<int(const Vector& place)>;
 
 class Effect {
  public:
@@ -68,6 +72,13 @@ class Effect {
   virtual bool rearrange(Particles& /*particles*/, double /*time*/) { return false; }
 
   virtual void land(Particles& /*particles*/, double /*time*/) {}
+
+  /// Where ranks share the particles, all of them call every hook together. True if hooks of this effect talk with those
+  /// of the other ranks; then they agree on errors as well (base/communicator.hpp). Those of other effects work with the
+  /// particles of this rank.
+  virtual bool talks_to_ranks() const { return false; }
+  /// Particles have gone to other ranks or have come from there.
+  virtual void placed(const Particles& /*particles*/) {}
 
   /// What it has gathered since begin() beside what the particles hold: writes it, or takes it up in a run that goes on
   /// with these particles. begin() has been called before.

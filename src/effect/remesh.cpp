@@ -3,119 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
+#include "base/exact_sum.hpp"
 #include "effect/catalogue.hpp"
 #include "gaussdrift/error.hpp"
+#include "particle/placing.hpp"
 
 namespace gaussdrift {
 
-namespace {
+Remesh::Remesh(const Lattice& lattice, const Options& options) : Remesh(lattice, options, alone_, {}) {}
 
-// What one particle gives to the nodes first .. first + weights.size() - 1 of an axis.
-struct AxisWeights {
-  std::int64_t first = 0;
-  std::vector<double> weights;
-};
-
-// Weights on the nodes of the unbounded lattice, in tiles that exist only where particles are.
-class TiledSum {
- public:
-  TiledSum(int dimension, std::size_t memory_limit) : dimension_(dimension), memory_limit_(memory_limit) {
-    for (int k = 0; k < dimension; ++k) tile_size_ *= side;
-  }
-
-  void add(const std::array<AxisWeights, max_dimension>& axes, double weight) {
-    const std::size_t nz = dimension_ > 2 ? axes[2].weights.size() : 1, ny = axes[1].weights.size();
-    NodeIndex at{};
-    for (std::size_t iz = 0; iz < nz; ++iz) {
-      if (dimension_ > 2) at[2] = axes[2].first + static_cast<std::int64_t>(iz);
-      const double wz = dimension_ > 2 ? weight * axes[2].weights[iz] : weight;
-      for (std::size_t iy = 0; iy < ny; ++iy) {
-        at[1] = axes[1].first + static_cast<std::int64_t>(iy);
-        const double wy = wz * axes[1].weights[iy];
-        const std::size_t nx = axes[0].weights.size();
-        for (std::size_t ix = 0; ix < nx;) {  // stretches that lie in one tile
-          at[0] = axes[0].first + static_cast<std::int64_t>(ix);
-          double* line = node(at);
-          const std::size_t stretch = std::min(nx - ix, static_cast<std::size_t>(side - floor_mod(at[0])));
-          for (std::size_t i = 0; i < stretch; ++i) line[i] += wy * axes[0].weights[ix + i];
-          ix += stretch;
-        }
-      }
-    }
-  }
-
-  // Calls visit(index, value) for all nodes of all tiles, tiles in ascending order of their place.
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    std::vector<const Tile*> ordered;
-    for (const Tile& tile : tiles_) ordered.push_back(&tile);
-    std::sort(ordered.begin(), ordered.end(), [](const Tile* a, const Tile* b) {
-      return std::lexicographical_compare(a->place.rbegin(), a->place.rend(), b->place.rbegin(), b->place.rend());
-    });
-    for (const Tile* tile : ordered)
-      for (std::size_t n = 0; n < tile_size_; ++n) {
-        NodeIndex index{};
-        std::size_t rest = n;
-        for (int k = 0; k < dimension_; ++k) {
-          index[k] = tile->place[k] * side + static_cast<std::int64_t>(rest % static_cast<std::size_t>(side));
-          rest /= static_cast<std::size_t>(side);
-        }
-        visit(index, tile->values[n]);
-      }
-  }
-
- private:
-  static constexpr std::int64_t side = 8;  // nodes of a tile an axis: a few kilobytes in 3D
-
-  struct Tile {
-    NodeIndex place{};
-    std::vector<double> values;
-  };
-
-  static std::int64_t floor_mod(std::int64_t i) { return ((i % side) + side) % side; }
-
-  double* node(const NodeIndex& at) {
-    NodeIndex place{};
-    std::size_t offset = 0;
-    for (int k = dimension_ - 1; k >= 0; --k) {
-      const std::int64_t inside = floor_mod(at[k]);
-      place[k] = (at[k] - inside) / side;
-      offset = offset * static_cast<std::size_t>(side) + static_cast<std::size_t>(inside);
-    }
-    if (tiles_.empty() || place != tiles_[last_].place) last_ = find_or_make(place);
-    return tiles_[last_].values.data() + offset;
-  }
-
-  std::size_t find_or_make(const NodeIndex& place) {
-    std::uint64_t key = 0;
-    for (int k = 0; k < dimension_; ++k)
-      key = key * 0x200003u + static_cast<std::uint64_t>(place[k] + (std::int64_t{1} << 30));
-    auto& same_key = by_key_[key];  // the key is a hash: places are compared
-    for (const std::size_t index : same_key)
-      if (tiles_[index].place == place) return index;
-    if ((tiles_.size() + 1) * (tile_size_ * sizeof(double) + 128) > memory_limit_)
-      throw NumericalError(fmt::format(
-          "remesh would need more than {} GiB for the nodes around the particles, because the particles lie too "
-          "scattered. Remesh more often ([effects.remesh] every), lower particles.per_axis, or shorten time.end.",
-          memory_limit_ >> 30));
-    same_key.push_back(tiles_.size());
-    tiles_.push_back({place, std::vector<double>(tile_size_, 0.0)});
-    return tiles_.size() - 1;
-  }
-
-  int dimension_;
-  std::size_t memory_limit_, tile_size_ = 1, last_ = 0;
-  std::vector<Tile> tiles_;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> by_key_;
-};
-
-}  // namespace
-
-Remesh::Remesh(const Lattice& lattice, const Options& options)
-    : nodes_(lattice), options_(options), kernel_(find_remesh_kernel(options.kernel)) {}
+Remesh::Remesh(const Lattice& lattice, const Options& options, base::Communicator& ranks, RankAt rank_at)
+    : ranks_(ranks),
+      rank_at_(std::move(rank_at)),
+      nodes_(lattice),
+      options_(options),
+      kernel_(find_remesh_kernel(options.kernel)) {}
 
 std::string Remesh::describe() const {
   const std::string when = options_.every > 0 ? fmt::format("every {} steps", options_.every)
@@ -135,98 +42,203 @@ bool Remesh::rearrange(Particles& particles, double /*time*/) {
   return due;
 }
 
-void Remesh::find_neighbours(const Particles& particles) {
+// Calls alone(j) for a particle that has not all of its neighbours here.
+template <class Alone>
+Remesh::Pairs Remesh::neighbours(const Particles& particles, const Alone& alone) const {
   std::unordered_map<std::int64_t, std::size_t> at;
   at.reserve(particles.size());
   for (std::size_t j = 0; j < particles.size(); ++j) at.emplace(particles.id[j], j);
-  neighbours_.clear();
+  Pairs pairs;
+  std::vector<int> met(particles.size(), 0);
   for (std::size_t j = 0; j < particles.size(); ++j)
     for (int k = 0; k < particles.dimension; ++k) {
       NodeIndex next = nodes_.index(particles.id[j]);
       ++next[k];
       if (next[k] >= nodes_.reach()) continue;
-      if (const auto found = at.find(nodes_.id(next)); found != at.end()) neighbours_.emplace_back(j, found->second);
+      if (const auto found = at.find(nodes_.id(next)); found != at.end()) {
+        pairs.emplace_back(j, found->second);
+        ++met[j], ++met[found->second];
+      }
     }
+  for (std::size_t j = 0; j < particles.size(); ++j)
+    if (met[j] < 2 * particles.dimension) alone(j);
+  return pairs;
+}
+
+void Remesh::find_neighbours(const Particles& particles) {
+  at_border_.clear();
+  neighbours_ = neighbours(particles, [&](std::size_t j) {
+    if (ranks_.size() > 1) at_border_.push_back(j);
+  });
   known_ = particles.size();
 }
 
 double Remesh::largest_stretch(const Particles& particles) {
-  if (known_ != particles.size()) find_neighbours(particles);
   double heaviest = 0;
-  for (const double alpha : particles.alpha) heaviest = std::max(heaviest, std::abs(alpha));
+  ranks_.agree_on([&] {
+    if (known_ != particles.size()) find_neighbours(particles);
+    for (const double alpha : particles.alpha) heaviest = std::max(heaviest, std::abs(alpha));
+  });
+  ranks_.max(std::span(&heaviest, 1));
   // Particles of nearly no weight, as in a halo, may be far from each other without harm.
   const double light = 1e-6 * heaviest;
-  double longest = 0;
-  for (const auto& [a, b] : neighbours_) {
-    if (std::abs(particles.alpha[a]) < light && std::abs(particles.alpha[b]) < light) continue;
-    double square = 0;
-    for (int k = 0; k < particles.dimension; ++k) {
-      const double distance = particles.position[k][a] - particles.position[k][b];
-      square += distance * distance;
+  const auto longest_of = [&](const Particles& some, const Pairs& pairs) {
+    double longest = 0;
+    for (const auto& [a, b] : pairs) {
+      if (std::abs(some.alpha[a]) < light && std::abs(some.alpha[b]) < light) continue;
+      double square = 0;
+      for (int k = 0; k < some.dimension; ++k) {
+        const double distance = some.position[k][a] - some.position[k][b];
+        square += distance * distance;
+      }
+      longest = std::max(longest, square);
     }
-    longest = std::max(longest, square);
+    return longest;
+  };
+  double longest = longest_of(particles, neighbours_);
+  if (ranks_.size() > 1) {
+    const Particles met = met_by_others(particles);
+    ranks_.agree_on([&] { longest = std::max(longest, longest_of(met, neighbours(met, [](std::size_t) {}))); });
+    ranks_.max(std::span(&longest, 1));
   }
   return std::sqrt(longest) / nodes_.lattice().spacing;
 }
 
+// Neighbours that are on different ranks meet on a third, which the node of the lower one tells. Blocks of nodes are
+// spread over the ranks as if at random.
+Particles Remesh::met_by_others(const Particles& particles) const {
+  const auto ranks = static_cast<std::size_t>(ranks_.size());
+  const auto meeting = [&](const NodeIndex& node) {
+    std::uint64_t key = 0;
+    for (int k = 0; k < nodes_.dimension(); ++k)
+      key = (key ^ static_cast<std::uint64_t>(node[k] >> 5)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>((key >> 32) % ranks);
+  };
+  std::vector<base::Bytes> out(ranks);
+  ranks_.agree_on([&] {
+    std::vector<std::vector<std::size_t>> chosen(ranks);
+    const auto send = [&](std::size_t j, const NodeIndex& node) {
+      auto& list = chosen[meeting(node)];
+      if (list.empty() || list.back() != j) list.push_back(j);
+    };
+    for (const std::size_t j : at_border_) {
+      const NodeIndex node = nodes_.index(particles.id[j]);
+      send(j, node);
+      for (int k = 0; k < nodes_.dimension(); ++k) {
+        NodeIndex lower = node;
+        --lower[k];
+        send(j, lower);
+      }
+    }
+    for (std::size_t r = 0; r < ranks; ++r) out[r] = pack_bare(particles, chosen[r]);
+  });
+  return exchanged(particles.dimension, std::move(out));
+}
+
+Particles Remesh::exchanged(int dimension, std::vector<base::Bytes> out) const {
+  Particles bare;
+  bare.dimension = dimension;
+  for (const base::Bytes& bytes : ranks_.exchange(std::move(out))) unpack(bytes, bare);
+  sort_by_id(bare);
+  return bare;
+}
+
+// What the particle gives to the nodes around it.
+void Remesh::share(const Particles& particles, std::size_t j, double spread, NodeWeights& axes) const {
+  const double h = nodes_.lattice().spacing;
+  for (int k = 0; k < particles.dimension; ++k) {
+    const double place = (particles.position[k][j] - nodes_.lattice().origin[k]) / h;
+    if (!(std::abs(place) < static_cast<double>(nodes_.reach() / 2)))
+      throw NumericalError(
+          fmt::format("particle {} is {:.3g} lattice spacings away from the corner of the domain, which is too far "
+                      "for remesh. Shorten time.end, or enlarge the domain.",
+                      particles.id[j], std::abs(place)));
+    kernel_.share(place, spread, axes[k].first, axes[k].weights);
+  }
+}
+
+int Remesh::owner(const NodeIndex& first_of_block) const { return rank_at_(nodes_.position(first_of_block)); }
+
+// The particles of all ranks that give something to nodes of this one.
+Particles Remesh::felt_here(const Particles& particles, double spread) const {
+  std::vector<base::Bytes> out(static_cast<std::size_t>(ranks_.size()));
+  ranks_.agree_on([&] {
+    std::vector<std::vector<std::size_t>> chosen(out.size());
+    NodeWeights axes;
+    for (std::size_t j = 0; j < particles.size(); ++j) {
+      if (particles.alpha[j] == 0) continue;
+      share(particles, j, spread, axes);
+      NodeSums::for_each_block(axes, particles.dimension, [&](const NodeIndex& first) {
+        auto& list = chosen[static_cast<std::size_t>(owner(first))];
+        if (list.empty() || list.back() != j) list.push_back(j);
+      });
+    }
+    for (std::size_t r = 0; r < out.size(); ++r) out[r] = pack_bare(particles, chosen[r]);
+  });
+  return exchanged(particles.dimension, std::move(out));
+}
+
+// A node's sum is taken on one rank, in the order of ids. Sums over nodes are exact. So bits do not depend on the ranks.
 void Remesh::remesh(Particles& particles) {
   const int dimension = particles.dimension;
-  const double h = nodes_.lattice().spacing;
-  const double spread = particles.spread / (h * h);
-  const bool into_weights = spread > 0 && spread >= kernel_.takes_spread;
-
-  TiledSum sum(dimension, options_.memory_limit);
-  std::array<AxisWeights, max_dimension> axes;
-  for (std::size_t j = 0; j < particles.size(); ++j) {
-    if (particles.alpha[j] == 0) continue;
-    for (int k = 0; k < dimension; ++k) {
-      const double place = (particles.position[k][j] - nodes_.lattice().origin[k]) / h;
-      if (!(std::abs(place) < static_cast<double>(nodes_.reach() / 2)))
-        throw NumericalError(
-            fmt::format("particle {} is {:.3g} lattice spacings away from the corner of the domain, which is too far "
-                        "for remesh. Shorten time.end, or enlarge the domain.",
-                        particles.id[j], std::abs(place)));
-      kernel_.share(place, into_weights ? spread : 0, axes[k].first, axes[k].weights);
+  const double spread = particles.spread / (nodes_.lattice().spacing * nodes_.lattice().spacing);
+  const bool into_weights = spread > 0 && spread >= kernel_.takes_spread, several = ranks_.size() > 1;
+  NodeSums::IsOwn is_own;
+  if (several) is_own = [&](const NodeIndex& first) { return owner(first) == ranks_.rank(); };
+  NodeSums sums(dimension, options_.memory_limit, is_own);
+  const Particles felt = several ? felt_here(particles, into_weights ? spread : 0) : Particles();
+  const Particles& sources = several ? felt : particles;
+  double heaviest = 0;
+  ranks_.agree_on([&] {
+    NodeWeights axes;
+    for (std::size_t j = 0; j < sources.size(); ++j) {
+      if (sources.alpha[j] == 0) continue;
+      share(sources, j, into_weights ? spread : 0, axes);
+      sums.add(axes, sources.alpha[j]);
     }
-    sum.add(axes, particles.alpha[j]);
-  }
-
-  double before = 0, heaviest = 0;
-  for (const double alpha : particles.alpha) before += alpha;
-  sum.for_each([&](const NodeIndex&, double value) { heaviest = std::max(heaviest, std::abs(value)); });
+    heaviest = sums.largest();
+  });
+  ranks_.max(std::span(&heaviest, 1));
   if (heaviest == 0) return;  // nothing to carry
+
   Particles fresh;
   fresh.dimension = dimension;
-  double total = 0, dropped = 0, negative = 0, mass = 0;
-  sum.for_each([&](const NodeIndex& index, double value) {
-    total += std::abs(value);
-    if (value == 0 || std::abs(value) < options_.tolerance * heaviest) {
-      dropped += std::abs(value);
-      return;
-    }
-    const Vector x = nodes_.position(index);
-    for (int k = 0; k < dimension; ++k) fresh.position[k].push_back(x[k]);
-    fresh.alpha.push_back(value);
-    fresh.id.push_back(nodes_.id(index));
-    mass += value;
-    negative += std::max(0.0, -value);
+  enum Total : std::size_t { before, all, dropped, kept, negative, totals };
+  std::array<base::ExactSum, totals> exact;
+  ranks_.agree_on([&] {
+    exact[before].add(particles.alpha);
+    sums.for_each([&](const NodeIndex& index, double value) {
+      if (value == 0) return;
+      exact[all].add(std::abs(value));
+      if (std::abs(value) < options_.tolerance * heaviest) return exact[dropped].add(std::abs(value));
+      const Vector x = nodes_.position(index);
+      for (int k = 0; k < dimension; ++k) fresh.position[k].push_back(x[k]);
+      fresh.alpha.push_back(value);
+      fresh.id.push_back(nodes_.id(index));
+      exact[kept].add(value);
+      if (value < 0) exact[negative].add(-value);
+    });
   });
+  sum_over_ranks(ranks_, exact);
+  const auto total = [&](Total which) { return exact[which].value(); };
   // The weight of nodes that are left out, and the rounding, go to the other nodes in proportion to their size.
-  for (double& alpha : fresh.alpha) alpha += (before - mass) * std::abs(alpha) / (total - dropped);
+  const double missing = (total(before) - total(kept)) / (total(all) - total(dropped));
+  for (double& alpha : fresh.alpha) alpha += missing * std::abs(alpha);
   if (!particles.volume.empty()) fresh.volume.assign(fresh.size(), nodes_.cell());
   fresh.path.resize(particles.path.size());
   for (auto& integral : fresh.path) integral.assign(fresh.size(), 0.0);
   fresh.spread = into_weights ? 0 : particles.spread;
+  sort_by_id(fresh);  // those beyond the lattice come first
   particles = std::move(fresh);
-  known_ = 0;
+  known_ = unknown;
   ++remeshings_;
-  most_negative_ = std::max(most_negative_, negative / total);
-  most_dropped_ = std::max(most_dropped_, dropped / total);
+  most_negative_ = std::max(most_negative_, total(negative) / total(all));
+  most_dropped_ = std::max(most_dropped_, total(dropped) / total(all));
 }
 
 void Remesh::pass_state(base::StateBytes& bytes, const Particles& /*particles*/) {
   bytes(steps_, remeshings_, most_negative_, most_dropped_);
-  if (bytes.reading()) known_ = 0;  // neighbours follow from the particles
+  if (bytes.reading()) known_ = unknown;  // neighbours follow from the particles
 }
 
 Numbers Remesh::numbers() const {
@@ -249,7 +261,7 @@ std::unique_ptr<Effect> make_remesh(const EffectSpec& effect, const EffectScene&
     options.every = static_cast<int>(effect.number("every"));
   else
     options.stretch = effect.number("stretch");
-  return std::make_unique<Remesh>(scene.seeding, options);
+  return std::make_unique<Remesh>(scene.seeding, options, scene.ranks, scene.rank_at);
 }
 
 }  // namespace

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "effect/effect.hpp"
+#include "effect/node_sums.hpp"
 #include "effect/nodes.hpp"
 #include "effect/remesh_kernel.hpp"
 
@@ -24,12 +27,16 @@ class Remesh : public Effect {
   };
   /// The lattice is continued beyond the domain where particles have left it.
   Remesh(const Lattice& lattice, const Options& options);
+  /// The same where ranks share the particles. They do the rest together.
+  Remesh(const Lattice& lattice, const Options& options, base::Communicator& ranks, RankAt rank_at);
 
   std::string name() const override { return "remesh"; }
   std::string describe() const override;
   Changes changes() const override { return {.position = true, .weight = true, .width = true, .particles = true}; }
   std::string conserves() const override;
 
+  bool talks_to_ranks() const override { return true; }
+  void placed(const Particles& /*particles*/) override { known_ = unknown; }
   bool acts_between_steps() const override { return true; }
   bool rearrange(Particles& particles, double time) override;
   Numbers numbers() const override;
@@ -44,13 +51,27 @@ class Remesh : public Effect {
   double largest_stretch(const Particles& particles);
 
  private:
-  void find_neighbours(const Particles& particles);
+  using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+  static constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
 
+  template <class Alone>
+  Pairs neighbours(const Particles& particles, const Alone& alone) const;
+  void find_neighbours(const Particles& particles);
+  Particles met_by_others(const Particles& particles) const;
+  Particles exchanged(int dimension, std::vector<base::Bytes> out) const;
+  void share(const Particles& particles, std::size_t j, double spread, NodeWeights& axes) const;
+  int owner(const NodeIndex& first_of_block) const;
+  Particles felt_here(const Particles& particles, double spread) const;
+
+  base::Communicator alone_;
+  base::Communicator& ranks_;
+  RankAt rank_at_;
   Nodes nodes_;
   Options options_;
   RemeshKernel kernel_;
-  std::vector<std::pair<std::size_t, std::size_t>> neighbours_;  // pairs of particles on adjacent nodes
-  std::size_t known_ = 0;                                        // particles that neighbours_ was made for
+  Pairs neighbours_;                    // particles of this rank on adjacent nodes
+  std::vector<std::size_t> at_border_;  // particles whose neighbours are perhaps on other ranks
+  std::size_t known_ = unknown;         // particles that these were found for
   std::int64_t steps_ = 0, remeshings_ = 0;
   double most_negative_ = 0;  // largest sum of negative weights after a remeshing, relative to sum |alpha|
   double most_dropped_ = 0;   // largest sum of |weights| left out, likewise

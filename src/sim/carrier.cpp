@@ -42,12 +42,12 @@ std::string stage_of(const Effect& effect) { return "effect " + effect.name(); }
 
 }  // namespace
 
-Carrier::Carrier(const Case& spec, const Scene& scene, int threads) : Carrier(spec, scene, threads, alone_) {}
+Carrier::Carrier(const Case& spec, const Scene& scene, int threads) : Carrier(spec, scene, threads, alone_, {}) {}
 
-Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Communicator& ranks)
+Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Communicator& ranks, const RankAt& rank_at)
     : ranks_(ranks),
       effects_(make_effects(
-          spec, scene, [this](Particles& particles) { follow(particles); }, threads)),
+          spec, scene, [this](Particles& particles) { follow(particles); }, ranks, rank_at, threads)),
       integrating_(integrating(effects_)),
       drifts_(drifts_of(effects_)),
       between_steps_(std::any_of(effects_.begin(), effects_.end(),
@@ -63,16 +63,31 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
   adaptive_.emplace(*scene.velocity, tableau_, integrals_of(integrating_), drifts_, options, ranks);
 }
 
+template <class Hook>
+void Carrier::call(const Effect& effect, const Hook& hook) const {
+  if (effect.talks_to_ranks())
+    hook();
+  else
+    ranks_.agree_on(hook);
+}
+
 void Carrier::begin(Particles& particles, const Particles& sample) {
-  for (const auto& effect : effects_) {
-    effect->look_at(sample);
-    effect->begin(particles, 0);
-  }
-  particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
-  if (is_adaptive() || case_.time.end <= 0) return;
-  flow_ = sample_flow_rates(*scene_.velocity, sample, case_.time.end, difference_length(scene_));
-  refuse_unstable_step();
-  warn_of_jumps(sample);
+  for (const auto& effect : effects_)
+    call(*effect, [&] {
+      effect->look_at(sample);
+      effect->begin(particles, 0);
+    });
+  ranks_.agree_on([&] {
+    particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
+    if (is_adaptive() || case_.time.end <= 0) return;
+    flow_ = sample_flow_rates(*scene_.velocity, sample, case_.time.end, difference_length(scene_));
+    refuse_unstable_step();
+    warn_of_jumps(sample);
+  });
+}
+
+void Carrier::placed(const Particles& particles) {
+  for (const auto& effect : effects_) call(*effect, [&] { effect->placed(particles); });
 }
 
 double Carrier::longest_step(const time::Tableau& tableau, double step) const {
@@ -143,7 +158,7 @@ bool Carrier::carry(Particles& particles, Leg& leg, std::size_t steps_before, St
                     const std::function<bool(const Leg& leg)>& go_on) {
   const bool arrived = adaptive_ ? adapt(particles, leg, steps_before, stages, go_on)
                                  : step(particles, leg, steps_before, stages, go_on);
-  if (arrived) ranks_.agree_on([&] { land(particles, leg.to, stages); });
+  if (arrived) land(particles, leg.to, stages);
   return arrived;
 }
 
@@ -217,10 +232,7 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
   while (leg.steps < interval.steps()) {
     const std::size_t count = std::min(batch, interval.steps() - leg.steps);
     const std::size_t first = leg.steps;
-    bool taken = true;
-    ranks_.agree_on(
-        [&] { taken = attempt(particles, [&] { advance(particles, interval, first, count, steps_before, stages); }); });
-    if (!taken) return false;
+    if (!attempt(particles, [&] { advance(particles, interval, first, count, steps_before, stages); })) return false;
     leg.steps += count;
     leg.now = interval.start(leg.steps);
     if (!all_go_on(go_on, leg) && leg.steps < interval.steps()) return false;
@@ -271,6 +283,11 @@ bool Carrier::has_steps_until(double now) const {
 
 void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                          std::size_t steps_before, StageTimes& stages) const {
+  ranks_.agree_on([&] { take_own_steps(particles, interval, first, count, steps_before, stages); });
+}
+
+void Carrier::take_own_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+                             std::size_t steps_before, StageTimes& stages) const {
   const base::Stopwatch watch;
   const StepperSeconds spent = stepper_.advance(particles, interval, first, count, steps_before);
   // With drifts there is one block, on one thread.
@@ -286,14 +303,15 @@ void Carrier::take_steps(Particles& particles, const time::Interval& interval, s
 void Carrier::settle(Particles& particles, double time, StageTimes& stages) const {
   for (std::size_t q = 0; q < integrating_.size(); ++q)
     stages.run(stage_of(*integrating_[q]), [&] {
-      integrating_[q]->settle(particles, particles.path[q].data(), time);
+      call(*integrating_[q], [&] { integrating_[q]->settle(particles, particles.path[q].data(), time); });
       std::fill(particles.path[q].begin(), particles.path[q].end(), 0.0);
     });
 }
 
 void Carrier::exchange(Particles& particles, double time, double length, StageTimes& stages) const {
   for (const auto& effect : effects_)
-    if (effect->acts_between_steps()) stages.run(stage_of(*effect), [&] { effect->exchange(particles, time, length); });
+    if (effect->acts_between_steps())
+      stages.run(stage_of(*effect), [&] { call(*effect, [&] { effect->exchange(particles, time, length); }); });
 }
 
 // Particles that stand on their nodes, with nothing integrated yet, take all steps since the others stood on theirs.
@@ -310,19 +328,26 @@ void Carrier::follow(Particles& particles) const {
 
 void Carrier::rearrange(Particles& particles, double time, StageTimes& stages) {
   bool replaced = false;
-  for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->land(particles, time); });
+  bring_up(particles, time, stages);
   for (const auto& effect : effects_)
     if (effect->acts_between_steps())
-      stages.run(stage_of(*effect), [&] { replaced = effect->rearrange(particles, time) || replaced; });
+      stages.run(stage_of(*effect),
+                 [&] { call(*effect, [&] { replaced = effect->rearrange(particles, time) || replaced; }); });
   if (!replaced) return;
   taken_.clear();
-  for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->begin(particles, time); });
+  for (const auto& effect : effects_)
+    stages.run(stage_of(*effect), [&] { call(*effect, [&] { effect->begin(particles, time); }); });
   for (auto& integral : particles.path) integral.assign(particles.size(), 0.0);
 }
 
 void Carrier::land(Particles& particles, double time, StageTimes& stages) const {
   settle(particles, time, stages);
-  for (const auto& effect : effects_) stages.run(stage_of(*effect), [&] { effect->land(particles, time); });
+  bring_up(particles, time, stages);
+}
+
+void Carrier::bring_up(Particles& particles, double time, StageTimes& stages) const {
+  for (const auto& effect : effects_)
+    stages.run(stage_of(*effect), [&] { call(*effect, [&] { effect->land(particles, time); }); });
 }
 
 bool Carrier::replaces_particles() const {

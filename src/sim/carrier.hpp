@@ -25,7 +25,7 @@ class Carrier {
   Carrier(const Case& spec, const Scene& scene, int threads);
   /// The same where other ranks carry the rest of the particles: all of them call what follows together, and throw the
   /// same errors.
-  Carrier(const Case& spec, const Scene& scene, int threads, base::Communicator& ranks);
+  Carrier(const Case& spec, const Scene& scene, int threads, base::Communicator& ranks, const RankAt& rank_at);
   Carrier(const Carrier&) = delete;  // effects refer to it
   Carrier& operator=(const Carrier&) = delete;
 
@@ -34,6 +34,9 @@ class Carrier {
   void begin(Particles& particles) { begin(particles, particles); }
   /// The same from a sample of the particles of all ranks.
   void begin(Particles& particles, const Particles& sample);
+
+  /// Particles have gone to other ranks or have come from there.
+  void placed(const Particles& particles);
 
   /// The longest step <= `step` that begin() accepts with a method of fixed steps, for the particles that it saw last.
   /// begin() may have refused the step of the case before. Not for a case whose method chooses its steps.
@@ -93,6 +96,10 @@ class Carrier {
   void refuse_unstable_step() const;
   void warn_of_jumps(const Particles& particles);
 
+  // A hook of an effect, on all ranks: they agree on how it went.
+  template <class Hook>
+  void call(const Effect& effect, const Hook& hook) const;
+
   // Takes `steps` whole, or leaves particles and effects as they were and returns false.
   bool attempt(Particles& particles, const std::function<void()>& steps);
 
@@ -109,10 +116,13 @@ class Carrier {
 
   void take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                   std::size_t steps_before, StageTimes& stages) const;
+  void take_own_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
+                      std::size_t steps_before, StageTimes& stages) const;
   void exchange(Particles& particles, double time, double length, StageTimes& stages) const;
   void rearrange(Particles& particles, double time, StageTimes& stages);
   void follow(Particles& particles) const;
   void settle(Particles& particles, double time, StageTimes& stages) const;
+  void bring_up(Particles& particles, double time, StageTimes& stages) const;
 
   base::Communicator alone_;
   base::Communicator& ranks_;

@@ -8,7 +8,8 @@
 
 namespace gaussdrift {
 
-Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow, int threads) {
+Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow, base::Communicator& ranks,
+                     const RankAt& rank_at, int threads) {
   Effects made;
   for (const auto& [effect, values] : effects_of(spec.effects)) {
     const auto fields = std::find_if(scene.effect_fields.begin(), scene.effect_fields.end(),
@@ -23,6 +24,8 @@ Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow,
                                          .decay = any ? fields->decay.get() : nullptr,
                                          .carried = any ? fields->carried.get() : nullptr,
                                          .follow = follow,
+                                         .ranks = ranks,
+                                         .rank_at = rank_at,
                                          .threads = threads}));
   }
   return made;

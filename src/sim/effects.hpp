@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "effect/effect.hpp"
 
 namespace gaussdrift {
@@ -17,7 +18,8 @@ using Effects = std::vector<std::unique_ptr<Effect>>;
 /// Carries particles from their lattice nodes to the places that they would have reached by now.
 using Follow = std::function<void(Particles& particles)>;
 
-/// In the order in which they act. The scene and what `follow` refers to must outlive them.
-Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow, int threads);
+/// In the order in which they act. The scene, the ranks and what `follow` and `rank_at` refer to must outlive them.
+Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow, base::Communicator& ranks,
+                     const RankAt& rank_at, int threads);
 
 }  // namespace gaussdrift

@@ -29,6 +29,7 @@ class Placement {
   std::size_t particle_count() const;
   const std::vector<int>& owner() const { return owner_; }
   std::vector<char> owned() const;
+  int owner_of(const Vector& place) const { return owner_[tiles_->of(place)]; }
   /// One tile: rank 0 has all particles.
   bool one_tile() const { return tiles_->list().size() == 1; }
 

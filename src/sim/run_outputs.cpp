@@ -99,6 +99,7 @@ void Simulation::Parts::place(double from) {
   Tiles tiles = tiles_of(particles_, blob(), scene_.evaluation, density_options(),
                          [&](std::vector<std::int64_t>& counts) { ranks_.sum(counts); });
   place_.renew(particles_, std::move(tiles), work_of_tiles(case_, *scene_.velocity, from));
+  if (ranks_.size() > 1) carrier_.placed(particles_);
 }
 
 double Simulation::Parts::mass() const { return measure_particles(particles_, case_.domain, place_, threads_).mass; }

@@ -14,11 +14,7 @@ namespace gaussdrift {
 
 std::string why_not_shared(const Case& spec, const VelocityField& velocity) {
   for (const auto& [effect, values] : effects_of(spec.effects)) {
-    const EffectTraits& traits = effect->traits;
-    const int dimension = spec.domain.dimension;
-    const bool by_widths = effect->spreading && effect->spreading(values) > 0;  // each blob spreads by itself
-    if (traits.particles_interact || traits.adds_particles.of(values, dimension) ||
-        traits.replaces_particles.of(values, dimension) || (traits.moves_weight.of(values, dimension) && !by_widths))
+    if (effect->traits.particles_interact || effect->traits.adds_particles.of(values, spec.domain.dimension))
       return fmt::format("[effects.{}] needs all particles in one process", values.name);
   }
   return velocity.evaluates_in_blocks() ? "" : "this velocity is evaluated at all particles at once";

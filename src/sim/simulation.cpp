@@ -69,7 +69,7 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
       ranks_(ranks ? *ranks : alone_),
       place_(ranks_),
       scene_(make_scene(case_, threads_)),
-      carrier_(case_, scene_, threads_, ranks_),
+      carrier_(case_, scene_, threads_, ranks_, [this](const Vector& place) { return place_.owner_of(place); }),
       landings_(landings(case_)),
       pieces_(scene_.evaluation, case_.evaluate.piece_points) {
   if (ranks_.size() == 1) return;
@@ -109,7 +109,7 @@ void Simulation::Parts::make_ready() {
   largest_at_start_ = heavy.anywhere / std::pow(scene_.seeding.spacing, scene_.seeding.dimension);
   beyond_at_start_ = part_beyond(scene_.density->mass(), heavy, mass_at_start_);
   const Particles sample = place_.sample(particles_, sampled_particles);
-  ranks_.agree_on([&] { carrier_.begin(particles_, sample); });
+  carrier_.begin(particles_, sample);
   ranks_.agree_on([&] { velocity_at_particles(0, false); });
   check_density_seconds();
   plan_reference();

@@ -74,6 +74,12 @@ void expect_same(const std::vector<Seen>& a, const std::vector<Seen>& b) {
   }
 }
 
+std::vector<Numbers> effects_of(const RunSummary& summary) {
+  std::vector<Numbers> numbers;
+  for (const EffectSummary& effect : summary.effects) numbers.push_back(effect.numbers);
+  return numbers;
+}
+
 class SharedRun : public testing::TestWithParam<Kind> {};
 
 TEST_P(SharedRun, HasTheBitsOfOneRank) {
@@ -82,10 +88,16 @@ TEST_P(SharedRun, HasTheBitsOfOneRank) {
   std::vector<Seen> expected;
   watch(alone, expected);
   const RunSummary once = alone.run();
-  if (GetParam().refused.empty()) {
+  const bool one_tile = GetParam().name.find("one_tile") != std::string::npos;
+  if (GetParam().refused.empty() && !one_tile) {
     EXPECT_NE(once.transform_choice.find(" tiles"), std::string::npos);
   }
-  for (const int size : {2, 3, 5}) {
+  for (const EffectSummary& effect : once.effects)
+    for (const auto& [what, number] : effect.numbers)
+      if (what == "remeshings") {
+        EXPECT_GE(number, 2);
+      }
+  for (const int size : {2, 3, 4, 8}) {
     std::vector<Seen> seen;
     Particles at_end;
     std::string told;
@@ -97,7 +109,10 @@ TEST_P(SharedRun, HasTheBitsOfOneRank) {
       EXPECT_EQ(summary.particles, once.particles);
       EXPECT_EQ(summary.seeding.carried.front().all, once.seeding.carried.front().all);
       EXPECT_EQ(summary.beyond_at_start, once.beyond_at_start);
-      EXPECT_LT(simulation.particles().size(), once.particles) << "they are shared";
+      EXPECT_EQ(effects_of(summary), effects_of(once));
+      if (!one_tile) {
+        EXPECT_LT(simulation.particles().size(), alone.particles().size()) << "they are shared";
+      }
       Particles all = simulation.all_particles();
       if (ranks.rank() == 0) at_end = std::move(all);
     });
@@ -123,16 +138,24 @@ const std::string characteristics = "reference.kind=\"characteristics\"";
 
 INSTANTIATE_TEST_SUITE_P(
     , SharedRun,
-    testing::Values(Kind{"transport", {}}, Kind{"adaptive", {"time.method=\"dopri5\"", "time.tolerance=1e-6"}},
-                    Kind{"reaction", {"effects.reaction.rate=\"1+x\"", characteristics}},
-                    Kind{"spreading", {"effects.diffusion.D=1e-6", "effects.diffusion.method=\"core-spreading\""}},
-                    Kind{"compared", {characteristics}},
-                    Kind{"everywhere", {characteristics, "reference.points=1000000"}},
-                    Kind{"formula", {"reference.kind=\"exact\"", "reference.rho=\"exp(-x^2-y^2-t)\""}},
-                    Kind{"sampled", {characteristics, "reference.points=500"}},
-                    Kind{"threshold", {"particles.threshold=0.01"}},
-                    Kind{"remesh", {"effects.remesh.every=2"}, "[effects.remesh] needs all particles"},
-                    Kind{"vortex", {"effects.vortex={}"}, "[effects.vortex] needs all particles"}),
+    testing::Values(
+        Kind{"transport", {}}, Kind{"adaptive", {"time.method=\"dopri5\"", "time.tolerance=1e-6"}},
+        Kind{"reaction", {"effects.reaction.rate=\"1+x\"", characteristics}},
+        Kind{"spreading", {"effects.diffusion.D=1e-6", "effects.diffusion.method=\"core-spreading\""}},
+        Kind{"compared", {characteristics}}, Kind{"everywhere", {characteristics, "reference.points=1000000"}},
+        Kind{"formula", {"reference.kind=\"exact\"", "reference.rho=\"exp(-x^2-y^2-t)\""}},
+        Kind{"sampled", {characteristics, "reference.points=500"}}, Kind{"threshold", {"particles.threshold=0.01"}},
+        Kind{"remesh", {"effects.remesh.every=1"}},
+        Kind{"remesh_at_stretch", {"effects.remesh.stretch=1.015", "effects.remesh.kernel=\"m4prime\""}},
+        Kind{"remesh_adaptive",
+             {"effects.remesh.every=2", "time.method=\"dopri5\"", "time.tolerance=1e-6",
+              "effects.reaction.rate=\"1+x\"", characteristics}},
+        Kind{"remesh_spread",
+             {"effects.remesh.every=2", "effects.diffusion.D=1e-6", "effects.diffusion.method=\"core-spreading\""}},
+        Kind{"remesh_beyond",  // the domain: ids of nodes there are negative
+             {"effects.remesh.every=2", "velocity.u=[\"-0.5\", \"0.3\"]", "density.center=[-0.7, 0.05]"}},
+        Kind{"remesh_one_tile", {"effects.remesh.every=2", "evaluate.tile_particles=1000000"}},
+        Kind{"vortex", {"effects.vortex={}"}, "[effects.vortex] needs all particles"}),
     [](const auto& kind) { return kind.param.name; });
 
 TEST(SharedRunToo, GoesOnWithAnyNumberOfRanks) {

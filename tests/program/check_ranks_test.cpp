@@ -76,10 +76,10 @@ TEST(CheckRanks, SharesTheTilesOfPieces) {
 
 TEST(CheckRanks, SaysWhatIsRefused) {
   const ScratchFolder folder;
-  write_file(folder / "cone.toml", small_case + "\n[effects.remesh]\n");
+  write_file(folder / "cone.toml", small_case + "\n[effects.vortex]\n");
   const Outcome outcome = gaussdrift_in(folder, "check cone.toml --ranks 2");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("[effects.remesh] needs all particles in one process, so that 2 ranks cannot share this "
+  EXPECT_NE(outcome.out.find("[effects.vortex] needs all particles in one process, so that 2 ranks cannot share this "
                              "case; start it on one rank"),
             std::string::npos)
       << outcome.out;
