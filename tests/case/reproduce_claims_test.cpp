@@ -1,11 +1,11 @@
 // What the thesis claims in its text: which claims hold, which do not, and the numbers beside them.
+#include "parsed_json.hpp"
 #include "reproduce/claims.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 namespace gaussdrift::reproduce {
@@ -67,7 +67,7 @@ TEST(ReproduceClaims, SaysWhichHold) {
   EXPECT_FALSE(claims.at("measured so").holds);
   EXPECT_EQ(claims.at("seconds, pairs").printed, printed.at("seconds_of_pairs"));
   EXPECT_NE(to_text(result).find("5 do not hold"), std::string::npos) << to_text(result);
-  EXPECT_EQ(nlohmann::json::parse(to_json(result))["claims"].size(), result.claims.size());
+  EXPECT_EQ(parsed_json(to_json(result))["claims"].size(), result.claims.size());
 }
 
 }  // namespace

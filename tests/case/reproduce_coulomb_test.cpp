@@ -1,5 +1,6 @@
 // The smallest row of the table of Coulomb forces; the others take seconds each and are for `gaussdrift reproduce
 // coulomb`. What an evaluation costs is counted in tests/farfield/work_test.cpp.
+#include "parsed_json.hpp"
 #include "reproduce/coulomb.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "reproduce/published.hpp"
@@ -53,7 +53,7 @@ TEST(ReproduceCoulomb, ErrorsAreAtMostThePublishedOnes) {
     EXPECT_LT(time->work.pairs, 25e3 * 25e3 / 3);
   }
   EXPECT_NE(to_text(result).find("25000"), std::string::npos);
-  EXPECT_EQ(nlohmann::json::parse(to_json(result))["rows"][0]["tree"]["published_seconds"], printed.at("seconds_tree"));
+  EXPECT_EQ(parsed_json(to_json(result))["rows"][0]["tree"]["published_seconds"], printed.at("seconds_tree"));
 }
 
 // What the program holds is what stands in tests/reference, every file of it.

@@ -1,6 +1,7 @@
 // Tables 3.2 to 3.5, 4.1 to 4.9, 6.1 and 6.2 of the thesis: every printed number stands in the cell where it is
 // printed, the computed one beside it agrees as its comparison says, and automatic keeps its promise. Rows are limited
 // to 20 000 points; `gaussdrift reproduce fgtd --full` takes them all.
+#include "parsed_json.hpp"
 #include "reproduce/fgtd.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string>
@@ -266,7 +266,7 @@ TEST(ReproduceFgtd, TellsHowTablesAreComparedAndWhatIsAPowerOfTenOff) {
     EXPECT_NE(there->why.find("11.3 Q"), std::string::npos);
   }
   for (const auto& off : result.off) EXPECT_FALSE(off.why.empty()) << off.place;
-  const auto json = nlohmann::json::parse(to_json(result));
+  const auto json = parsed_json(to_json(result));
   EXPECT_EQ(json["comparisons"]["arithmetic"], 12);
   EXPECT_EQ(json["off_by_a_power_of_ten"].size(), result.off.size());
 }

@@ -1,10 +1,10 @@
 // The tables of the logarithmic kernel, for few points.
+#include "parsed_json.hpp"
 #include "reproduce/logkernel.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "scratch_folder.hpp"
 
@@ -34,7 +34,7 @@ TEST(ReproduceLogkernel, WritesItsTablesAndPlots) {
   EXPECT_EQ(line, "N,n,blocks,low_rank_blocks,doubles,doubles_shared_bases,doubles_leaf_16,doubles_both");
   std::getline(storage, line);
   EXPECT_EQ(line, "4,0,16,0,16,16,16,16");
-  EXPECT_EQ(nlohmann::json::parse(to_json(result))["errors"].size(), 12u);
+  EXPECT_EQ(parsed_json(to_json(result))["errors"].size(), 12u);
 }
 
 }  // namespace

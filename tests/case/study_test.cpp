@@ -1,10 +1,10 @@
 // Studies: what is varied, observed orders, the front, and rows that say why they failed.
 #include "study/study.hpp"
+#include "parsed_json.hpp"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "case_text.hpp"
 #include "gaussdrift/error.hpp"
@@ -75,7 +75,7 @@ TEST(Study, VariesKeysAndKeepsWhatCannotRun) {
   EXPECT_NE(experiment.notes[0].find("2 with gauss2; 4 with gauss4"), std::string::npos) << experiment.notes[0];
   EXPECT_LT(experiment.samples[4].error, experiment.samples[1].error) << "gauss4 at the same lattice";
   EXPECT_FALSE(experiment.conclusion.empty());
-  const auto json = nlohmann::json::parse(to_json(study));
+  const auto json = parsed_json(to_json(study));
   EXPECT_EQ(json["experiments"][0]["samples"].size(), 6u);
   EXPECT_EQ(json["experiments"][0]["samples"][0]["particles.cutoff"], "gauss2");
   EXPECT_GT(json["experiments"][0]["samples"][0]["L1"], 0);

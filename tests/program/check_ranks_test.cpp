@@ -1,11 +1,11 @@
 // gaussdrift check --ranks: what a run on N ranks would be like, without having them.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "accuracy/rank_forecast.hpp"
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -14,7 +14,7 @@ namespace {
 nlohmann::json ranks_of(const ScratchFolder& folder, const std::string& more) {
   const Outcome outcome = gaussdrift_in(folder, "check cone.toml --json " + more);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return nlohmann::json::parse(outcome.out).value("ranks", nlohmann::json());
+  return parsed_json(outcome.out).value("ranks", nlohmann::json());
 }
 
 // 16 tiles and a cone in 2 % of the domain.

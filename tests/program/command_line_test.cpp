@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -116,7 +116,7 @@ TEST(Check, FindsTheDivergenceOfAFlow) {
   write_file(folder / "small.toml", small_case);
   const Outcome check = gaussdrift_in(folder, "check small.toml --json --set 'velocity.u=[\"0.5*x\", \"0.25*y\"]'");
   ASSERT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_NEAR(nlohmann::json::parse(check.out)["largest_divergence"].get<double>(), 0.75,
+  EXPECT_NEAR(parsed_json(check.out)["largest_divergence"].get<double>(), 0.75,
               1e-15);  // exact for a linear field up to rounding
 }
 
@@ -174,7 +174,7 @@ TEST(Reproduce, GivesOneTableAsJsonOrText) {
   const ScratchFolder folder;
   const Outcome json = gaussdrift_in(folder, "reproduce fgtd --table 4.6 --json");
   EXPECT_EQ(json.exit_code, 0) << json.err;
-  const auto document = nlohmann::json::parse(json.out);
+  const auto document = parsed_json(json.out);
   ASSERT_EQ(document["tables"].size(), 1u);
   EXPECT_EQ(document["tables"][0]["table"], "4.6");
   EXPECT_EQ(document["tables"][0]["rows"].size(), 9u);
@@ -194,7 +194,7 @@ TEST(Reproduce, DrawsTheFigureThatIsNamed) {
   const ScratchFolder folder;
   const Outcome json = gaussdrift_in(folder, "reproduce figures 5.1 --out pictures --json");
   ASSERT_EQ(json.exit_code, 0) << json.err;
-  const auto list = nlohmann::json::parse(json.out);
+  const auto list = parsed_json(json.out);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[0]["figure"], "5.1a");
   for (const auto& figure : list) EXPECT_GT(fs::file_size(folder / figure["file"].get<std::string>()), 10'000u);

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -56,11 +56,11 @@ TEST(Explain, SaysWhatIsPossibleInPlaceOfWordsOfOtherPrograms) {
 
 TEST(Explain, GivesTheSameAsJson) {
   const ScratchFolder folder;
-  const auto one = nlohmann::json::parse(gaussdrift_in(folder, "explain overlap --json").out);
+  const auto one = parsed_json(gaussdrift_in(folder, "explain overlap --json").out);
   ASSERT_EQ(one["meanings"].size(), 1u);
   EXPECT_EQ(one["meanings"][0]["name"], "particles.overlap");
   EXPECT_EQ(one["meanings"][0]["facts"]["default"], "2");
-  const auto all = nlohmann::json::parse(gaussdrift_in(folder, "explain --json").out);
+  const auto all = parsed_json(gaussdrift_in(folder, "explain --json").out);
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const auto& key) { return key["key"] == "density.slot_width"; }));
   // Every key of the list is one that can be explained, and stands in the overview or goes with a named formula.
   const std::string overview = gaussdrift_in(folder, "explain").out;
@@ -74,7 +74,7 @@ TEST(Explain, GivesTheSameAsJson) {
 
 TEST(Explain, PrintsASchemaThatIsClosedAgainstUnknownKeys) {
   const ScratchFolder folder;
-  const auto schema = nlohmann::json::parse(gaussdrift_in(folder, "explain --schema").out);
+  const auto schema = parsed_json(gaussdrift_in(folder, "explain --schema").out);
   EXPECT_EQ(schema["additionalProperties"], false);
   const auto& particles = schema["properties"]["particles"];
   EXPECT_EQ(particles["additionalProperties"], false);
@@ -105,7 +105,7 @@ TEST(Explain, WritesTheGeneratedPartsOfTheGuide) {
 
 TEST(New, ListsEveryExample) {
   const ScratchFolder folder;
-  const auto list = nlohmann::json::parse(gaussdrift_in(folder, "new --json").out);
+  const auto list = parsed_json(gaussdrift_in(folder, "new --json").out);
   std::vector<std::string> names;
   for (const auto& example : list) {
     names.push_back(example["name"]);

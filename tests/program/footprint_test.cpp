@@ -6,11 +6,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/size_text.hpp"
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -94,7 +94,7 @@ TEST_P(Footprint, IsPredictedWithinAFactorOf1Point3) {
   const Measured predicted = measured(folder, check), taken = measured(folder, run);
   ASSERT_EQ(predicted.exit_code, 0);
   ASSERT_EQ(taken.exit_code, 0);
-  const double told = nlohmann::json::parse(predicted.out)["predicted"]["memory_bytes"];
+  const double told = parsed_json(predicted.out)["predicted"]["memory_bytes"];
   EXPECT_LT(told / taken.peak, 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
   EXPECT_GT(told / taken.peak, 1 / 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
   EXPECT_LT(predicted.peak, 200e6);
@@ -109,7 +109,7 @@ TEST_P(Footprint, IsPredictedWithinAFactorOf1Point3) {
   double files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "r"))
     if (entry.is_regular_file()) files += static_cast<double>(entry.file_size());
-  const double disk = nlohmann::json::parse(predicted.out)["predicted"]["disk_bytes"];
+  const double disk = parsed_json(predicted.out)["predicted"]["disk_bytes"];
   EXPECT_LT(disk, 1.3 * files + 1e5) << size.name;
   EXPECT_GT(disk, 0.95 * files - 1e5) << size.name;
 }

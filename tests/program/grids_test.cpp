@@ -2,9 +2,9 @@
 // files of other kinds.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "parsed_json.hpp"
 #include "program.hpp"
 
 namespace gaussdrift {
@@ -43,7 +43,7 @@ TEST(Wind, WithLandIsRefusedAndRunsWithTheRemediesThatAreOffered) {
       const Outcome run =
           gaussdrift_in(folder, std::string("run coast.toml --force --set velocity.missing=") + missing);
       ASSERT_EQ(run.exit_code, 0) << run.err;
-      const auto summary = nlohmann::json::parse(read_file(folder / "output/coast/summary.json"));
+      const auto summary = parsed_json(read_file(folder / "output/coast/summary.json"));
       const double x = summary["frames"].back()["centroid"][0];  // started at 0.3, for 2 s at -1
       EXPECT_GT(x, from) << missing;                             // the coast stops it within the cell before -0.5
       EXPECT_LT(x, to) << missing;
@@ -146,7 +146,7 @@ TEST(Compare, OfFilesOfTwoTimesWarns) {
   EXPECT_NE(files.err.find("warning: the times differ: output/a/density/density_0000.vti is at t = 0"),
             std::string::npos)
       << files.err;
-  const auto report = nlohmann::json::parse(files.out);
+  const auto report = parsed_json(files.out);
   EXPECT_EQ(report["outputs"][0]["t"], 0);
   EXPECT_GT(report["outputs"][0]["t_second"], 0);
   EXPECT_GT(report["outputs"][0]["Linf"], 0.1);

@@ -1,15 +1,14 @@
 // Mass that leaves the domain, is used up or never was inside: what a user is told.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
 namespace {
 
 nlohmann::json summary_of(const ScratchFolder& folder) {
-  return nlohmann::json::parse(read_file(folder / "output/blown/summary.json"));
+  return parsed_json(read_file(folder / "output/blown/summary.json"));
 }
 
 /// A cone in a wind that blows it out of the domain by t = 0.7.

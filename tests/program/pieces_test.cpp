@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -48,7 +48,7 @@ TEST(DensityInPieces, IsWrittenAndCompared) {
 
   // The numbers are those of the whole grid.
   const auto numbers = [&](const char* name) {
-    return nlohmann::json::parse(read_file(folder / name / "summary.json"))["frames"];
+    return parsed_json(read_file(folder / name / "summary.json"))["frames"];
   };
   const auto whole = numbers("whole"), pieces = numbers("pieces");
   ASSERT_EQ(whole.size(), pieces.size());
@@ -114,7 +114,7 @@ TEST(DensityInPieces, NeedsBoundedMemory) {
   write_file(folder / "a.toml", large);
   const Outcome check = gaussdrift_in(folder, "check a.toml --json");
   ASSERT_EQ(check.exit_code, 0) << check.err;
-  const auto forecast = nlohmann::json::parse(check.out)["predicted"];
+  const auto forecast = parsed_json(check.out)["predicted"];
   const double memory = forecast["memory_bytes"].get<double>(), disk = forecast["disk_bytes"].get<double>();
   EXPECT_GT(disk, 4000. * 4000 * 400 * 10.6) << "four letters for three bytes";
   EXPECT_LT(disk, 4000. * 4000 * 400 * 10.6 * 1.05) << "layers that are written twice are few";

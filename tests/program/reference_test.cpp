@@ -2,15 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
 namespace {
 
 nlohmann::json summary_of(const ScratchFolder& folder, const std::string& run) {
-  return nlohmann::json::parse(read_file(folder / ("output/" + run + "/summary.json")));
+  return parsed_json(read_file(folder / ("output/" + run + "/summary.json")));
 }
 
 TEST(Reference, MeasuresTheErrorOfARotatingCone) {

@@ -1,8 +1,7 @@
 // The page of a run in unusual circumstances, and times and order of the files that the verbs read.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "parsed_json.hpp"
 #include "program.hpp"
 
 namespace gaussdrift {
@@ -89,7 +88,7 @@ TEST(Page, TellsWhatIsNotOnItAndWhy) {
   EXPECT_EQ(alone.find("data:image"), std::string::npos);
   const std::string once = page("--set 'output.times=[1]'");
   EXPECT_NE(once.find("the run was compared at one time only"), std::string::npos);
-  const auto report = nlohmann::json::parse(read_file(folder / "output/a/report.json"));
+  const auto report = parsed_json(read_file(folder / "output/a/report.json"));
   EXPECT_FALSE(report["not_on_the_page"].empty());
 }
 
@@ -172,7 +171,7 @@ TEST(Page, SetsTheTargetBesideWhatWasAchievedAndTheAdvice) {
   write_file(folder / "a.toml", small_case);
   const Outcome out = gaussdrift_in(folder, "run a.toml --accuracy 0.02 --set time.end=1 --set 'output.times=[0, 1]'");
   ASSERT_EQ(out.exit_code, 0) << out.err;
-  const auto summary = nlohmann::json::parse(read_file(folder / "output/a/summary.json"));
+  const auto summary = parsed_json(read_file(folder / "output/a/summary.json"));
   EXPECT_EQ(summary["accuracy"]["target"], 0.02);
   EXPECT_EQ(summary["accuracy"]["achieved"], summary["frames"].back()["Linf"]);
   EXPECT_EQ(summary["accuracy"]["met"], summary["accuracy"]["achieved"] <= 0.02);
@@ -186,7 +185,7 @@ TEST(Page, HasTheAccuracyTableOfEveryShortRunAndSecondsThatAddUp) {
   const ScratchFolder folder;
   write_file(folder / "a.toml", small_case);
   ASSERT_EQ(gaussdrift_in(folder, "run a.toml").exit_code, 0);
-  const auto summary = nlohmann::json::parse(read_file(folder / "output/a/summary.json"));
+  const auto summary = parsed_json(read_file(folder / "output/a/summary.json"));
   ASSERT_EQ(summary["accuracy_table"].size(), 6u);
   for (const auto& row : summary["accuracy_table"]) EXPECT_LE(row["error"], row["tolerance"]);
   double told = 0;
@@ -218,7 +217,7 @@ images = ["slices"])"}));
 
 TEST(Machine, IsDescribedByTheLibrariesThemselves) {
   const ScratchFolder folder;
-  const auto found = nlohmann::json::parse(gaussdrift_in(folder, "doctor --json").out);
+  const auto found = parsed_json(gaussdrift_in(folder, "doctor --json").out);
   const std::string vectors = found["vectors"]["found"], libraries = found["libraries"]["found"];
   EXPECT_TRUE(vectors.starts_with("baseline") || vectors.starts_with("avx")) << vectors;
   const std::size_t vtk = libraries.find("VTK ");
@@ -237,7 +236,7 @@ TEST(Provenance, HasFlagsACommandForTheShellAndHashesOfTheData) {
     EXPECT_EQ(out.exit_code, 0) << out.err;
   };
   run("run cases/a.toml --out there/one --set time.end=0.1 --set 'output.times=[0.1]'");
-  const auto first = nlohmann::json::parse(read_file(folder / "there/one/provenance.json"));
+  const auto first = parsed_json(read_file(folder / "there/one/provenance.json"));
   EXPECT_EQ(first["date"], "1970-01-02T00:00:00Z");
   EXPECT_NE(first["flags"].get<std::string>().find("-O"), std::string::npos) << first["flags"];
   EXPECT_NE(first["command"].get<std::string>().find(" --set 'output.times=[0.1]'"), std::string::npos)
@@ -252,12 +251,12 @@ TEST(Provenance, HasFlagsACommandForTheShellAndHashesOfTheData) {
   fs::copy(folder / "cases", folder / "moved/cases", fs::copy_options::recursive);
   fs::copy(folder / "there", folder / "moved/there", fs::copy_options::recursive);
   run("run moved/there/one/run.toml --out two");
-  const auto second = nlohmann::json::parse(read_file(folder / "two/provenance.json"));
+  const auto second = parsed_json(read_file(folder / "two/provenance.json"));
   EXPECT_EQ(second["resolved_case"], first["resolved_case"]);
   std::string wind = read_file(folder / "cases/gridded_wind_1.vti");
   write_file(folder / "cases/gridded_wind_1.vti", wind + "\n");
   run("run there/one/run.toml --out three");
-  const auto third = nlohmann::json::parse(read_file(folder / "three/provenance.json"));
+  const auto third = parsed_json(read_file(folder / "three/provenance.json"));
   EXPECT_EQ(third["data"][1],
             (nlohmann::json{{"file", "../cases/gridded_wind_0.vti"}, {"hash", first["data"][1]["hash"]}}));
   EXPECT_NE(third["data"][2]["hash"], first["data"][2]["hash"]);
@@ -290,7 +289,7 @@ TEST(Provenance, LeadsARunWhoseFolderWasMovedToItsData) {
 TEST(Provenance, HasACommandThatAShellTakesAsItWasTyped) {
   const ScratchFolder folder;
   run_cone(folder, R"(--out 'a b' --set 'case.title="it'\''s $HOME & <more>"' --set 'case.cite=""')");
-  const auto provenance = nlohmann::json::parse(read_file(folder / "a b/provenance.json"));
+  const auto provenance = parsed_json(read_file(folder / "a b/provenance.json"));
   const std::string command = provenance["command"];
   write_file(folder / "again.sh", "printf '%s\\n' " + command + "\n");
   const std::string call = "sh '" + (folder / "again.sh").string() + "' > '" + (folder / "words").string() + "'";

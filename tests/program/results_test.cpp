@@ -1,8 +1,7 @@
 // What runs leave, looked at again: the page, pictures, differences; and the self-test.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "parsed_json.hpp"
 #include "program.hpp"
 
 namespace gaussdrift {
@@ -33,7 +32,7 @@ TEST(Report, IsLeftByARunAndMadeAgainFromItsFiles) {
   EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
   EXPECT_TRUE(fs::exists(run / "summary.png"));
   EXPECT_TRUE(fs::exists(run / "log.txt"));
-  const auto report = nlohmann::json::parse(read_file(run / "report.json"));
+  const auto report = parsed_json(read_file(run / "report.json"));
   EXPECT_EQ(report["provenance"]["case"].get<std::string>().rfind("fnv1a64:", 0), 0u);
   EXPECT_TRUE(report["budget"]["measured"].contains("smoothing"));
   fs::remove(run / "report.html");
@@ -110,9 +109,9 @@ TEST(Compare, MeasuresTheDifferenceOfTwoRuns) {
   ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out one" + quick).exit_code, 0);
   ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out two --set time.step=0.05" + quick).exit_code, 0);
   ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out three --set evaluate.per_axis=31" + quick).exit_code, 0);
-  const auto same = nlohmann::json::parse(gaussdrift_in(folder, "compare one one --json").out);
+  const auto same = parsed_json(gaussdrift_in(folder, "compare one one --json").out);
   EXPECT_EQ(same["largest"], 0.0);
-  const auto other = nlohmann::json::parse(gaussdrift_in(folder, "compare one two --json").out);
+  const auto other = parsed_json(gaussdrift_in(folder, "compare one two --json").out);
   // 10 steps of 0.1 lag by 8.3e-7 rad: 0.5 times that, times the largest slope of the cone, 2.1/R.
   EXPECT_GT(other["largest"].get<double>(), 1e-8);
   EXPECT_LT(other["largest"].get<double>(), 0.5 * 8.4e-7 * 2.1 / 0.25 + 1e-7);
@@ -138,7 +137,7 @@ TEST(Compare, OfDifferentTimesComparesThoseThatAgreeAndTellsTheOthers) {
 
   const Outcome some = gaussdrift_in(folder, "compare three four --json");
   EXPECT_EQ(some.exit_code, 0) << some.err;
-  const auto found = nlohmann::json::parse(some.out);
+  const auto found = parsed_json(some.out);
   ASSERT_EQ(found["outputs"].size(), 2u);
   EXPECT_EQ(found["outputs"][0]["t"], 0.0);
   EXPECT_EQ(found["outputs"][1]["t"], 1.0);
@@ -162,7 +161,7 @@ TEST(Compare, OfDifferentTimesComparesThoseThatAgreeAndTellsTheOthers) {
   EXPECT_EQ(single.exit_code, 0) << single.err;
   EXPECT_NE(single.err.find("the times differ"), std::string::npos) << single.err;
   // A file and a folder: the output of its time.
-  const auto one = nlohmann::json::parse(gaussdrift_in(folder, "compare last four --json").out);
+  const auto one = parsed_json(gaussdrift_in(folder, "compare last four --json").out);
   EXPECT_EQ(one["outputs"].size(), 1u);
   EXPECT_EQ(one["not_compared"].size(), 3u);
 }
@@ -170,7 +169,7 @@ TEST(Compare, OfDifferentTimesComparesThoseThatAgreeAndTellsTheOthers) {
 TEST(Doctor, FindsThisMachineWell) {
   const ScratchFolder folder;
   const Outcome out = gaussdrift_in(folder, "doctor --json");
-  const auto found = nlohmann::json::parse(out.out);
+  const auto found = parsed_json(out.out);
   EXPECT_TRUE(found["Gauss sum"]["well"]);
   EXPECT_TRUE(found["file"]["well"]);
   EXPECT_EQ(out.exit_code == 0, found["picture"]["well"].get<bool>());

@@ -5,10 +5,10 @@
 
 #include <chrono>
 #include <csignal>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "case_text.hpp"
+#include "parsed_json.hpp"
 #include "pictures.hpp"
 #include "program/program.hpp"
 #include "program/same_run.hpp"
@@ -60,7 +60,7 @@ TEST_F(Resume, AfterAStopByTheClock) {
   int stops = 0;
   for (; stopped.exit_code == 7 && stops < 10; ++stops) {
     EXPECT_NE(stopped.err.find("resume with: gaussdrift resume part"), std::string::npos) << stopped.err;
-    EXPECT_FALSE(nlohmann::json::parse(read_file(folder / "part/summary.json")).at("complete").get<bool>());
+    EXPECT_FALSE(parsed_json(read_file(folder / "part/summary.json")).at("complete").get<bool>());
     stopped = gaussdrift_in(folder, "resume part --stop-after 0.05");
   }
   if (stopped.exit_code == 7) stopped = gaussdrift_in(folder, "resume part");
@@ -140,7 +140,7 @@ TEST_F(Resume, BeginsAgainWhereThereIsNoCheckpointAndTakesTheOlderOfADamagedOne)
   gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1");
   const auto serial = [&](const char* slot) {
     const std::string text = read_file(folder / (std::string("part/state/") + slot + "/manifest.json"));
-    return text.empty() ? 0 : nlohmann::json::parse(text).at("serial").get<int>();
+    return text.empty() ? 0 : parsed_json(text).at("serial").get<int>();
   };
   const bool two = serial("1") > 0;
   std::ofstream(folder / (serial("1") > serial("0") ? "part/state/1/run.raw" : "part/state/0/run.raw"), std::ios::app)

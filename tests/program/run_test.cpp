@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -61,7 +61,7 @@ TEST(Run, WritesNothingThatTheCaseDoesNotName) {
   EXPECT_FALSE(fs::exists(output / "density.pvd"));
   EXPECT_FALSE(fs::exists(output / "particles.pvd"));
   EXPECT_FALSE(fs::exists(output / "images"));
-  const auto summary = nlohmann::json::parse(read_file(output / "summary.json"));
+  const auto summary = parsed_json(read_file(output / "summary.json"));
   ASSERT_EQ(summary["effects"].size(), 1u);
   EXPECT_EQ(summary["effects"][0]["name"], "transport");
   for (const auto& [stage, seconds] : summary["seconds"].items())
@@ -109,7 +109,7 @@ TEST(Run, PrintsNothingButJsonOnStandardOutputWhenAsked) {
   write_file(folder / "small.toml", small_case);
   const Outcome run = gaussdrift_in(folder, "run small.toml --json");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto summary = nlohmann::json::parse(run.out);
+  const auto summary = parsed_json(run.out);
   EXPECT_EQ(summary["frames"].size(), 3u);
   EXPECT_EQ(summary["time"]["steps"], 126);  // ceil(pi / 0.05) = 63 steps to each of two landings
 }
@@ -218,7 +218,7 @@ TEST(Run, SaysWhatTookLongestFirstEffectsAmongIt) {
     last = seconds;
   }
   EXPECT_NE(std::find(names.begin(), names.end(), "charge"), names.end()) << run.out;
-  const auto summary = nlohmann::json::parse(read_file(folder / "output/small/summary.json"));
+  const auto summary = parsed_json(read_file(folder / "output/small/summary.json"));
   EXPECT_GT(summary.at("seconds").at("effect charge"), 0.0);
 }
 

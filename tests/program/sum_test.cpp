@@ -3,10 +3,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -192,7 +192,7 @@ TEST(Sum, KeepsThePromiseWithEveryMethod) {
     const Outcome sum = gaussdrift_in(
         folder, "sum --sources S.csv --sigma 30 --tolerance 1e-8 --derivative 1,1 --out V.csv --json --method " + name);
     ASSERT_EQ(sum.exit_code, 0) << name << sum.err;
-    EXPECT_EQ(nlohmann::json::parse(sum.out)["method_asked"], name);
+    EXPECT_EQ(parsed_json(sum.out)["method_asked"], name);
     const Table table = table_of(read_file(folder / "V.csv"));
     ASSERT_EQ(table.rows.size(), sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i)
@@ -229,7 +229,7 @@ TEST(Sum, TellsWhatWasChosenAsJson) {
                                     "hermite --tolerance 1e-7 --threads 1 --out V.csv --json");
   ASSERT_EQ(sum.exit_code, 0) << sum.err;
   EXPECT_EQ(sum.err, "");
-  const auto json = nlohmann::json::parse(sum.out);
+  const auto json = parsed_json(sum.out);
   EXPECT_EQ(json["kernel"], "gauss");
   EXPECT_EQ(json["dimension"], 2);
   EXPECT_EQ(json["sources"], 500);
@@ -398,7 +398,7 @@ TEST(Sum, OfManyChargesByTreeAndSymmetricIsRightToTheTolerance) {
     const Outcome done = gaussdrift_in(
         folder, "sum --kernel coulomb --sources S.csv --tolerance 1e-4 --out V.csv --json --method " + method);
     ASSERT_EQ(done.exit_code, 0) << done.err;
-    const auto json = nlohmann::json::parse(done.out);
+    const auto json = parsed_json(done.out);
     EXPECT_EQ(json["method"], method);
     EXPECT_LE(json["bound"], 1e-4);
     const Table found = table_of(read_file(folder / "V.csv"));

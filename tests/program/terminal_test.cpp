@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
 
+#include "parsed_json.hpp"
 #include "program/program.hpp"
 
 namespace gaussdrift {
@@ -87,14 +87,14 @@ TEST(Terminal, ThatTakesNothingCostsNoFileOfARun) {
   const Outcome heard = gaussdrift_in(folder, leaving + "--out heard");
   ASSERT_EQ(heard.exit_code, 0) << heard.err;
   ASSERT_NE(heard.err.find("cannot be promised"), std::string::npos) << heard.err;
-  const auto series = nlohmann::json::parse(read_file(folder / "heard/summary.json")).at("frames");
+  const auto series = parsed_json(read_file(folder / "heard/summary.json")).at("frames");
   int number = 0;
   for (const auto& [streams, code] :
        {std::pair{" 2>/dev/full", 0}, {" 2>&-", 0}, {" >/dev/full 2>/dev/full", 6}, {" <&- >&- 2>&-", 6}}) {
     const std::string name = "run" + std::to_string(++number);
     EXPECT_EQ(gaussdrift_in(folder, leaving + "--out " + name + streams).exit_code, code) << streams;
     for (const char* file : last_files) EXPECT_TRUE(fs::exists(folder / name / file)) << streams << ": " << file;
-    const auto summary = nlohmann::json::parse(read_file(folder / name / "summary.json"));
+    const auto summary = parsed_json(read_file(folder / name / "summary.json"));
     EXPECT_EQ(summary.at("checks").size(), 1u);
     EXPECT_EQ(summary.at("frames").size(), series.size());
     EXPECT_NE(read_file(folder / name / "log.txt").find("cannot be promised"), std::string::npos) << streams;

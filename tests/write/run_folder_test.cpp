@@ -1,11 +1,11 @@
 // Who may write into the folder of a run, and what becomes of an earlier one.
 #include "write/run_folder.hpp"
+#include "parsed_json.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "gaussdrift/error.hpp"
@@ -26,7 +26,7 @@ Case some_case(std::size_t outputs = 3) {
 }
 
 std::string state_in(const fs::path& folder) {
-  return nlohmann::json::parse(read_file(folder / "status.json")).at("state").get<std::string>();
+  return parsed_json(read_file(folder / "status.json")).at("state").get<std::string>();
 }
 
 /// A run that writes some of its files and is complete, or not.
@@ -50,7 +50,7 @@ TEST(RunFolder, TellsHowFarTheRunIs) {
     RunFolder run(folder / "r", some_case(), {});
     EXPECT_EQ(state_in(folder / "r"), "running");
     run.watch()->frame(Frame{.index = 0, .time = 0.5, .numbers = {}});
-    const auto status = nlohmann::json::parse(read_file(folder / "r/status.json"));
+    const auto status = parsed_json(read_file(folder / "r/status.json"));
     EXPECT_EQ(status.at("outputs"), 1);
     EXPECT_EQ(status.at("last_output"), 0.5);
     EXPECT_EQ(status.at("pid"), getpid());
@@ -115,7 +115,7 @@ TEST(RunFolder, IsUsableAfterAProcessThatWasKilledWhileItMovedTheEarlierRun) {
   for (const int moved : {0, 1, 4, 6}) {
     const fs::path r = folder / std::to_string(moved);
     run_in(r, "old", false, 3, true);
-    auto status = nlohmann::json::parse(read_file(r / "status.json"));
+    auto status = parsed_json(read_file(r / "status.json"));
     status["set_aside"] = true;
     write_text(r / "status.json", status.dump());
     fs::create_directories(r / "earlier/density");
