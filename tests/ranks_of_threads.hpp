@@ -2,107 +2,18 @@
 #pragma once
 
 #include <algorithm>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <mutex>
 #include <span>
-#include <stdexcept>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "meeting_of_ranks.hpp"
 
 namespace gaussdrift {
-
-/// What the other ranks get when one ended early or called something else. Over MPI they would wait for ever.
-class RankGone : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-/// Whether one rank works at a time, as if each had a machine of its own, or all at once.
-enum class InTurns { no, yes };
-
-/// Where the threads meet.
-class MeetingOfRanks {
- public:
-  explicit MeetingOfRanks(int size, InTurns in_turns = InTurns::no)
-      : size_(static_cast<std::size_t>(size)),
-        in_turns_(in_turns == InTurns::yes),
-        letters_(size_, std::vector<base::Bytes>(size_)) {}
-
-  /// A rank begins to work.
-  void take_turn() {
-    if (in_turns_) turn_.lock();
-  }
-
-  /// Hands out[r] to rank r; returns what came, by rank. `call` is the name of the function that all have to be in.
-  std::vector<base::Bytes> meet(std::size_t rank, const std::string& call, std::vector<base::Bytes> out) {
-    struct Elsewhere {  // others work meanwhile
-      MeetingOfRanks& meeting;
-      explicit Elsewhere(MeetingOfRanks& of) : meeting(of) { meeting.give_turn(); }
-      ~Elsewhere() { meeting.take_turn(); }
-    } const elsewhere(*this);
-    return letters_of_others(rank, call, std::move(out));
-  }
-
-  /// The thread of a rank ends: whoever waits for it, now or later, would wait for ever.
-  void leave(std::size_t rank) {
-    give_turn();
-    const std::lock_guard lock(mutex_);
-    if (gone_.empty()) gone_ = "rank " + std::to_string(rank) + " has ended";
-    all_.notify_all();
-  }
-
- private:
-  void give_turn() {
-    if (in_turns_) turn_.unlock();
-  }
-  std::vector<base::Bytes> letters_of_others(std::size_t rank, const std::string& call, std::vector<base::Bytes> out) {
-    std::unique_lock lock(mutex_);
-    if (come_ == 0) call_ = call;
-    if (call != call_) {
-      gone_ = "rank " + std::to_string(rank) + " calls " + call + " while others call " + call_;
-      all_.notify_all();
-    }
-    look(lock, [] { return true; });
-    for (std::size_t to = 0; to < size_; ++to) letters_[to][rank] = std::move(out[to]);
-    wait(lock);
-    std::vector<base::Bytes> in = std::move(letters_[rank]);
-    letters_[rank].assign(size_, {});
-    wait(lock);  // nobody writes the next letter before all have read this one
-    return in;
-  }
-  void wait(std::unique_lock<std::mutex>& lock) {
-    const std::uint64_t round = round_;
-    if (++come_ < size_) {
-      look(lock, [&] { return round_ != round; });
-    } else {
-      come_ = 0;
-      ++round_;
-      all_.notify_all();
-    }
-  }
-  template <class There>
-  void look(std::unique_lock<std::mutex>& lock, const There& there) {
-    const std::uint64_t round = round_;
-    all_.wait(lock, [&] { return there() || !gone_.empty(); });
-    if (!gone_.empty() && round_ == round) throw RankGone(gone_);
-  }
-
-  const std::size_t size_;
-  const bool in_turns_;
-  std::mutex turn_, mutex_;
-  std::condition_variable all_;
-  std::vector<std::vector<base::Bytes>> letters_;  // [to][from]
-  std::string call_, gone_;
-  std::size_t come_ = 0;
-  std::uint64_t round_ = 0;
-};
 
 class RankOfThread : public base::Communicator {
  public:
@@ -157,40 +68,17 @@ class RankOfThread : public base::Communicator {
 template <class Body>
 std::vector<std::exception_ptr> ends_on_ranks(int size, const Body& body, int hosts = 1,
                                               InTurns in_turns = InTurns::no) {
-  MeetingOfRanks meeting(size, in_turns);
-  std::vector<std::exception_ptr> ends(static_cast<std::size_t>(size));
-  std::vector<std::thread> threads;
-  for (int rank = 0; rank < size; ++rank)
-    threads.emplace_back([&, rank] {
-      const auto own = static_cast<std::size_t>(rank);
-      meeting.take_turn();
-      try {
-        RankOfThread communicator(meeting, rank, size, hosts);
-        body(static_cast<base::Communicator&>(communicator));
-      } catch (...) {
-        ends[own] = std::current_exception();
-      }
-      meeting.leave(own);
-    });
-  for (std::thread& thread : threads) thread.join();
-  return ends;
+  const auto on_rank = [&](MeetingOfRanks& meeting, int rank) {
+    RankOfThread communicator(meeting, rank, size, hosts);
+    body(static_cast<base::Communicator&>(communicator));
+  };
+  return ends_in_threads(size, on_rank, in_turns);
 }
 
 /// The same for a body that must not throw: throws here what the rank threw that began it.
 template <class Body>
 void on_ranks(int size, const Body& body, int hosts = 1, InTurns in_turns = InTurns::no) {
-  std::exception_ptr first;
-  for (const std::exception_ptr& end : ends_on_ranks(size, body, hosts, in_turns)) {
-    if (!end) continue;
-    try {
-      std::rethrow_exception(end);
-    } catch (const RankGone&) {
-      if (!first) first = end;
-    } catch (...) {
-      std::rethrow_exception(end);
-    }
-  }
-  if (first) std::rethrow_exception(first);
+  throw_first(ends_on_ranks(size, body, hosts, in_turns));
 }
 
 }  // namespace gaussdrift

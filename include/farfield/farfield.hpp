@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <iosfwd>
 #include <limits>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -63,7 +65,7 @@ class RangeError : public Error {
   RangeError(const std::string& message, const std::string& sum, std::size_t index)
       : Error(message), quantity(sum), target(index) {}
   std::string quantity;  ///< "potential" or "field"
-  std::size_t target;    ///< its number, from 0
+  std::size_t target;    ///< its number, from 0; on several ranks that of `numbers`
 };
 
 // ---------------------------------------------------------------------------------------------------------------
@@ -168,6 +170,37 @@ struct Choice {
 std::ostream& operator<<(std::ostream& out, const Choice& choice);
 
 // ---------------------------------------------------------------------------------------------------------------
+// Several processes
+
+/// What a Plan whose points are on several processes, its ranks, needs of them. Over MPI these are calls of
+/// MPI_Comm_rank, MPI_Comm_size, MPI_Alltoallv and MPI_Allreduce. All ranks call a function that communicates in the
+/// same order, one thread of each.
+class Ranks {
+ public:
+  /// Bytes on their way.
+  using Bytes = std::vector<std::byte>;
+  virtual ~Ranks() = default;
+  /// Which of them this one is, from 0.
+  virtual int rank() const = 0;
+  /// How many there are.
+  virtual int size() const = 0;
+  /// out[r] goes to rank r; what came from rank r is in result[r]. `out` has size() entries.
+  virtual std::vector<Bytes> exchange(std::vector<Bytes> out) = 0;
+  /// Each number becomes its sum over all ranks.
+  virtual void sum(std::span<std::int64_t> numbers) = 0;
+  /// Each number becomes its maximum over all ranks. None is a NaN.
+  virtual void max(std::span<double> numbers) = 0;
+};
+
+/// Bytes that a rank receives from others for a Plan on several ranks and one evaluation.
+struct Received {
+  double points = 0;   ///< places, charges and results of points that another rank sums for
+  double tree = 0;     ///< clusters of other ranks, and which moments and points others want
+  double moments = 0;  ///< of clusters of other ranks
+  double near = 0;     ///< places and charges of points near those that this rank sums for
+};
+
+// ---------------------------------------------------------------------------------------------------------------
 // The plan
 
 namespace detail {
@@ -203,6 +236,17 @@ class Plan {
        const Options& options = {});
   /// The sources are the targets.
   Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& points, const Options& options = {});
+  /// The sources are the targets, and each rank has some of them. Results are those of one plan for the points of all
+  /// ranks in the order of their numbers, to the last bit. All ranks make the plan, evaluate it and destroy it together;
+  /// evaluate() takes the charges of a rank's own points and returns their values. An Error of one rank is thrown by all.
+  /// Anything else, as std::bad_alloc, is thrown by the rank that it happens on, and others wait for that rank.
+  /// @param kernel   as above
+  /// @param points   those of this rank, maybe none
+  /// @param numbers  of these points, in any order; different for all points of all ranks
+  /// @param options  the same on all ranks, but for threads and memory_limit
+  /// @param ranks    must outlive the plan
+  Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& points, std::span<const std::int64_t> numbers,
+       const Options& options, Ranks& ranks);
   ~Plan();
   /// A plan can be moved; what is left can be assigned to or destroyed, nothing else.
   Plan(Plan&&) noexcept;
@@ -217,8 +261,11 @@ class Plan {
   /// @throws RangeError        a sum exceeds the range of double
   Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds* seconds = nullptr) const;
 
-  /// What was chosen, and what it promises and predicts.
+  /// What was chosen, and what it promises and predicts; the same on all ranks.
   const Choice& choice() const;
+
+  /// What this rank receives from others; nothing if there are none.
+  Received received() const;
 
  private:
   std::unique_ptr<detail::Engine<d>> engine_;

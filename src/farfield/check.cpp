@@ -63,14 +63,18 @@ void check_seconds(Method method, double seconds, double most) {
                        seconds, method);
 }
 
-void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target) {
+void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target,
+                  const std::int64_t* numbers) {
   if (gaussdrift::core::all_finite(values, count * numbers_a_target, 1, count * numbers_a_target, 1)) return;
-  for (std::size_t i = 0; i < count * numbers_a_target; ++i)
-    if (!std::isfinite(values[i]))
-      throw RangeError("farfield: the " + std::string(what) + " at target " + std::to_string(i / numbers_a_target) +
-                           " exceeds the range of double precision; scale the charges down, or join points that are "
-                           "nearly equal",
-                       what, i / numbers_a_target);
+  for (std::size_t i = 0; i < count * numbers_a_target; ++i) {
+    if (std::isfinite(values[i])) continue;
+    const std::size_t place = i / numbers_a_target;
+    const auto target = numbers ? numbers[place] : static_cast<std::int64_t>(place);
+    throw RangeError("farfield: the " + std::string(what) + " at target " + std::to_string(target) +
+                         " exceeds the range of double precision; scale the charges down, or join points that are "
+                         "nearly equal",
+                     what, static_cast<std::size_t>(target));
+  }
 }
 
 }  // namespace farfield::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "core/arguments.hpp"
@@ -27,7 +28,8 @@ void check_seconds(Method method, double seconds, double most);
 /// Throws MemoryLimitError if `bytes` for `what` exceed the limit.
 void check_memory(const char* what, double bytes, std::size_t limit);
 
-/// Throws RangeError naming the first target whose value is not finite.
-void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target);
+/// Throws RangeError naming the first target whose value is not finite, by its number if they have any.
+void check_values(const char* what, const double* values, std::size_t count, std::size_t numbers_a_target,
+                  const std::int64_t* numbers);
 
 }  // namespace farfield::detail

@@ -6,7 +6,6 @@
 
 #include "farfield/check.hpp"
 #include "farfield/cost.hpp"
-#include "farfield/near/direct.hpp"
 #include "farfield/tree/clustered.hpp"
 
 namespace farfield::detail {
@@ -33,19 +32,20 @@ double smallest_side(const Problem& problem, double tolerance) {
 }
 
 template <int d>
-double clusters_bytes(const Problem& problem, std::size_t leaf_size) {
-  const double points = static_cast<double>(problem.sources + (problem.self ? 0 : problem.targets));
+double clusters_bytes(double points, std::size_t leaf_size) {
   return points * (2 * (8.0 * d + 4) + 1) + 2 * points / static_cast<double>(leaf_size) * 1.2 * sizeof(Cluster);
 }
 
 /// The method asked for, or the faster of both, with its best leaf size and seconds.
 template <int d>
-Prediction choose_method(const Tree<d>& tree, std::size_t fine_leaf_size, const Costs<d>& costs, Method asked,
-                         Method& chosen) {
+Prediction choose_method(const Tree<d>& tree, std::size_t fine_leaf_size, const Costs<d>& costs, const Site<d>& site,
+                         Method asked, Method& chosen) {
+  const std::vector<LevelShare> levels = site.levels(tree);
+  const auto sum = [&](std::vector<std::int64_t>& numbers) { site.sum(numbers); };
   std::optional<Prediction> prediction;
   for (const Method method : {Method::symmetric, Method::tree}) {
     if (asked != Method::automatic && asked != method) continue;
-    const Prediction found = predict<d>(tree, fine_leaf_size, costs, method == Method::symmetric);
+    const Prediction found = predict<d>(tree, fine_leaf_size, costs, method == Method::symmetric, levels, sum);
     if (prediction && prediction->seconds <= found.seconds) continue;
     prediction = found;
     chosen = method;
@@ -53,38 +53,57 @@ Prediction choose_method(const Tree<d>& tree, std::size_t fine_leaf_size, const 
   return *prediction;
 }
 
+/// The work for targets that are counted here, and by the clusters of all ranks.
+template <int d>
+Work count_work(const Partition& partition, const Tree<d>& tree, const Site<d>& site,
+                const std::vector<LevelShare>& levels, std::size_t nodes, Work& everywhere) {
+  const Work here = work_of<d>(partition, tree, nodes, [&](Index i) {
+    const LevelShare& level = levels[tree.clusters()[i].level];
+    return level.first <= i && i < level.first + level.count;
+  });
+  std::vector<std::int64_t> counts;  // exact below 2^53
+  for (const double count : {here.pairs, here.substitute_pairs, here.couplings})
+    counts.push_back(static_cast<std::int64_t>(count));
+  site.sum(counts);
+  everywhere = {static_cast<double>(counts[0]), static_cast<double>(counts[1]), static_cast<double>(counts[2])};
+  return here;
+}
+
 /// Prepares the sum over the clusters of `tree`, of leaves of choice.leaf_size; `bytes` are those of tree and points.
 template <int d>
-std::unique_ptr<Summation> make_clustered(const Problem& problem, const Options& options, Tree<d> tree,
-                                          const Degrees<d>& degrees, const Costs<d>& costs, Precisions precisions,
-                                          double bytes, Choice& choice) {
+std::unique_ptr<Summation> make_clustered(const Options& options, Tree<d> tree, const Degrees<d>& degrees,
+                                          const Costs<d>& costs, Precisions precisions, double bytes, Site<d>& site,
+                                          Choice& choice) {
   const bool couple = choice.method == Method::symmetric;
+  const std::vector<LevelShare> levels = site.levels(tree);
   choice.degree = degrees.highest;
-  choice.clusters = tree.clusters().size();
-  choice.levels = static_cast<int>(tree.levels());
+  choice.clusters = 0;
+  for (const LevelShare& level : levels) choice.clusters += level.total;
+  choice.levels = static_cast<int>(levels.size());
   // A cluster has at most as many couplings as its place in the parent allows offsets.
-  const double clusters = static_cast<double>(choice.clusters), offsets = d == 3 ? 189 : 27;
-  check_memory("the block partition and the coefficients",
-               bytes + clusters * (couple ? offsets * sizeof(CouplingChunk::Pair) : 64) +
-                   clusters * 8.0 * static_cast<double>(functions<d>(degrees.highest)) * (couple ? 2 : 1),
-               options.memory_limit);
+  const double clusters = static_cast<double>(tree.clusters().size()), offsets = d == 3 ? 189 : 27;
+  site.together([&] {
+    check_memory("the block partition and the coefficients",
+                 bytes + clusters * (couple ? offsets * sizeof(CouplingChunk::Pair) : 64) +
+                     clusters * 8.0 * static_cast<double>(functions<d>(degrees.highest)) * (couple ? 2 : 1),
+                 options.memory_limit);
+  });
   std::shared_ptr<const Operators<d>> operators;  // a single cluster needs none
   if (choice.clusters > 1) operators = Operators<d>::get(degrees, couple, options.threads);
   Partition partition = make_partition<d>(tree, {.enough = costs.nodes(),
                                                  .couple = couple,
                                                  .steepest_fit = steepest_fit(options.tolerance, degrees.one_sided),
                                                  .threads = options.threads});
-  choice.work = work_of<d>(partition, tree, costs.nodes());
-  typename Clustered<d>::Parts parts{std::move(tree), std::move(partition), std::move(operators), precisions,
-                                     options.threads};
-  if (couple) return std::make_unique<SymmetricMethod<d>>(problem, std::move(parts));
-  return std::make_unique<TreeMethod<d>>(problem, std::move(parts));
+  const Work work = count_work<d>(partition, tree, site, levels, costs.nodes(), choice.work);
+  return site.clustered(
+      {std::move(tree), std::move(partition), std::move(operators), precisions, options.threads, work}, couple);
 }
 
 }  // namespace
 
 template <int d>
-std::unique_ptr<Summation> choose_summation(const Problem& problem, const Options& options, Choice& choice) {
+std::unique_ptr<Summation> choose_summation(const Problem& problem, const Options& options, Site<d>& site,
+                                            Choice& choice) {
   const double pairs = static_cast<double>(problem.sources) * static_cast<double>(problem.targets);
   const double direct_seconds = pairs * pair_seconds(problem, Precision::full);
   const auto direct = [&] {
@@ -93,7 +112,7 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
     choice.seconds = direct_seconds;
     choice.work = {.pairs = pairs};
     check_seconds(choice.method, choice.seconds, options.most_seconds);
-    return std::make_unique<Direct>(problem, options.threads);
+    return site.direct();
   };
   const bool any = options.method == Method::automatic;
   if (options.method == Method::direct) return direct();
@@ -118,12 +137,12 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   const double good = costs.good_leaf_size();
   const std::size_t fine_leaf_size =
       options.leaf_size > 0 ? options.leaf_size : static_cast<std::size_t>(std::clamp(good / 6, 8.0, 1024.0));
-  const double points_bytes = 8.0 * d * static_cast<double>(problem.sources + problem.targets);
-  const double tree_bytes = points_bytes + clusters_bytes<d>(problem, fine_leaf_size);
-  check_memory("the tree", tree_bytes, options.memory_limit);
-  Tree<d> tree(problem, fine_leaf_size, smallest_side(problem, options.tolerance), options.threads);
+  const double tree_bytes =
+      8.0 * d * site.points() * (problem.self ? 2 : 1) + clusters_bytes<d>(site.points(), fine_leaf_size);
+  site.together([&] { check_memory("the tree", tree_bytes, options.memory_limit); });
+  Tree<d> tree = site.tree(fine_leaf_size, smallest_side(problem, options.tolerance));
 
-  const Prediction prediction = choose_method<d>(tree, fine_leaf_size, costs, options.method, choice.method);
+  const Prediction prediction = choose_method<d>(tree, fine_leaf_size, costs, site, options.method, choice.method);
   if (any && direct_seconds < prediction.seconds) return direct();
 
   if (options.leaf_size == 0) tree.prune(prediction.leaf_size);
@@ -133,10 +152,10 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
       std::max(std::max(degrees.error, degrees.one_sided_error + rounded) + core_share(problem) * options.tolerance,
                error_of(precisions.points));
   choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction.leaf_size;
-  return make_clustered<d>(problem, options, std::move(tree), degrees, costs, precisions, tree_bytes, choice);
+  return make_clustered<d>(options, std::move(tree), degrees, costs, precisions, tree_bytes, site, choice);
 }
 
-template std::unique_ptr<Summation> choose_summation<2>(const Problem&, const Options&, Choice&);
-template std::unique_ptr<Summation> choose_summation<3>(const Problem&, const Options&, Choice&);
+template std::unique_ptr<Summation> choose_summation<2>(const Problem&, const Options&, Site<2>&, Choice&);
+template std::unique_ptr<Summation> choose_summation<3>(const Problem&, const Options&, Site<3>&, Choice&);
 
 }  // namespace farfield::detail

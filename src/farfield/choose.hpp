@@ -4,12 +4,13 @@
 #include <memory>
 
 #include "farfield/farfield.hpp"
-#include "farfield/problem.hpp"
+#include "farfield/site.hpp"
 
 namespace farfield::detail {
 
-/// Completes `choice`. Throws ToleranceError, MemoryLimitError.
+/// Completes `choice`. Throws ToleranceError, MemoryLimitError, TimeLimitError.
 template <int d>
-std::unique_ptr<Summation> choose_summation(const Problem& problem, const Options& options, Choice& choice);
+std::unique_ptr<Summation> choose_summation(const Problem& problem, const Options& options, Site<d>& site,
+                                            Choice& choice);
 
 }  // namespace farfield::detail

@@ -1,6 +1,7 @@
 #include "farfield/cost.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace farfield::detail {
@@ -18,25 +19,46 @@ constexpr double small_things = 1.5e-3;
 constexpr std::size_t samples_a_level = 200;
 
 /// Sizes of leaves to choose from.
-constexpr std::size_t sizes[] = {8,   11,  16,  23,  32,   45,   64,   90,   128, 181,
-                                 256, 362, 512, 724, 1024, 1448, 2048, 2896, 4096};
+constexpr std::size_t sizes[] = {
+    8, 11, 16, 23, 32, 45, 64, 90, 128, 181, 256, 362, 512, 724, 1024, 1448, 2048, 2896, largest_leaf_size};
 constexpr std::size_t size_count = std::size(sizes);
 
-/// Seconds for every leaf size, added up from events that happen for a whole interval of sizes.
+/// Seconds of a sample for every leaf size, added up from events that happen for a whole interval of sizes.
 class BySize {
  public:
   /// For leaf sizes s with low <= s < high.
   void add(std::size_t low, std::size_t high, double seconds) {
-    const auto place = [](std::size_t s) { return std::lower_bound(sizes, sizes + size_count, s) - sizes; };
+    const auto place = [](std::size_t s) {
+      return static_cast<std::size_t>(std::lower_bound(sizes, sizes + size_count, s) - sizes);
+    };
     if (low >= high) return;
     change_[place(low)] += seconds;
     change_[place(high)] -= seconds;
   }
+  /// From each size to the next, beginning with those of the first.
+  const std::array<double, size_count + 1>& changes() const { return change_; }
+
+ private:
+  std::array<double, size_count + 1> change_{};
+};
+
+/// Seconds of many samples. They are summed as whole numbers, so that their order does not matter, nor which rank has
+/// which sample.
+class SecondsOfSamples {
+ public:
+  void add(const BySize& sample) {
+    for (std::size_t i = 0; i <= size_count; ++i) {
+      const double seconds = std::clamp(sample.changes()[i], -most, most), whole = std::floor(seconds);
+      whole_[2 * i] += static_cast<std::int64_t>(whole);
+      whole_[2 * i + 1] += std::llround(std::ldexp(seconds - whole, digits));
+    }
+  }
+  std::vector<std::int64_t>& whole() { return whole_; }
   Prediction best(std::size_t smallest) const {
     Prediction best;
     double sum = 0;
     for (std::size_t i = 0; i < size_count; ++i) {
-      sum += change_[i];
+      sum += static_cast<double>(whole_[2 * i]) + std::ldexp(static_cast<double>(whole_[2 * i + 1]), -digits);
       if (sizes[i] < smallest) continue;
       if (best.leaf_size == 0 || sum < best.seconds) best = {sizes[i], sum};
     }
@@ -44,7 +66,9 @@ class BySize {
   }
 
  private:
-  double change_[size_count + 1] = {};
+  static constexpr double most = 1e13;  // seconds of a sample
+  static constexpr int digits = 44;     // of 2: 6e-14 seconds, and room for 500 000 samples
+  std::vector<std::int64_t> whole_ = std::vector<std::int64_t>(2 * (size_count + 1));
 };
 
 std::size_t larger_count(const Cluster& cluster) { return std::max(cluster.source_count(), cluster.target_count()); }
@@ -126,12 +150,11 @@ namespace {
 template <int d>
 class Work {
  public:
-  Work(const Tree<d>& fine, const Costs<d>& costs, bool couple) : fine_(fine), costs_(costs), couple_(couple) {
-    seconds_.add(0, larger_count(fine.clusters()[0]), costs.setup(couple));
-  }
+  Work(const Tree<d>& fine, const Costs<d>& costs, bool couple) : fine_(fine), costs_(costs), couple_(couple) {}
 
   /// Cluster i stands for `weight` clusters of its level.
-  void add(std::size_t i, double weight) {
+  BySize of(std::size_t i, double weight) {
+    seconds_ = {};
     const Cluster& cluster = fine_.clusters()[i];
     const std::size_t own = larger_count(cluster), above = divided_above(cluster);
     const std::size_t leaf_from = cluster.leaf() ? 0 : own;  // is a leaf for sizes leaf_from <= s < above
@@ -144,15 +167,14 @@ class Work {
     seconds_.add(
         leaf_from, above,
         weight * (sources * costs_.moments_of_point() + (couple_ ? targets : 0) * costs_.expansion_at_point()));
-    if (cluster.target_count() == 0) return;
+    if (cluster.target_count() == 0) return seconds_;
     find_colleagues(i);
     for (const Index s : colleagues_)
       seconds_.add(leaf_from, above,
                    weight * targets * static_cast<double>(fine_.clusters()[s].source_count()) * costs_.pair());
     for (const Index s : apart_) add_apart(cluster, fine_.clusters()[s], weight);
+    return seconds_;
   }
-
-  Prediction best(std::size_t smallest) const { return seconds_.best(smallest); }
 
  private:
   /// The leaf size from which on the parent of a cluster is a leaf.
@@ -205,19 +227,28 @@ class Work {
 }  // namespace
 
 template <int d>
-Prediction predict(const Tree<d>& fine, std::size_t fine_leaf_size, const Costs<d>& costs, bool couple) {
+Prediction predict(const Tree<d>& fine, std::size_t fine_leaf_size, const Costs<d>& costs, bool couple,
+                   const std::vector<LevelShare>& shares, const SumOverRanks& sum) {
+  SecondsOfSamples seconds;
   Work<d> work(fine, costs, couple);
-  for (std::size_t level = 0; level < fine.levels(); ++level) {
-    const std::size_t begin = fine.level_begin(level), end = fine.level_begin(level + 1);
-    const std::size_t step = (end - begin + samples_a_level - 1) / samples_a_level;
-    for (std::size_t i = begin; i < end; i += step) work.add(i, static_cast<double>(std::min(step, end - i)));
+  for (const LevelShare& level : shares) {
+    const std::size_t step = (level.total + samples_a_level - 1) / samples_a_level, end = level.before + level.count;
+    if (level.count == 0) continue;
+    for (std::size_t n = (level.before + step - 1) / step * step; n < end; n += step)
+      seconds.add(work.of(level.first + n - level.before, static_cast<double>(std::min(step, level.total - n))));
   }
-  return work.best(fine_leaf_size);
+  sum(seconds.whole());
+  BySize setup;
+  setup.add(0, larger_count(fine.clusters()[0]), costs.setup(couple));
+  seconds.add(setup);
+  return seconds.best(fine_leaf_size);
 }
 
 template class Costs<2>;
 template class Costs<3>;
-template Prediction predict<2>(const Tree<2>&, std::size_t, const Costs<2>&, bool);
-template Prediction predict<3>(const Tree<3>&, std::size_t, const Costs<3>&, bool);
+template Prediction predict<2>(const Tree<2>&, std::size_t, const Costs<2>&, bool, const std::vector<LevelShare>&,
+                               const SumOverRanks&);
+template Prediction predict<3>(const Tree<3>&, std::size_t, const Costs<3>&, bool, const std::vector<LevelShare>&,
+                               const SumOverRanks&);
 
 }  // namespace farfield::detail

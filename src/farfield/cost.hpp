@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "farfield/interpolation/operators.hpp"
@@ -50,8 +52,20 @@ struct Prediction {
   double seconds = 0;
 };
 
+constexpr std::size_t largest_leaf_size = 4096;  // that is ever predicted to be the best
+
+/// The clusters of a level that one rank counts: first .. first + count of its tree. On all ranks there are `total`, and
+/// `before` of these stand before its own. Each is counted by one rank.
+struct LevelShare {
+  std::size_t first = 0, count = 0, before = 0, total = 0;
+};
+
+/// Replaces numbers by their sums over all ranks.
+using SumOverRanks = std::function<void(std::vector<std::int64_t>& numbers)>;
+
 /// The best leaf size, at least that of the tree, and the time of one plan and one evaluation with it.
 template <int d>
-Prediction predict(const Tree<d>& fine, std::size_t fine_leaf_size, const Costs<d>& costs, bool couple);
+Prediction predict(const Tree<d>& fine, std::size_t fine_leaf_size, const Costs<d>& costs, bool couple,
+                   const std::vector<LevelShare>& shares, const SumOverRanks& sum);
 
 }  // namespace farfield::detail

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <type_traits>
 
 #include "base/parallel.hpp"
 #include "farfield/check.hpp"
 #include "farfield/choose.hpp"
+#include "farfield/ranks/shared_site.hpp"
 
 namespace farfield::detail {
 namespace {
@@ -30,6 +33,13 @@ struct Box {
       low[l] = std::min(low[l], points.row(l).minCoeff() / 2);
       high[l] = std::max(high[l], points.row(l).maxCoeff() / 2);
     }
+  }
+  /// Includes the points of all ranks.
+  void include_all(const Channel& channel) {
+    std::vector<double> ends;
+    for (int l = 0; l < 3; ++l) ends.insert(ends.end(), {-low[l], high[l]});
+    channel.max(ends);
+    for (std::size_t l = 0; l < 3; ++l) low[l] = -ends[2 * l], high[l] = ends[2 * l + 1];
   }
   /// This is subtracted from coordinate l, so that the rest is at most twice the extent. The difference is exact: if
   /// points are farther from 0 than they extend, all of them lie between the nearest and twice the nearest.
@@ -83,51 +93,115 @@ Engine<d>::Engine(Kernel kernel, const Eigen::Ref<const Points<d>>& sources, con
   Box box;
   box.include<d>(sources);
   if (targets) box.include<d>(*targets);
-  exponent_ = box.exponent();
-
-  problem_.interaction = kernel == Kernel::vortex_blob         ? Interaction::blob
-                         : kernel == Kernel::coulomb && d == 3 ? Interaction::inverse
-                                                               : Interaction::logarithm;
-  problem_.potential = options.potential && kernel != Kernel::vortex_blob;
-  problem_.log_shift = exponent_ * std::numbers::ln2;
-  if (kernel == Kernel::vortex_blob) {
-    const double core = std::ldexp(options.core_radius, -exponent_);
-    problem_.inverse_squared_core = std::min(1 / core / core, std::numeric_limits<double>::max());
-  }
+  set_problem(kernel, box.exponent());
   problem_.self = targets == nullptr;
   problem_.sources = static_cast<std::size_t>(sources.cols());
   problem_.targets = targets ? static_cast<std::size_t>(targets->cols()) : problem_.sources;
   const double points = static_cast<double>(problem_.sources) + (targets ? static_cast<double>(problem_.targets) : 0.0);
+  own_sources_ = problem_.sources;
+  own_targets_ = problem_.targets;
   check_memory("the plan", 8.0 * points * problem_.dimension(), options.memory_limit);
   take<d>(sources, box, problem_.dimension(), exponent_, options.threads, problem_.source);
   if (targets) take<d>(*targets, box, problem_.dimension(), exponent_, options.threads, problem_.target);
-
-  choice_.kernel = kernel;
-  choice_.method = Method::direct;
-  choice_.tolerance = options.tolerance;
   choice_.sources = problem_.sources;
   choice_.targets = problem_.targets;
-  summation_ = problem_.dimension() == 3 ? choose_summation<3>(problem_, options_, choice_)
-                                         : choose_summation<2>(problem_, options_, choice_);
+  const auto choose = [&]<int dimension>(std::integral_constant<int, dimension>) {
+    Site<dimension> site(problem_, options_);
+    return choose_summation<dimension>(problem_, options_, site, choice_);
+  };
+  summation_ =
+      problem_.dimension() == 3 ? choose(std::integral_constant<int, 3>()) : choose(std::integral_constant<int, 2>());
+}
+
+template <int d>
+Engine<d>::Engine(Kernel kernel, const Eigen::Ref<const Points<d>>& points, std::span<const std::int64_t> numbers,
+                  const Options& options, Ranks& ranks)
+    : options_(options), channel_(ranks), numbers_(numbers.begin(), numbers.end()) {
+  const std::size_t count = static_cast<std::size_t>(points.cols());
+  together([&] {
+    check_options(kernel, options, d);
+    check_points("point", points.data(), d, count, stride<d>(points), options.threads);
+    if (numbers.size() != count)
+      throw InvalidArgument("farfield: there are " + std::to_string(numbers.size()) + " numbers for " +
+                            std::to_string(count) + " points; there must be one for every point");
+  });
+  Box box;
+  box.include<d>(points);
+  box.include_all(*channel_);
+  set_problem(kernel, box.exponent());
+  std::vector<std::int64_t> all{static_cast<std::int64_t>(count)};
+  channel_->sum(all);
+  own_sources_ = own_targets_ = count;
+  problem_.sources = problem_.targets = static_cast<std::size_t>(all[0]);
+  choice_.sources = choice_.targets = problem_.sources;
+  together(
+      [&] { check_memory("the plan", 8.0 * static_cast<double>(count) * problem_.dimension(), options.memory_limit); });
+  take<d>(points, box, problem_.dimension(), exponent_, options.threads, problem_.source);
+  const auto choose = [&]<int dimension>(std::integral_constant<int, dimension>) {
+    SharedSite<dimension> site(problem_, options_, *channel_, numbers_, received_);
+    return choose_summation<dimension>(problem_, options_, site, choice_);
+  };
+  summation_ =
+      problem_.dimension() == 3 ? choose(std::integral_constant<int, 3>()) : choose(std::integral_constant<int, 2>());
+}
+
+template <int d>
+void Engine<d>::set_problem(Kernel kernel, int exponent) {
+  exponent_ = exponent;
+  problem_.interaction = kernel == Kernel::vortex_blob         ? Interaction::blob
+                         : kernel == Kernel::coulomb && d == 3 ? Interaction::inverse
+                                                               : Interaction::logarithm;
+  problem_.potential = options_.potential && kernel != Kernel::vortex_blob;
+  problem_.log_shift = exponent_ * std::numbers::ln2;
+  if (kernel == Kernel::vortex_blob) {
+    const double core = std::ldexp(options_.core_radius, -exponent_);
+    problem_.inverse_squared_core = std::min(1 / core / core, std::numeric_limits<double>::max());
+  }
+  choice_.kernel = kernel;
+  choice_.method = Method::direct;
+  choice_.tolerance = options_.tolerance;
+}
+
+template <int d>
+template <class Work>
+void Engine<d>::together(const Work& work) const {
+  if (channel_) {
+    channel_->together(work);
+  } else {
+    work();
+  }
+}
+
+template <int d>
+void Engine<d>::check_results(const char* what, const double* values, std::size_t count,
+                              std::size_t numbers_a_target) const {
+  together([&] { check_values(what, values, count, numbers_a_target, numbers_.empty() ? nullptr : numbers_.data()); });
 }
 
 template <int d>
 Values<d> Engine<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds& seconds) const {
-  check_charges(charges, problem_.sources);
-  const std::size_t targets = problem_.targets,
+  const std::size_t sources = own_sources_, targets = own_targets_,
                     outputs = static_cast<std::size_t>(problem_.dimension() + problem_.potential);
-  check_memory("the evaluation",
-               8.0 * static_cast<double>(problem_.sources) + 16.0 * static_cast<double>(targets * outputs) +
-                   summation_->evaluation_bytes(),
-               options_.memory_limit);
+  together([&] {
+    check_charges(charges, sources);
+    check_memory("the evaluation",
+                 8.0 * static_cast<double>(sources) + 16.0 * static_cast<double>(targets * outputs) +
+                     summation_->evaluation_bytes(),
+                 options_.memory_limit);
+  });
 
-  const double largest = problem_.sources > 0 ? charges.cwiseAbs().maxCoeff() : 0.0;
+  double largest = sources > 0 ? charges.cwiseAbs().maxCoeff() : 0.0;
+  if (channel_) {
+    std::vector<double> of_all{largest};
+    channel_->max(of_all);
+    largest = of_all[0];
+  }
   const int charge_exponent =
       largest > 0 ? std::clamp(std::ilogb(largest) + 1, -largest_exponent, largest_exponent) : 0;
   const double charge_scale = std::ldexp(1.0, -charge_exponent);
-  Buffer<double> scaled(problem_.sources + padding);
+  Buffer<double> scaled(sources + padding);
   std::fill(scaled.begin(), scaled.end(), 0.0);
-  for (std::size_t j = 0; j < problem_.sources; ++j) scaled[j] = charges.data()[j] * charge_scale;
+  for (std::size_t j = 0; j < sources; ++j) scaled[j] = charges.data()[j] * charge_scale;
 
   Sums sums;
   if (problem_.potential) sums.potential.assign(targets + padding, 0.0);
@@ -147,7 +221,7 @@ Values<d> Engine<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, 
     values.potential.resize(static_cast<Eigen::Index>(targets));
     for (std::size_t i = 0; i < targets; ++i)
       values.potential.data()[i] = sign * in_units(sums.potential[i], inverse ? 1 : 0);
-    check_values("potential", values.potential.data(), targets, 1);
+    check_results("potential", values.potential.data(), targets, 1);
   }
   for (std::size_t i = 0; i < targets; ++i) {
     double* const field = values.field.data() + i * d;
@@ -158,7 +232,7 @@ Values<d> Engine<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, 
       for (std::size_t l = 0; l < d; ++l) field[l] = in_units(sums.field[l][i], inverse ? 2 : 1);
     }
   }
-  check_values("field", values.field.data(), targets, d);
+  check_results("field", values.field.data(), targets, d);
   return values;
 }
 

@@ -14,6 +14,11 @@ Plan<d>::Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& points, const Op
     : engine_(std::make_unique<detail::Engine<d>>(kernel, points, nullptr, options)) {}
 
 template <int d>
+Plan<d>::Plan(Kernel kernel, const Eigen::Ref<const Points<d>>& points, std::span<const std::int64_t> numbers,
+              const Options& options, Ranks& ranks)
+    : engine_(std::make_unique<detail::Engine<d>>(kernel, points, numbers, options, ranks)) {}
+
+template <int d>
 Plan<d>::~Plan() = default;
 template <int d>
 Plan<d>::Plan(Plan&&) noexcept = default;
@@ -31,6 +36,11 @@ Values<d> Plan<d>::evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Se
 template <int d>
 const Choice& Plan<d>::choice() const {
   return engine_->choice();
+}
+
+template <int d>
+Received Plan<d>::received() const {
+  return engine_->received();
 }
 
 template class Plan<1>;

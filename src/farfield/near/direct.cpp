@@ -9,12 +9,11 @@ namespace farfield::detail {
 
 void Direct::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& seconds) const {
   Laps laps;
-  constexpr std::size_t piece = 128;  // targets; a source serves all of them while it is in the cache
   const Coordinates& target = problem_.target_points();
   const Range all{0, problem_.sources};
-  const double pairs = static_cast<double>(problem_.targets) * static_cast<double>(problem_.sources);
-  const gaussdrift::base::Pieces pieces((problem_.targets + piece - 1) / piece,
-                                        pairs * pair_seconds(problem_, Precision::full));
+  const std::size_t targets = targets_.end - targets_.begin;
+  const double pairs = static_cast<double>(targets) * static_cast<double>(problem_.sources);
+  const gaussdrift::base::Pieces pieces((targets + piece - 1) / piece, pairs * pair_seconds(problem_, Precision::full));
   gaussdrift::base::parallel_for(pieces, threads_, [&](std::size_t i) {
     PairsJob job{};
     job.interaction = problem_.interaction;
@@ -24,7 +23,8 @@ void Direct::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& second
       job.source[l] = problem_.source[l].data();
       job.field[l] = sums.field[l].data();
     }
-    job.targets = {i * piece, std::min(problem_.targets, (i + 1) * piece)};
+    const std::size_t begin = targets_.begin + i * piece;
+    job.targets = {begin, std::min(targets_.end, begin + piece)};
     job.charge = charges.data();
     job.runs = &all;
     job.run_count = 1;

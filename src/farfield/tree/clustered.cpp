@@ -16,13 +16,16 @@ Clustered<d>::Clustered(const Problem& problem, Parts parts)
       operators_(std::move(parts.operators)),
       near_(problem_, tree_, parts.precisions),
       threads_(parts.threads),
-      work_(work_of<d>(partition_, tree_, operators_ ? operators_->one_sided().nodes() : 0)) {}
+      work_(parts.work),
+      exchange_(std::move(parts.exchange)),
+      exchange_bytes_(parts.exchange_bytes) {}
 
 template <int d>
 double Clustered<d>::evaluation_bytes() const {
   const double outputs = d + 1;
-  return 8.0 * static_cast<double>(problem_.sources) + 8.0 * outputs * static_cast<double>(problem_.targets) +
-         bytes_per_cluster() * static_cast<double>(tree_.clusters().size());
+  return 8.0 * static_cast<double>(tree_.sources().position[0].size()) +
+         8.0 * outputs * static_cast<double>(tree_.targets().position[0].size()) +
+         bytes_per_cluster() * static_cast<double>(tree_.clusters().size()) + exchange_bytes_;
 }
 
 template <int d>
@@ -30,15 +33,20 @@ void Clustered<d>::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& 
   Laps laps;
   const auto& sources = tree_.sources().original;
   const auto& targets = tree_.targets().original;
-  Buffer<double> sorted(sources.size() + padding);
-  for (std::size_t j = 0; j < sources.size(); ++j) sorted[j] = charges[sources[j]];
-  std::fill(sorted.end() - padding, sorted.end(), 0.0);
+  const std::size_t begin = tree_.own_begin(), count = tree_.targets().position[0].size();
+  Buffer<double> sorted;
+  sorted.assign(tree_.sources().position[0].size(), 0.0);
+  for (std::size_t j = 0; j < sources.size(); ++j) sorted[begin + j] = charges[sources[j]];
   Sums found;
-  if (problem_.potential) found.potential.assign(targets.size() + padding, 0.0);
-  for (std::size_t l = 0; l < d; ++l) found.field[l].assign(targets.size() + padding, 0.0);
+  if (problem_.potential) found.potential.assign(count, 0.0);
+  for (std::size_t l = 0; l < d; ++l) found.field[l].assign(count, 0.0);
 
   if (operators_) {
-    const PerCluster moments = forward<d>(tree_, *operators_, sorted, threads_);
+    PerCluster moments = forward<d>(tree_, *operators_, sorted, threads_);
+    if (exchange_) {
+      exchange_(sorted, moments, operators_->functions());
+      forward_shared<d>(tree_, *operators_, threads_, moments);
+    }
     seconds.forward = laps.lap();
     add_all(sorted, moments, found, seconds);
   } else {
@@ -47,8 +55,8 @@ void Clustered<d>::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& 
   }
 
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    if (problem_.potential) sums.potential[targets[i]] = found.potential[i];
-    for (std::size_t l = 0; l < d; ++l) sums.field[l][targets[i]] = found.field[l][i];
+    if (problem_.potential) sums.potential[targets[i]] = found.potential[begin + i];
+    for (std::size_t l = 0; l < d; ++l) sums.field[l][targets[i]] = found.field[l][begin + i];
   }
 }
 

@@ -2,6 +2,7 @@
 // which act on the targets. `symmetric` couples clusters of sources with clusters of targets.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "farfield/interpolation/operators.hpp"
@@ -20,6 +21,10 @@ class Clustered : public Summation {
     std::shared_ptr<const Operators<d>> operators;  // null if there is one cluster, which all pairs are in
     Precisions precisions;
     int threads;
+    Work work;  // of one evaluation
+    /// On several ranks: sets the charges of points, and moments of clusters, that other ranks have. Null: there are none.
+    std::function<void(Buffer<double>& charges, PerCluster& moments, std::size_t functions)> exchange{};
+    double exchange_bytes = 0;
   };
   Clustered(const Problem& problem, Parts parts);
 
@@ -42,6 +47,8 @@ class Clustered : public Summation {
   const NearField<d> near_;
   const int threads_;
   const Work work_;
+  const std::function<void(Buffer<double>&, PerCluster&, std::size_t)> exchange_;
+  const double exchange_bytes_;
 };
 
 template <int d>

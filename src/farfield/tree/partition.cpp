@@ -241,12 +241,15 @@ Partition make_partition(const Tree<d>& tree, const PartitionOptions& options) {
 }
 
 template <int d>
-Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes) {
+Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes,
+             const std::function<bool(Index)>& counts) {
   Work work;
   const auto& clusters = tree.clusters();
   const auto nodes_of = static_cast<double>(nodes);
-  for (const CouplingChunk& chunk : partition.couplings) work.couplings += static_cast<double>(chunk.pairs.size());
+  for (const CouplingChunk& chunk : partition.couplings)
+    for (const CouplingChunk::Pair& pair : chunk.pairs) work.couplings += counts(pair.target);
   for (std::size_t i = 0; i < clusters.size(); ++i) {
+    if (!counts(static_cast<Index>(i))) continue;
     const auto targets = static_cast<double>(clusters[i].target_count());
     for (std::size_t n = 0; n < partition.runs.count(i); ++n) {
       const Range& run = partition.runs.first(i)[n];
@@ -260,8 +263,8 @@ Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes)
   return work;
 }
 
-template Work work_of<2>(const Partition&, const Tree<2>&, std::size_t);
-template Work work_of<3>(const Partition&, const Tree<3>&, std::size_t);
+template Work work_of<2>(const Partition&, const Tree<2>&, std::size_t, const std::function<bool(Index)>&);
+template Work work_of<3>(const Partition&, const Tree<3>&, std::size_t, const std::function<bool(Index)>&);
 template Partition make_partition<2>(const Tree<2>&, const PartitionOptions&);
 template Partition make_partition<3>(const Tree<3>&, const PartitionOptions&);
 

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "farfield/tree/tree.hpp"
@@ -60,8 +61,9 @@ struct PartitionOptions {
 template <int d>
 Partition make_partition(const Tree<d>& tree, const PartitionOptions& options);
 
-/// Counts the work of one evaluation, with this many nodes in place of a cluster.
+/// Counts the work of one evaluation for some clusters of targets, with this many nodes in place of a cluster.
 template <int d>
-Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes);
+Work work_of(const Partition& partition, const Tree<d>& tree, std::size_t nodes,
+             const std::function<bool(Index)>& counts);
 
 }  // namespace farfield::detail

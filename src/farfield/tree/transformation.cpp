@@ -58,17 +58,19 @@ void multiply(Rows& rows, std::size_t count, const double* matrix) {
                              .c_stride = count});
 }
 
-/// Rows for the children in one octant of parents begin .. end: their own numbers, or those of the parents.
-template <int d>
-void gather(const Tree<d>& tree, std::size_t begin, std::size_t end, std::size_t octant, bool of_parents, bool sources,
-            const PerCluster& numbers, std::size_t count, Rows& rows) {
+/// Rows for the children in one octant of some of the parents begin .. end that have something to add: their own numbers,
+/// or those of the parents.
+template <int d, class Some, class Adds>
+void gather(const Tree<d>& tree, std::size_t begin, std::size_t end, std::size_t octant, bool of_parents,
+            const Some& some, const Adds& adds, const PerCluster& numbers, std::size_t count, Rows& rows) {
   rows.cluster.clear();
   rows.from.clear();
   for (std::size_t i = begin; i < end; ++i) {
     const Cluster& parent = tree.clusters()[i];
+    if (!some(parent)) continue;
     for (Index c = parent.first_child; c < parent.first_child + parent.children; ++c) {
       const Cluster& child = tree.clusters()[c];
-      if (child.octant != octant || (sources ? child.source_count() : child.target_count()) == 0) continue;
+      if (child.octant != octant || !adds(child)) continue;
       const double* const from = numbers.data() + (of_parents ? i : c) * count;
       rows.cluster.push_back(c);
       rows.from.insert(rows.from.end(), from, from + count);
@@ -90,6 +92,24 @@ void set_cluster(const Tree<d>& tree, const Cluster& cluster, const Operators<d>
   job.scale = stretch / tree.side(cluster.level);
 }
 
+/// Moments of the parents begin .. end that are of a part, from those of their children.
+template <int d>
+void add_children(const Tree<d>& tree, const Operators<d>& operators, Part part, std::size_t begin, std::size_t end,
+                  Rows& rows, PerCluster& moments) {
+  const std::size_t count = operators.functions();
+  const auto some = [part](const Cluster& parent) { return parent.part == part; };
+  const auto adds = [](const Cluster& child) { return child.source_count() > 0; };
+  for (std::size_t octant = 0; octant < Operators<d>::octants; ++octant) {
+    gather<d>(tree, begin, end, octant, false, some, adds, moments, count, rows);
+    if (rows.cluster.empty()) continue;
+    multiply(rows, count, operators.transfer(octant));
+    for (std::size_t row = 0; row < rows.cluster.size(); ++row) {
+      double* const parent = moments.data() + tree.clusters()[rows.cluster[row]].parent * count;
+      for (std::size_t k = 0; k < count; ++k) parent[k] += rows.to[row * count + k];
+    }
+  }
+}
+
 }  // namespace
 
 template <int d>
@@ -97,47 +117,51 @@ PerCluster forward(const Tree<d>& tree, const Operators<d>& operators, const Buf
   const std::size_t count = operators.functions();
   PerCluster moments = zeros(tree, count);
   for (std::size_t level = tree.levels(); level-- > 0;) {
-    for_each_piece<Rows>(
-        tree.level_begin(level), tree.level_begin(level + 1), level_seconds<d>(tree, level, count, true), threads,
-        [&](Rows& rows, std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            const Cluster& cluster = tree.clusters()[i];
-            if (!cluster.leaf() || cluster.source_count() == 0) continue;
-            MomentsJob job{};
-            set_cluster(tree, cluster, operators, tree.sources().position, job);
-            rows.to.resize(count * max_lanes);
-            rows.from.resize(count);
-            job.charge = charges.data();
-            job.range = cluster.sources;
-            job.moments = rows.from.data();
-            job.scratch = rows.to.data();
-            fastest_kernels().moments(job);
-            for (std::size_t k = 0; k < count; ++k) moments[i * count + operators.place(k)] = rows.from[k];
-          }
-          for (std::size_t octant = 0; octant < Operators<d>::octants; ++octant) {
-            gather<d>(tree, begin, end, octant, false, true, moments, count, rows);
-            if (rows.cluster.empty()) continue;
-            multiply(rows, count, operators.transfer(octant));
-            for (std::size_t row = 0; row < rows.cluster.size(); ++row) {
-              double* const parent = moments.data() + tree.clusters()[rows.cluster[row]].parent * count;
-              for (std::size_t k = 0; k < count; ++k) parent[k] += rows.to[row * count + k];
-            }
-          }
-        });
+    for_each_piece<Rows>(tree.level_begin(level), tree.level_begin(level + 1),
+                         level_seconds<d>(tree, level, count, true), threads,
+                         [&](Rows& rows, std::size_t begin, std::size_t end) {
+                           for (std::size_t i = begin; i < end; ++i) {
+                             const Cluster& cluster = tree.clusters()[i];
+                             if (!cluster.leaf() || cluster.source_count() == 0 || cluster.part != Part::own) continue;
+                             MomentsJob job{};
+                             set_cluster(tree, cluster, operators, tree.sources().position, job);
+                             rows.to.resize(count * max_lanes);
+                             rows.from.resize(count);
+                             job.charge = charges.data();
+                             job.range = cluster.sources;
+                             job.moments = rows.from.data();
+                             job.scratch = rows.to.data();
+                             fastest_kernels().moments(job);
+                             for (std::size_t k = 0; k < count; ++k)
+                               moments[i * count + operators.place(k)] = rows.from[k];
+                           }
+                           add_children<d>(tree, operators, Part::own, begin, end, rows, moments);
+                         });
   }
   return moments;
+}
+
+template <int d>
+void forward_shared(const Tree<d>& tree, const Operators<d>& operators, int threads, PerCluster& moments) {
+  for (std::size_t level = tree.levels(); level-- > 0;)
+    for_each_piece<Rows>(tree.level_begin(level), tree.level_begin(level + 1), 0, threads,
+                         [&](Rows& rows, std::size_t begin, std::size_t end) {
+                           add_children<d>(tree, operators, Part::shared, begin, end, rows, moments);
+                         });
 }
 
 template <int d>
 void backward(const Tree<d>& tree, const Operators<d>& operators, PerCluster& coefficients, double sign, bool potential,
               int threads, Sums& sums) {
   const std::size_t count = operators.functions();
+  const auto all = [](const Cluster&) { return true; };
+  const auto takes = [](const Cluster& child) { return child.target_count() > 0; };
   for (std::size_t level = 0; level < tree.levels(); ++level) {
     for_each_piece<Rows>(tree.level_begin(level), tree.level_begin(level + 1),
                          level_seconds<d>(tree, level, count, false), threads,
                          [&](Rows& rows, std::size_t begin, std::size_t end) {
                            for (std::size_t octant = 0; octant < Operators<d>::octants; ++octant) {
-                             gather<d>(tree, begin, end, octant, true, false, coefficients, count, rows);
+                             gather<d>(tree, begin, end, octant, true, all, takes, coefficients, count, rows);
                              if (rows.cluster.empty()) continue;
                              multiply(rows, count, operators.transposed(octant));
                              for (std::size_t row = 0; row < rows.cluster.size(); ++row) {
@@ -172,6 +196,8 @@ void backward(const Tree<d>& tree, const Operators<d>& operators, PerCluster& co
 
 template PerCluster forward<2>(const Tree<2>&, const Operators<2>&, const Buffer<double>&, int);
 template PerCluster forward<3>(const Tree<3>&, const Operators<3>&, const Buffer<double>&, int);
+template void forward_shared<2>(const Tree<2>&, const Operators<2>&, int, PerCluster&);
+template void forward_shared<3>(const Tree<3>&, const Operators<3>&, int, PerCluster&);
 template void backward<2>(const Tree<2>&, const Operators<2>&, PerCluster&, double, bool, int, Sums&);
 template void backward<3>(const Tree<3>&, const Operators<3>&, PerCluster&, double, bool, int, Sums&);
 

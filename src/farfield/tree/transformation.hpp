@@ -10,9 +10,14 @@ namespace farfield::detail {
 /// Numbers of every cluster: [cluster][functions], by parity as Operators keeps them.
 using PerCluster = Buffer<double>;
 
-/// moments[cluster][k] = sum_j q_j h_k(y_j) over the cluster's sources; 0 for clusters without sources.
+/// moments[cluster][k] = sum_j q_j h_k(y_j) over the cluster's sources; 0 for clusters without sources. Those of own
+/// clusters alone.
 template <int d>
 PerCluster forward(const Tree<d>& tree, const Operators<d>& operators, const Buffer<double>& charges, int threads);
+
+/// Moments of shared clusters from those of their children, in the same order as if they were own ones.
+template <int d>
+void forward_shared(const Tree<d>& tree, const Operators<d>& operators, int threads, PerCluster& moments);
 
 /// Adds the potential sum_k coefficients[cluster][k] h_k and its gradient times `sign` at the targets of all clusters;
 /// coefficients are added up downwards on the way.

@@ -1,51 +1,30 @@
 // The cluster tree: cubes of a lattice that is halved from level to level, down to clusters of few points. It follows
-// the points, so it resolves groups of points far smaller than the whole, down to sides of 2^-40 of it. Sides and
-// centres are exact numbers, so that clusters are whole numbers of sides apart.
+// the points, so it resolves groups of points far smaller than the whole, down to sides of 2^-40 of it.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
-#include "farfield/problem.hpp"
+#include "farfield/tree/cluster.hpp"
 
 namespace farfield::detail {
-
-using Index = std::uint32_t;  // of points and clusters
-
-constexpr int max_level = 40;
-
-struct Cluster {
-  Index parent = 0;
-  Index first_child = 0;
-  std::uint8_t children = 0;  // they follow each other; 0: a leaf
-  std::uint8_t level = 0;
-  std::uint8_t octant = 0;  // within the parent: bit l is set in the upper half of axis l
-  /// All sources and targets of this leaf are equal; only told of leaves that could not be divided.
-  bool one_point = false;
-  std::array<std::int64_t, 3> cell{};  // number on the lattice of its level
-  Range sources{}, targets{};          // in the order of the tree
-
-  bool leaf() const { return children == 0; }
-  std::size_t source_count() const { return sources.end - sources.begin; }
-  std::size_t target_count() const { return targets.end - targets.begin; }
-};
-
-/// Points in the order of the tree.
-struct SortedPoints {
-  Coordinates position;
-  std::vector<Index> original;  // number in the caller's order
-};
 
 template <int d>
 class Tree {
  public:
   /// Clusters of more than `leaf_size` sources or targets are divided, unless their side is below 2 smallest_side.
   Tree(const Problem& problem, std::size_t leaf_size, double smallest_side, int threads);
+  /// What a rank knows of the clusters of all ranks, the sources being the targets: those of level i are
+  /// level_begin[i] .. level_begin[i + 1]. It has no points yet.
+  Tree(const Cube& cube, std::vector<Cluster> clusters, std::vector<std::size_t> level_begin)
+      : self_(true), cube_(cube), clusters_(std::move(clusters)), level_begin_(std::move(level_begin)) {}
 
   /// Clusters of at most `leaf_size` sources and targets are not divided any more.
   void prune(std::size_t leaf_size);
+
+  /// On several ranks: the points of this one and what it needs of others, with ranges of clusters that fit. `original`
+  /// is that of its own points alone, which begin at own_begin().
+  void take_points(SortedPoints points, std::size_t own_begin, std::vector<Cluster> clusters);
 
   bool self() const { return self_; }
   const std::vector<Cluster>& clusters() const { return clusters_; }
@@ -55,25 +34,19 @@ class Tree {
 
   const SortedPoints& sources() const { return sources_; }
   const SortedPoints& targets() const { return self_ ? sources_ : targets_; }
+  /// Place among the positions that sources().original and targets().original begin at.
+  std::size_t own_begin() const { return own_begin_; }
 
-  double side(int level) const;
-  double centre(const Cluster& cluster, std::size_t axis) const {
-    return corner_[axis] + (static_cast<double>(cluster.cell[axis]) + 0.5) * side(cluster.level);
-  }
+  double side(int level) const { return cube_.side_of(level); }
+  double centre(const Cluster& cluster, std::size_t axis) const { return cube_.centre(cluster, axis); }
 
  private:
-  /// Sets corner and side of the root so that it holds all points.
-  void enclose();
-
   bool self_;
-  double corner_[3] = {}, side_ = 1;  // of the root
+  Cube cube_;
   std::vector<Cluster> clusters_;
   std::vector<std::size_t> level_begin_;
   SortedPoints sources_, targets_;
+  std::size_t own_begin_ = 0;
 };
-
-/// Do the closed cubes have a point in common?
-template <int d>
-bool touch(const Cluster& a, const Cluster& b);
 
 }  // namespace farfield::detail
