@@ -33,7 +33,7 @@ struct Cluster {
   /// All sources and targets of this leaf are equal; only told of leaves that could not be divided.
   bool one_point : 1 = false;
   Part part : 7 = Part::own;
-  Index number = 0;                    // on several ranks: in the forest of the rank that has it; essential.hpp
+  Index number = 0;                    // on several ranks: in the forest of the rank that has it; essential_tree.hpp
   std::array<std::int64_t, 3> cell{};  // number on the lattice of its level
   Range sources{}, targets{};          // in the order of the tree
 
