@@ -57,7 +57,7 @@ set(public_core arguments buffer dispatch simd/functions simd/product_block simd
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
   gaussians/divergence_free gaussians/gaussian_velocity gridded/grid_data gridded/gridded
-  named/named_fields scalar velocity/differences velocity/value_seconds
+  named/named_fields scalar velocity/differences velocity/sampled_gradients velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read grid_file missing_data written_run)
 set(public_particle columns cutoff fgtd_points placing seeding subset tiles)

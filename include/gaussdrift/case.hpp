@@ -159,6 +159,7 @@ struct OutputSpec {
   std::vector<OutputFile> files;     ///< files that are written at each of these times
   std::vector<PictureStyle> images;  ///< pictures of every output
   bool report = true;                ///< report.html, report.json, summary.png
+  double piece_particles = 4194304;  ///< most particles of a file: more are written in pieces
   /// Seconds between two checkpoints; 0: none; empty: about a minute in runs of more than five.
   std::optional<double> checkpoint{};
 };

@@ -54,6 +54,7 @@ struct Frame {
   const Lattice* lattice = nullptr;  ///< with pieces: of all of them
   std::size_t every = 1;             ///< k
   bool pieces_have_exact = false;    ///< whether they come with the exact density
+  std::size_t particle_pieces = 1;   ///< more: particles come in so many pieces too
 };
 
 /// A piece of a density that is too large to be held as a whole (`evaluate.piece_points`).
@@ -62,6 +63,13 @@ struct DensityPiece {
   LatticeBox box;          ///< the points that it shows, with the layers that the next pieces have too
   const std::vector<double>* rho = nullptr;    ///< at its points, first axis fastest; never null
   const std::vector<double>* exact = nullptr;  ///< the same of the exact density; null where it is not known
+};
+
+/// A piece of particles that are too many for one file (`output.piece_particles`): neighbours in the order of ids.
+struct ParticlePiece {
+  std::size_t number = 0;                         ///< from 0
+  const Particles* particles = nullptr;           ///< places, weights and ids, which ascend; never null
+  const std::vector<double>* velocity = nullptr;  ///< there, [j][dimension]; never null
 };
 
 /// Looks at the frames of a run. What it throws ends the run, and comes out of Simulation::run().
@@ -73,12 +81,17 @@ class Observer {
   /// Whether frame() looks at the particles of the output at this time. Where several ranks share a run, particles and
   /// their velocities are brought together for it alone; else the frame has those of rank 0.
   virtual bool needs_particles(double /*time*/) const { return true; }
+  /// Whether it looks at particle_piece(): then needs_particles() is not asked where particles come in pieces.
+  virtual bool takes_particle_pieces() const { return false; }
   /// Called once for each output time, in their order, on the thread of run().
   virtual void frame(const Frame& frame) = 0;
   /// Before frame(), if the density comes in pieces: called for each piece on the rank that has it, so that observers
   /// that look at pieces are added on all ranks. Of the frame only index, time, pieces, lattice and every are there.
   /// All pieces of an output may come twice: the second ones, with a finer tolerance, replace the first.
   virtual void piece(const Frame& /*frame*/, const DensityPiece& /*piece*/) {}
+  /// The same of particles, whose pieces come once, before frame(). Of the frame only index, time and particle_pieces are
+  /// there.
+  virtual void particle_piece(const Frame& /*frame*/, const ParticlePiece& /*piece*/) {}
   /// Bytes that restore() needs, beside what is known of the outputs.
   virtual std::string state() const { return {}; }
   /// The run goes on after these outputs of an earlier process: files that hold all of them are made again. `state` is

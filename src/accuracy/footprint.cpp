@@ -70,8 +70,9 @@ double particles_at_most(const Case& spec, Trial& trial) {
   return carrier.replaces_particles() && spec.time.end > 0 ? at_start * grow(spec, trial).most : at_start;
 }
 
-/// What the files of the density hold: pieces show layers that others have, too, and of exact densities formulas alone.
+/// What files hold: pieces of a density show layers that others have, too, and of exact densities formulas alone.
 Extent in_files(const Case& spec, Extent extent) {
+  extent.particle_pieces = std::max(1.0, std::ceil(extent.particles / spec.output.piece_particles));
   const LatticePieces pieces = pieces_of_grid(spec);
   if (pieces.count() == 1) return extent;
   const Lattice lattice = evaluation_lattice(spec);
@@ -187,7 +188,7 @@ std::string what_memory_is_for(const RunMemory& run, double program, const Exten
 std::string how_to_lower(const RunMemory& run, double program) {
   if (run.all() < 0.1 * program) return "allow more memory: the program itself needs nearly all of it";
   std::vector<std::pair<double, std::string_view>> keys{{run.particles, "lower particles.per_axis"},
-                                                        {run.grid, "lower evaluate.per_axis"},
+                                                        {run.grid, "lower evaluate.per_axis or evaluate.piece_points"},
                                                         {run.pictures, "set output.images = []"}};
   std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;

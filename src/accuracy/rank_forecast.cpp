@@ -66,23 +66,24 @@ std::vector<Share> shares(const Trial& trial, const Tiles& tiles, const std::vec
 }
 
 /// The case as the ranks beside the first see it: they draw and explain nothing, and write their pieces alone.
-Case without_outputs(Case spec) {
+Case without_outputs(Case spec, bool particles_in_pieces) {
   spec.output.images.clear();
-  if (pieces_of_grid(spec).count() > 1)
-    std::erase_if(spec.output.files, [](const OutputFile& file) { return !write::find_output_file(file.name).piece; });
-  else
-    spec.output.files.clear();
+  const bool grid_in_pieces = pieces_of_grid(spec).count() > 1;
+  std::erase_if(spec.output.files, [&](const OutputFile& file) {
+    const write::FileKind& kind = write::find_output_file(file.name);
+    return !(kind.piece && grid_in_pieces) && !(kind.particle_piece && particles_in_pieces);
+  });
   spec.output.report = false;
   spec.accuracy.budget = AccuracySpec::Budget::none;
   return spec;
 }
 
-/// Rank 0 gets all particles where a file, a checkpoint or what explains the errors needs them.
-bool first_needs_all_particles(const Case& spec) {
+/// Rank 0 gets all particles where a file without pieces, a checkpoint or what explains the errors needs them.
+bool first_needs_all_particles(const Case& spec, bool in_pieces) {
   return std::any_of(spec.output.files.begin(), spec.output.files.end(),
-                     [](const OutputFile& file) {
+                     [&](const OutputFile& file) {
                        const write::FileKind& kind = write::find_output_file(file.name);
-                       return kind.bytes({.particles = 1e6}) > kind.bytes({});
+                       return !(in_pieces && kind.particle_piece) && kind.bytes({.particles = 1e6}) > kind.bytes({});
                      }) ||
          spec.output.report || spec.accuracy.budget != AccuracySpec::Budget::none || spec.output.checkpoint != 0.0;
 }
@@ -148,7 +149,8 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
   for (const Share& share : all) most = std::max(most, share.work), sum += share.work;
   result.balance = sum > 0 ? most * ranks / sum : 1;
   const double bytes = 8.0 * (spec.domain.dimension + 2);  // of a particle: its place, weight and id
-  const Case bare = without_outputs(spec);
+  const bool in_pieces = known.particles_at_most > spec.output.piece_particles;
+  const Case bare = without_outputs(spec, in_pieces);
   const double gathered = static_cast<double>(shown_grid(spec).size()) / static_cast<double>(grid.size());
   Extent extent{.lattice_points = static_cast<double>(known.lattice_points) / ranks};
   for (std::size_t r = 0; r < all.size(); ++r) {
@@ -159,7 +161,8 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
     extent.particles = all[r].particles + all[r].felt, extent.grid_points = all[r].points;
     result.other_memory = std::max(result.other_memory, memory_of_run(bare, extent).all() + known.program_bytes);
   }
-  extent.particles = first_needs_all_particles(spec) ? known.particles_at_most : all[0].particles + all[0].felt;
+  extent.particles =
+      first_needs_all_particles(spec, in_pieces) ? known.particles_at_most : all[0].particles + all[0].felt;
   extent.grid_points = static_cast<double>(known.grid_points);
   extent.compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none;
   result.first_memory = memory_of_run(spec, extent).all() + known.program_bytes;

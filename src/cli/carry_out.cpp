@@ -66,7 +66,7 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
 /// On the ranks but the first: each writes the pieces that it has.
 void observe_pieces(Simulation& simulation, const Case& spec, const fs::path& folder) {
   for (const OutputFile& file : spec.output.files)
-    if (const write::FileKind& kind = write::find_output_file(file.name); kind.piece)
+    if (const write::FileKind& kind = write::find_output_file(file.name); kind.index)
       simulation.observe(write::file_series(kind, folder));
 }
 

@@ -16,10 +16,10 @@ namespace gaussdrift::cli {
 
 /// The ending in small letters if it is that of data, pictures or documents; else nothing.
 inline std::string known_ending(const std::filesystem::path& name) {
-  constexpr std::array<std::string_view, 28> known{".nc",   ".nc4", ".h5",  ".hdf5", ".vti", ".vtr", ".vtp",
-                                                   ".vtu",  ".vtk", ".vts", ".pvd",  ".csv", ".txt", ".json",
-                                                   ".png",  ".jpg", ".gif", ".jpeg", ".tif", ".bmp", ".svg",
-                                                   ".tiff", ".pdf", ".mp4", ".avi",  ".npy", ".npz", ".html"};
+  constexpr std::array<std::string_view, 30> known{".nc",  ".nc4",  ".h5",  ".hdf5", ".vti",  ".vtr",  ".vtp", ".vtu",
+                                                   ".vtk", ".vts",  ".pvd", ".csv",  ".txt",  ".json", ".png", ".jpg",
+                                                   ".gif", ".jpeg", ".tif", ".bmp",  ".svg",  ".tiff", ".pdf", ".mp4",
+                                                   ".avi", ".npy",  ".npz", ".html", ".pvti", ".pvtp"};
   std::string ending = name.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

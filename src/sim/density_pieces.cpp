@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/piece_writers.hpp"
 #include "base/stopwatch.hpp"
 #include "sim/transform_errors.hpp"
 
@@ -70,7 +71,7 @@ class PieceSums {
     if (ranks_.rank() == 0) thin_.rho.resize(thin_.lattice.size());
     receiver_.begin();
     sum_layers(sums);
-    const std::size_t rounds = (pieces_.count() + size() - 1) / size();  // the most pieces of a rank
+    const std::size_t rounds = base::rounds_of_pieces(pieces_.count(), ranks_.size());
     for (std::size_t round = 0; round < rounds; ++round) sum_round(sums, round);
     layers_.clear();
   }
@@ -98,13 +99,14 @@ class PieceSums {
 
  private:
   std::size_t size() const { return static_cast<std::size_t>(ranks_.size()); }
-  int writer(std::size_t piece) const { return writer_of_piece(piece, pieces_.count(), ranks_.size()); }
+  int writer(std::size_t piece) const { return base::writer_of_piece(piece, pieces_.count(), ranks_.size()); }
   bool is_own(std::size_t tile) const { return owner_[tile] == ranks_.rank(); }
 
   template <class Use>
   void each_own_piece(int rank, const Use& use) const {
-    for (std::size_t piece = 0; piece < pieces_.count(); ++piece)
-      if (writer(piece) == rank) use(piece);
+    const std::size_t end = base::first_piece_of(rank + 1, pieces_.count(), ranks_.size());
+    for (std::size_t piece = base::first_piece_of(rank, pieces_.count(), ranks_.size()); piece < end; ++piece)
+      use(piece);
   }
 
   // use(box, ranks and pieces that show it) for each layer of a tile that pieces share.
@@ -163,14 +165,9 @@ class PieceSums {
 
   // One piece for each rank that has so many.
   void sum_round(TileSums& sums, std::size_t round) {
-    const auto ranks = ranks_.size();
     std::vector<std::size_t> now;  // by rank; none: the number of pieces
-    for (int rank = 0; rank < ranks; ++rank) {
-      std::size_t first = 0;
-      while (first < pieces_.count() && writer(first) < rank) ++first;
-      const std::size_t piece = first + round;
-      now.push_back(piece < pieces_.count() && writer(piece) == rank ? piece : pieces_.count());
-    }
+    for (int rank = 0; rank < ranks_.size(); ++rank)
+      now.push_back(base::piece_of_round(round, rank, pieces_.count(), ranks_.size()));
     const auto self = static_cast<std::size_t>(ranks_.rank());
     const bool shows = now[self] < pieces_.count();
     const LatticeBox shown = shows ? pieces_.shown(now[self]) : LatticeBox{{}, {0, 0, 0}};
@@ -267,10 +264,6 @@ class PieceSums {
 };
 
 }  // namespace
-
-int writer_of_piece(std::size_t piece, std::size_t pieces, int ranks) {
-  return static_cast<int>(piece * static_cast<std::size_t>(ranks) / pieces);
-}
 
 PiecesSummary sum_pieces(const TileSources& sources, const Tiles& tiles, const std::vector<int>& owner,
                          const Cutoff& cutoff, const Lattice& lattice, const LatticePieces& pieces,

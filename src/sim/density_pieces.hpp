@@ -26,9 +26,6 @@ struct PieceReceiver {
   std::function<void(std::size_t piece, const std::vector<double>& rho)> piece;
 };
 
-/// The rank that gets a piece.
-int writer_of_piece(std::size_t piece, std::size_t pieces, int ranks);
-
 /// Sums the tiles, of which each lies in one piece, and hands the pieces out. A rank holds one piece at a time, and what
 /// it shares with others: two layers for each piece. All ranks call it. What a receiver throws ends all of them.
 PiecesSummary sum_pieces(const TileSources& sources, const Tiles& tiles, const std::vector<int>& owner,

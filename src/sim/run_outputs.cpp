@@ -12,6 +12,7 @@
 #include "reference/sample.hpp"
 #include "sim/density_pieces.hpp"
 #include "sim/outside.hpp"
+#include "sim/particle_pieces.hpp"
 #include "sim/piece_comparison.hpp"
 #include "sim/run_parts.hpp"
 #include "sim/shared_reference.hpp"
@@ -261,7 +262,10 @@ void Simulation::Parts::show_frame(double time) {
   ranks_.agree_on([&] { velocity = velocity_at_particles(time, velocity_wanted); });
 
   if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
-  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && somebody_needs_particles(time);
+  if (velocity_wanted)
+    frame.particle_pieces = pieces_of_particles(place_.particle_count(), case_.output.piece_particles);
+  if (frame.particle_pieces > 1) hand_out_pieces(frame, velocity);
+  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && somebody_needs_particles(frame);
   std::pair<Particles, std::vector<double>> all;
   if (elsewhere) all = gathered(particles_, velocity, ranks_);
   frame.particles = elsewhere ? &all.first : &particles_;
@@ -298,11 +302,22 @@ void Simulation::Parts::show_frame(double time) {
   });
 }
 
-bool Simulation::Parts::somebody_needs_particles(double time) const {
-  std::int64_t needed = std::any_of(observers.begin(), observers.end(),
-                                    [&](const auto& observer) { return observer->needs_particles(time); });
+bool Simulation::Parts::somebody_needs_particles(const Frame& frame) const {
+  std::int64_t needed = std::any_of(observers.begin(), observers.end(), [&](const auto& observer) {
+    const bool has_pieces = frame.particle_pieces > 1 && observer->takes_particle_pieces();
+    return !has_pieces && observer->needs_particles(frame.time);
+  });
   ranks_.max(std::span(&needed, 1));
   return needed != 0;
+}
+
+void Simulation::Parts::hand_out_pieces(const Frame& frame, const std::vector<double>& velocity) {
+  hand_out_particles(particles_, velocity, frame.particle_pieces, ranks_, [&](const ParticlePiece& piece) {
+    for (const auto& observer : observers) {
+      base::seam();
+      summary_.stages.run(observer->name(), [&] { observer->particle_piece(frame, piece); });
+    }
+  });
 }
 
 // On the whole grid, or on a sample of it. The density is on rank 0, and so is what comes out.

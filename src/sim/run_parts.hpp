@@ -82,7 +82,8 @@ class Simulation::Parts {
   bool show_or_abandon(double time);
   void forget_output();
   void show_frame(double time);
-  bool somebody_needs_particles(double time) const;
+  bool somebody_needs_particles(const Frame& frame) const;
+  void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
   bool in_pieces() const { return pieces_.count() > 1; }
   /// A formula is evaluated wherever a piece is. Paths are followed from points of the thinned grid alone.
   bool compares_pieces() const {

@@ -40,14 +40,19 @@ class FileSeries : public Observer {
     const fs::path file = folder_ / piece_name(frame, piece.number);
     write_text(file, kind_.piece(file, frame, piece));
   }
+  bool takes_particle_pieces() const override { return kind_.particle_piece; }
+  void particle_piece(const Frame& frame, const ParticlePiece& piece) override {
+    if (!kind_.particle_piece) return;
+    const fs::path file = folder_ / piece_name(frame, piece.number);
+    write_text(file, kind_.particle_piece(file, frame, piece));
+  }
   void frame(const Frame& frame) override {
     const auto index = static_cast<std::size_t>(frame.index);
-    const bool in_pieces = frame.pieces && kind_.piece;
-    const fs::path file = in_pieces ? index_of(index) : file_of(index);
-    if (in_pieces) {
+    const std::size_t count = pieces_of(frame);
+    const fs::path file = count > 1 ? index_of(index) : file_of(index);
+    if (count > 1) {
       std::vector<std::string> pieces;
-      for (std::size_t number = 0; number < frame.pieces->count(); ++number)
-        pieces.push_back(piece_name(frame, number));
+      for (std::size_t number = 0; number < count; ++number) pieces.push_back(piece_name(frame, number));
       write_text(file, kind_.index(frame, pieces));
     } else {
       write_text(file, kind_.text(file, frame));
@@ -58,12 +63,16 @@ class FileSeries : public Observer {
     std::vector<std::pair<double, fs::path>> entries;
     for (const auto& [time, numbers] : frames) {
       const fs::path index = index_of(entries.size());
-      entries.emplace_back(time, kind_.piece && fs::exists(index) ? index : file_of(entries.size()));
+      entries.emplace_back(time, kind_.index && fs::exists(index) ? index : file_of(entries.size()));
     }
     if (!entries.empty()) collection_.begin(entries);
   }
 
  private:
+  std::size_t pieces_of(const Frame& frame) const {
+    if (kind_.particle_piece) return frame.particle_pieces;
+    return kind_.piece && frame.pieces ? frame.pieces->count() : 1;
+  }
   fs::path file_of(std::size_t index) const {
     return folder_ / fmt::format("{}_{:04}{}", kind_.about.name, index, kind_.ending);
   }

@@ -21,6 +21,7 @@ struct Extent {
   double grid_points = 0;
   bool compared_everywhere = false;  // with the exact density
   double pieces = 1;                 // of the grid
+  double particle_pieces = 1;
 };
 
 struct FileKind {
@@ -28,8 +29,12 @@ struct FileKind {
   std::string_view ending;  // ".vti"
   /// All that the file of an output holds; messages call it `file`. Of the frame it may take what `about` says.
   std::string (*text)(const std::filesystem::path& file, const Frame& frame) = nullptr;
-  /// Where the density comes in pieces: the file of one, and the index that names all. Null: there is one file always.
+  /// Where the density comes in pieces: the file of one. Null: there is one file of the density always.
   std::string (*piece)(const std::filesystem::path& file, const Frame& frame, const DensityPiece& piece) = nullptr;
+  /// Where particles do.
+  std::string (*particle_piece)(const std::filesystem::path& file, const Frame& frame,
+                                const ParticlePiece& piece) = nullptr;
+  /// Names the files of all pieces.
   std::string (*index)(const Frame& frame, const std::vector<std::string>& files) = nullptr;
   std::string_view index_ending = {};                // ".pvti"
   double (*bytes)(const Extent& extent) = nullptr;   // of the files of one output
@@ -50,7 +55,7 @@ const FileKind& density_output();
 /// Bytes that numbers take as text in a ParaView file: four letters for three bytes.
 constexpr double bytes_as_text(double numbers) { return 4. / 3 * 8 * numbers; }
 
-/// Writes NAME.pvd and NAME/NAME_0000.vti, ...; where the density comes in pieces NAME/NAME_0000.pvti, ... and
+/// Writes NAME.pvd and NAME/NAME_0000.vti, ...; where density or particles come in pieces NAME/NAME_0000.pvti, ... and
 /// NAME/NAME_0000/0000.vti, ...
 std::unique_ptr<Observer> file_series(const FileKind& kind, const std::filesystem::path& folder);
 

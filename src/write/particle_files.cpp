@@ -7,7 +7,13 @@ namespace gaussdrift::write {
 namespace {
 
 // Three coordinates, three components of the velocity, weight, id, and two numbers that make each a cell.
-double bytes(const Extent& extent) { return bytes_as_text(10) * extent.particles + 2500; }
+double bytes(const Extent& extent) { return bytes_as_text(10) * extent.particles + 2500 * extent.particle_pieces; }
+
+// Eight numbers a particle as arrays, and all as text. Those of a piece are brought together before.
+double memory(const Extent& extent) {
+  const double all = 64 * extent.particles + 2.2 * bytes(extent);
+  return extent.particle_pieces > 1 ? (all + 256 * extent.particles) / extent.particle_pieces : all;
+}
 
 }  // namespace
 
@@ -19,9 +25,14 @@ FileKind particle_files() {
           .ending = ".vtp",
           .text = [](const std::filesystem::path& file,
                      const Frame& frame) { return particle_text(file, *frame.particles, *frame.velocity, frame.time); },
+          .particle_piece =
+              [](const std::filesystem::path& file, const Frame& frame, const ParticlePiece& piece) {
+                return particle_text(file, *piece.particles, *piece.velocity, frame.time);
+              },
+          .index = [](const Frame&, const std::vector<std::string>& files) { return particle_index_text(files); },
+          .index_ending = ".pvtp",
           .bytes = bytes,
-          // Eight numbers a particle as arrays, and all as text.
-          .memory = [](const Extent& extent) { return 64 * extent.particles + 2.2 * bytes(extent); },
+          .memory = memory,
           .view = [](int) { return std::string("Show(particles, view)\n"); }};
 }
 

@@ -38,10 +38,9 @@ OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_
     const std::string name(kind.about.name);
     files.add(name + ".pvd");
     const std::string numbered = name + "/" + name + "_";
-    if (!in_pieces || !kind.piece) {
-      files.add(numbered_names(numbered, most, kind.ending));
-      continue;
-    }
+    const bool pieces_for_certain = in_pieces && kind.piece;
+    if (!pieces_for_certain) files.add(numbered_names(numbered, most, kind.ending));
+    if (!pieces_for_certain && !kind.particle_piece) continue;  // how many particles there will be is not known yet
     files.add(numbered_names(numbered, most, kind.index_ending));
     files.add(numbered_names(numbered, most, "/"));
   }

@@ -243,6 +243,21 @@ void write_particles(const fs::path& file, const Particles& particles, const std
   write_text(file, particle_text(file, particles, velocity, time));
 }
 
+std::string particle_index_text(const std::vector<std::string>& files) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "  <PPolyData GhostLevel=\"0\">\n"
+      "    <PPointData Scalars=\"alpha\" Vectors=\"u\">\n"
+      "      <PDataArray type=\"Int64\" Name=\"id\"/>\n"
+      "      <PDataArray type=\"Float64\" Name=\"alpha\"/>\n"
+      "      <PDataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"3\"/>\n"
+      "    </PPointData>\n"
+      "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n";
+  for (const std::string& file : files) text += fmt::format("    <Piece Source=\"{}\"/>\n", escaped(file));
+  return text + "  </PPolyData>\n</VTKFile>\n";
+}
+
 Collection::Collection(fs::path file) : file_(std::move(file)), text_(file_, "  </Collection>\n</VTKFile>\n") {}
 
 std::string Collection::entry(double time, const fs::path& data) const {

@@ -33,6 +33,9 @@ std::string density_piece_text(const std::filesystem::path& file, const Frame& f
 /// density/density_0000.pvti: names the files of the pieces, as seen from its folder.
 std::string density_index_text(const Frame& frame, const std::vector<std::string>& files);
 
+/// particles/particles_0000.pvtp: the same of particles, each of which is a particle_text().
+std::string particle_index_text(const std::vector<std::string>& files);
+
 /// A ParaView collection, whole after every call. Data are named relative to the folder of the .pvd. Throws FileError.
 class Collection {
  public:

@@ -72,8 +72,9 @@ inline std::string wrong_page(const std::string& text) {
 /// What cannot be read in the folder of a run, a line each. Files with a point ahead are none of the run's.
 inline std::string unreadable_in(const fs::path& folder) {
   static const std::map<std::string, std::string (*)(const std::string&)> by_ending{
-      {".vti", wrong_xml}, {".vtp", wrong_xml},  {".pvd", wrong_xml},   {".json", wrong_json}, {".csv", wrong_table},
-      {".png", wrong_png}, {".txt", wrong_text}, {".toml", wrong_text}, {".py", wrong_text},   {".html", wrong_page}};
+      {".vti", wrong_xml},  {".vtp", wrong_xml},   {".pvtp", wrong_xml},  {".pvti", wrong_xml},
+      {".pvd", wrong_xml},  {".json", wrong_json}, {".csv", wrong_table}, {".png", wrong_png},
+      {".txt", wrong_text}, {".toml", wrong_text}, {".py", wrong_text},   {".html", wrong_page}};
   std::string list;
   if (!fs::exists(folder)) return list;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

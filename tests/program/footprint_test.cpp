@@ -120,6 +120,13 @@ INSTANTIATE_TEST_SUITE_P(
         Size{"nothing_written", plain, {"particles.per_axis=1500"}},
         Size{"particle_files", plain, {"particles.per_axis=1500", "output.vtk=[\"particles\"]", "output.frames=2"}},
         Size{"density_files", plain, {"particles.per_axis=100", "evaluate.per_axis=1500", "output.vtk=[\"density\"]"}},
+        Size{"particle_pieces",
+             plain,
+             {"particles.per_axis=1500", "output.vtk=[\"particles\"]", "output.piece_particles=30000"}},
+        Size{"density_pieces",
+             plain,
+             {"particles.per_axis=100", "evaluate.per_axis=2500", "evaluate.piece_points=500000",
+              "output.vtk=[\"density\"]"}},
         Size{"compared",
              plain,
              {"particles.per_axis=100", "evaluate.per_axis=700", "output.vtk=[\"density\"]", "reference.kind=\"exact\"",
@@ -169,11 +176,12 @@ TEST(Run, IsRefusedForALargeGridThoughNoSampleMeetsItsParticles) {
   write_file(folder / "c.toml", plain);
   const Outcome refused = gaussdrift_in(folder,
                                         "run c.toml --set particles.per_axis=20001 --set density.radius=1e-4 --set "
-                                        "density.center=[0.50035,0.50035] --set evaluate.per_axis=30000",
+                                        "density.center=[0.50035,0.50035] --set evaluate.per_axis=30000 --set "
+                                        "evaluate.piece_points=134217728 --set 'output.vtk=[\"density\"]'",
                                         sanitized ? "ulimit -d 3000000;" : "ulimit -v 3000000;");
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("the run would take about"), std::string::npos) << refused.err;
-  EXPECT_NE(refused.err.find("lower evaluate.per_axis"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("lower evaluate.per_axis or evaluate.piece_points"), std::string::npos) << refused.err;
   EXPECT_FALSE(fs::exists(folder / "output"));
 }
 

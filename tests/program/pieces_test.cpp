@@ -83,6 +83,36 @@ TEST(DensityInPieces, IsGoneOnWithInTheSameFiles) {
   EXPECT_EQ(read_file(folder / "whole/density.pvd"), read_file(folder / "parts/density.pvd"));
 }
 
+TEST(ParticlesInPieces, AreWrittenGoneOnWithAndTakenAway) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  const std::string small_files = " --set output.piece_particles=100 --set time.step=0.0005";
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out whole" + small_files).exit_code, 0);
+  const fs::path particles = folder / "whole/particles";
+  EXPECT_TRUE(fs::exists(particles / "particles_0002.pvtp"));
+  EXPECT_TRUE(fs::exists(particles / "particles_0002/0001.vtp"));
+  EXPECT_FALSE(fs::exists(particles / "particles_0002.vtp"));
+  EXPECT_NE(read_file(folder / "whole/particles.pvd").find("file=\"particles/particles_0002.pvtp\""),
+            std::string::npos);
+  Outcome run = gaussdrift_in(folder, "run a.toml --out parts --stop-after 0.02" + small_files);
+  ASSERT_EQ(run.exit_code, 7) << run.err;
+  ASSERT_EQ(gaussdrift_in(folder, "resume parts").exit_code, 0);
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(particles)) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path other = folder / "parts/particles" / fs::relative(entry.path(), particles);
+    EXPECT_EQ(read_file(entry.path()), read_file(other)) << other;
+    ++files;
+  }
+  EXPECT_EQ(files, 3u * (1 + 2));
+  EXPECT_EQ(gaussdrift_in(folder, "compare parts whole --tolerance 0").exit_code, 0);
+  EXPECT_EQ(gaussdrift_in(folder, "report parts").exit_code, 0);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --out parts --force").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "parts/particles/particles_0000.pvtp"));
+  EXPECT_FALSE(fs::exists(folder / "parts/particles/particles_0000"));
+  EXPECT_TRUE(fs::exists(folder / "parts/particles/particles_0000.vtp"));
+}
+
 TEST(DensityInPieces, IsDrawn) {
   if (!draws_pictures) GTEST_SKIP() << without_pictures;
   const ScratchFolder folder;

@@ -291,7 +291,8 @@ TEST(Run, StopsWhereParticlesLeaveForInfinity) {
 TEST(Run, RefusesWhatDoesNotFitInMemory) {
   const ScratchFolder folder;
   write_file(folder / "small.toml", small_case);
-  const Outcome refused = gaussdrift_in(folder, "run small.toml --set evaluate.per_axis=46000");
+  const Outcome refused = gaussdrift_in(
+      folder, "run small.toml --memory 1GB --set evaluate.per_axis=46000 --set evaluate.piece_points=134217728");
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find(" GB for 2.12e+09 grid points, "), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find("lower evaluate.per_axis"), std::string::npos) << refused.err;

@@ -6,7 +6,8 @@ import os
 import sys
 import xml.etree.ElementTree as ElementTree
 
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPImageDataReader, vtkXMLPolyDataReader
+from vtkmodules.vtkIOXML import (vtkXMLImageDataReader, vtkXMLPImageDataReader, vtkXMLPolyDataReader,
+                                 vtkXMLPPolyDataReader)
 
 
 def numbers(values):
@@ -21,15 +22,19 @@ def show_array(where, array):
 
 
 def show(name):
-    kinds = {".vti": vtkXMLImageDataReader, ".pvti": vtkXMLPImageDataReader, ".vtp": vtkXMLPolyDataReader}
+    kinds = {".vti": vtkXMLImageDataReader, ".pvti": vtkXMLPImageDataReader, ".vtp": vtkXMLPolyDataReader,
+             ".pvtp": vtkXMLPPolyDataReader}
     reader = kinds[os.path.splitext(name)[1]]()
     reader.SetFileName(name)
     reader.Update()
     if reader.GetErrorCode() != 0:
         sys.exit("%s: error %d" % (name, reader.GetErrorCode()))
-    data = reader.GetOutput()
+    show_data(reader.GetOutput())
+
+
+def show_data(data):
     print(data.GetClassName())
-    if name.endswith("vti"):
+    if data.GetClassName() == "vtkImageData":
         print("extent", numbers(data.GetExtent()))
         print("origin", numbers(data.GetOrigin()))
         print("spacing", numbers(data.GetSpacing()))
@@ -48,9 +53,16 @@ def show(name):
         show_array("field", data.GetFieldData().GetArray(i))
 
 
-root = ElementTree.parse(sys.argv[1]).getroot()
-assert root.tag == "VTKFile" and root.get("type") == "Collection", root.attrib
-for entry in root.find("Collection"):
-    assert entry.tag == "DataSet" and not os.path.isabs(entry.get("file")), entry.attrib
-    print("timestep", "%.17g" % float(entry.get("timestep")), entry.get("file"))
-    show(os.path.join(os.path.dirname(sys.argv[1]), entry.get("file")))
+def entries(collection):
+    """Time and file of each data set."""
+    root = ElementTree.parse(collection).getroot()
+    assert root.tag == "VTKFile" and root.get("type") == "Collection", root.attrib
+    for entry in root.find("Collection"):
+        assert entry.tag == "DataSet" and not os.path.isabs(entry.get("file")), entry.attrib
+        yield float(entry.get("timestep")), entry.get("file")
+
+
+if __name__ == "__main__":
+    for time, file in entries(sys.argv[1]):
+        print("timestep", "%.17g" % time, file)
+        show(os.path.join(os.path.dirname(sys.argv[1]), file))

@@ -14,6 +14,7 @@
 
 #include "gaussdrift/error.hpp"
 #include "message_of.hpp"
+#include "particle/subset.hpp"
 #include "scratch_folder.hpp"
 #include "write/disk.hpp"
 #include "write/output_files.hpp"
@@ -210,6 +211,42 @@ TEST(ParticleFile, IsReadByParaViewsReaderDigitByDigit) {
                         numbers(particles.alpha) + "\narray u double 3" + numbers(u) + "\nfield TimeValue double 1" +
                         numbers<double>({0.1}) + "\n");
     EXPECT_NE(read_file(folder / "particles_0000.vtp").find("type=\"Int64\" Name=\"id\""), std::string::npos);
+  }
+}
+
+TEST(ParticleFile, InPiecesIsReadAsOne) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  for (const int dimension : {2, 3}) {
+    const ScratchFolder folder;
+    const auto particles = some_particles(dimension, 11);
+    const auto velocity = some_velocity(particles);
+    const DensityGrid none;
+    Frame frame;
+    frame.index = 3, frame.time = 0.1;
+    frame.particles = &particles, frame.velocity = &velocity, frame.density = &none;
+    const auto whole = file_series(find_output_file("particles"), folder / "whole");
+    whole->frame(frame);
+    frame.particle_pieces = 3;
+    const auto series = file_series(find_output_file("particles"), folder / "pieces");
+    const std::size_t first[] = {0, 4, 8, particles.size()};
+    for (std::size_t number = 0; number < 3; ++number) {
+      std::vector<std::size_t> chosen;
+      std::vector<double> of_piece;
+      for (std::size_t j = first[number]; j < first[number + 1]; ++j) {
+        chosen.push_back(j);
+        for (int k = 0; k < dimension; ++k)
+          of_piece.push_back(velocity[j * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(k)]);
+      }
+      const Particles piece = subset(particles, chosen);
+      series->particle_piece(frame, {number, &piece, &of_piece});
+    }
+    series->frame(frame);
+    std::string one = read_series(python, folder / "whole/particles.pvd"),
+                all = read_series(python, folder / "pieces/particles.pvd");
+    EXPECT_NE(all.find(" particles/particles_0003.pvtp\nvtkPolyData\n"), std::string::npos) << all.substr(0, 500);
+    one.erase(0, one.find('\n')), all.erase(0, all.find('\n'));
+    EXPECT_EQ(all.substr(0, all.find("field ")), one.substr(0, one.find("field ")));
   }
 }
 

@@ -80,6 +80,13 @@ Section output_section() {
         .choices = {"html", "none"},
         .meaning = "the page about the run. `html` writes report.html and its numbers, report.json. With pictures and "
                    "density files it also writes summary.png"},
+       {.name = "piece_particles",
+        .type = Type::whole,
+        .fallback = "4194304",
+        .range = {100, 134217728},
+        .meaning =
+            "most particles of a file. More are written in pieces, none of which has more particles, in the order "
+            "of their ids"},
        {.name = "checkpoint",
         .type = Type::duration,
         .range = {0, infinity},
@@ -175,6 +182,7 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   for (const std::size_t k : in.choices("output", "images")) output.images.push_back(render::styles()[k].about);
   output.report = in.choice("output", "report") == "html";
   output.checkpoint = in.duration("output", "checkpoint");
+  if (const auto most = in.number("output", "piece_particles")) output.piece_particles = most->number;
   if (in.facts.dimension) check_images(in, output.images);
 }
 
@@ -190,6 +198,8 @@ void write_output(Writer& out, const OutputSpec& output) {
   out.entry("images", names(output.images));
   out.entry("report", written(std::string(output.report ? "html" : "none")));
   if (output.checkpoint) out.entry("checkpoint", written(*output.checkpoint));
+  if (output.piece_particles != OutputSpec{}.piece_particles)
+    out.entry("piece_particles", fmt::format("{:.0f}", output.piece_particles));
 }
 
 }  // namespace gaussdrift::input
