@@ -119,13 +119,21 @@ struct TimeSpec {
   std::string method = "rk4";  ///< name of a tableau
 };
 
+/// Parameters of the method `hermite` by hand, in the letters of [Sch06, Table A.1].
+struct HermiteSpec {
+  double r = 0.5;  ///< boxes have the side r sqrt(2/sigma); 0 < r < 1
+  int p = 9;       ///< terms of the series on each axis
+  int n = -1;      ///< boxes to each side, on each axis, whose sources count; -1: all
+};
+
 /// `[evaluate]`: the grid on which the density is summed for output.
 struct EvaluateSpec {
-  int per_axis = 200;              ///< n_ge on the longest axis
-  double spacing = 0;              ///< of the points on all axes; 0: per_axis says it
-  double tolerance = 1e-8;         ///< of the Gauss transform, relative to max |rho| at that output
-  std::string method = "auto";     ///< auto, or a method of fgtd by name
-  double tile_particles = 0;       ///< most particles of a tile; 0: 2^18 in the plane, 2^20 in space
+  int per_axis = 200;                       ///< n_ge on the longest axis
+  double spacing = 0;                       ///< of the points on all axes; 0: per_axis says it
+  double tolerance = 1e-8;                  ///< of the Gauss transform, relative to max |rho| at that output
+  std::string method = "auto";              ///< auto, or a method of fgtd by name
+  std::optional<HermiteSpec> hermite = {};  ///< with method "hermite"; by default chosen for the tolerance
+  double tile_particles = 0;                ///< most particles of a tile; 0: 2^18 in the plane, 2^20 in space
   double piece_points = 33554432;  ///< most points of a grid, or of a piece of it, that is held and written at once
   double most_seconds = 0;         ///< that a density may be predicted to take; 0: 300 for a named method, any for auto
 };

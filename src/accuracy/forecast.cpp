@@ -117,6 +117,7 @@ void try_density(const Case& spec, const Trial& trial, int threads, Forecast& re
   DensityOptions options;
   options.tolerance = spec.evaluate.tolerance;
   options.method = spec.evaluate.method;
+  options.hermite = spec.evaluate.hermite;
   options.threads = 1;  // the density is the same for any
   const auto n = static_cast<double>(trial.particles.size());
   Lattice grid = trial.grid;

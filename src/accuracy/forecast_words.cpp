@@ -67,7 +67,10 @@ std::string run_text(const Case& spec, const Forecast& r) {
   text += fmt::format("transform  {}\n", r.density.choice);
   text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n",
                       spec.evaluate.tolerance, r.density.measured_error, r.density.sample);
-  if (r.density.achievable > spec.evaluate.tolerance)
+  if (spec.evaluate.hermite && r.density.achievable > spec.evaluate.tolerance)
+    text += fmt::format("           evaluate.r, p and n take the place of the tolerance: the bound is {:.1e}\n",
+                        r.density.achievable);
+  else if (r.density.achievable > spec.evaluate.tolerance)
     text +=
         fmt::format("           this tolerance cannot be promised here: the bound is {:.1e}\n", r.density.achievable);
   text += fmt::format("           max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum,

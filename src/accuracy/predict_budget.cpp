@@ -204,11 +204,20 @@ class Prediction {
         places.push_back({sample_.points[i], grid_point(scene_.evaluation, sample_.points[i]), exact_[i]});
     budget_.time_stepping = predict_time_stepping(spec_, scene_, seeded_, places, norm_, paths_);
     if (std::isnan(budget_.time_stepping)) return not_covered(lost_paths);
-    budget_.transform = spec_.evaluate.tolerance;
+    budget_.transform = error_of_sums();
     budget_.left_out = bound_of_left_out(scene_, seeding_, seeded_, carried_, norm_);
     budget_.total = budget_.total + budget_.time_stepping + budget_.transform + budget_.left_out;
     find_dominating(budget_);
     return true;
+  }
+
+  /// As promised, or as found where parameters by hand promise much less than they keep.
+  double error_of_sums() const {
+    if (!spec_.evaluate.hermite) return spec_.evaluate.tolerance;
+    const DensityGrid by_hand = evaluate_density(
+        carried_, scene_.cutoff, scene_.evaluation,
+        {.method = spec_.evaluate.method, .hermite = spec_.evaluate.hermite, .threads = threads_, .measure = false});
+    return at_least_rounding(largest_difference(by_hand.rho, density_) / norm_);
   }
 
   void advise() {

@@ -251,6 +251,9 @@ AccuracyChoice choose_for_accuracy(const Case& spec, double target, int threads,
                                    const std::function<void(const std::string&)>& doing, double most_work) {
   if (const std::string reason = budget_not_covered(spec); !reason.empty())
     throw InputError("no settings can be chosen for this accuracy: " + reason);
+  if (spec.evaluate.hermite)
+    throw InputError(
+        "no settings can be chosen for this accuracy: evaluate.r, p and n fix the error of the sums; leave them out");
   Search search{.allowance = {most_work}, .doing = doing, .threads = threads};
   std::optional<Settings> lattice;
   for (const double aim : aims) {

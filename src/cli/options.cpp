@@ -51,6 +51,7 @@ template Option OptionList::add(const std::string&, std::filesystem::path&, cons
 template Option OptionList::add(const std::string&, int&, const std::string&, const std::string&);
 template Option OptionList::add(const std::string&, double&, const std::string&, const std::string&);
 template Option OptionList::add(const std::string&, std::optional<double>&, const std::string&, const std::string&);
+template Option OptionList::add(const std::string&, std::optional<int>&, const std::string&, const std::string&);
 template Option OptionList::add(const std::string&, std::vector<std::string>&, const std::string&, const std::string&);
 template Option OptionList::add(const std::string&, std::vector<double>&, const std::string&, const std::string&);
 

@@ -80,8 +80,10 @@ std::string result_text(const Case& spec, const RunSummary& summary) {
     const auto& [t1, last] = summary.frames.back();
     std::string heights = fmt::format("{} at t = {:.4g}", extremes_text(first), t0);
     if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {:.4g}", extremes_text(last), t1);
-    text += fmt::format("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({:.0e} asked)\n", heights,
-                        last.mass, worst, spec.evaluate.tolerance);
+    text += fmt::format("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({})\n", heights, last.mass,
+                        worst,
+                        spec.evaluate.hermite ? fmt::format("bound of r, p and n: {:.0e}", summary.transform_achievable)
+                                              : fmt::format("{:.0e} asked", spec.evaluate.tolerance));
   }
   if (summary.seeding.left_out > 0) text += left_out_text(spec, summary.seeding);
   return text;

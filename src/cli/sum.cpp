@@ -36,8 +36,11 @@ struct SumOptions {
   std::string grid;           // "-1:1:200,-1:1:200"
   std::optional<double> sigma;
   std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum
-  double tolerance = 1e-6;
+  std::optional<double> tolerance;       // 1e-6
   std::string method = "auto";
+  std::optional<double> r;  // of `hermite` by hand, as are the next two
+  std::optional<int> p;
+  std::string n;                  // a number or "all"; empty: not given
   std::optional<double> seconds;  // most that may be predicted; by default 300 for a method that is named
   fs::path out;                   // empty or "-": standard output
   std::string memory;             // --memory; empty: at most 8 GB
@@ -59,10 +62,20 @@ void declare(OptionList& options, SumOptions& given) {
       .add("--derivative", given.derivatives, "A1,A2,...",
            "a derivative of the Gaussians: --derivative 0,1,2. Repeatable. By default the plain sum")
       .repeatable();
-  options.add("--tolerance", given.tolerance, "X",
-              "error of every term (docs/fgtd.md, docs/farfield.md); 1e-6 by default");
+  const Option tolerance = options.add("--tolerance", given.tolerance, "X",
+                                       "error of every term (docs/fgtd.md, docs/farfield.md); 1e-6 by default");
   options.add("--method", given.method, "NAME",
               "auto (the default), or a method of the library. A wrong name is answered with the list");
+  options
+      .add("--r", given.r, "R",
+           "by hand: boxes of the method hermite have the side r sqrt(2/sigma); 0.5 by default. The error is bounded "
+           "for r < 1, and told")
+      .excludes(tolerance);
+  options.add("--p", given.p, "P", "by hand: terms of its series on each axis; 9 by default").excludes(tolerance);
+  options
+      .add("--n", given.n, "N",
+           "by hand: boxes to each side, on each axis, whose sources count, or all; all by default")
+      .excludes(tolerance);
   options.add("--seconds", given.seconds, "S",
               "refuse a sum that is predicted to take longer; 300 by default for a method that you name");
   options.add("--kernel", given.kernel, "NAME",
@@ -86,6 +99,10 @@ Choice named(const char* option, const std::string& name, const std::vector<Choi
                                      meant ? fmt::format(", is \"{}\" meant?", *meant) : "", fmt::join(names, ", ")));
 }
 
+bool by_hand(const SumOptions& options) { return options.r || options.p || !options.n.empty(); }
+
+double tolerance_of(const SumOptions& options) { return options.tolerance.value_or(1e-6); }
+
 bool of_pairs(const SumOptions& options) { return options.kernel == "coulomb" || options.kernel == "log"; }
 
 bool to_standard_output(const SumOptions& options) { return options.out.empty() || options.out == "-"; }
@@ -102,15 +119,20 @@ void check_options(const SumOptions& options) {
     if (!options.derivatives.empty())
       throw CommandLineError(
           fmt::format("--derivative belongs to the kernel gauss; {} gives potential and field", options.kernel));
-    if (!(options.tolerance > 0) || !(options.tolerance < 1))
-      throw CommandLineError(fmt::format("--tolerance {}: must lie in (0, 1)", options.tolerance));
+    if (by_hand(options))
+      throw CommandLineError(
+          fmt::format("--r, --p and --n belong to the method hermite of the kernel gauss, not to {}", options.kernel));
+    if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
+      throw CommandLineError(fmt::format("--tolerance {}: must lie in (0, 1)", tolerance_of(options)));
   } else if (options.kernel == "gauss") {
     if (!options.sigma) throw CommandLineError("--sigma is missing: the Gaussian is exp(-sigma r^2)");
     if (!(*options.sigma > 0) || !std::isfinite(*options.sigma))
       throw CommandLineError(fmt::format("--sigma {}: must be positive and finite", *options.sigma));
-    if (!(options.tolerance > 0) || !(options.tolerance < 1))
+    if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
       throw CommandLineError(
-          fmt::format("--tolerance {}: must lie in [{}, 1)", options.tolerance, fgtd::smallest_tolerance));
+          fmt::format("--tolerance {}: must lie in [{}, 1)", tolerance_of(options), fgtd::smallest_tolerance));
+    if (by_hand(options) && options.method != "auto" && options.method != "hermite")
+      throw CommandLineError(fmt::format("--r, --p and --n belong to the method hermite, not to {}", options.method));
   } else {
     throw CommandLineError(fmt::format("--kernel: there is no \"{}\"; there are gauss, coulomb, log", options.kernel));
   }
@@ -175,12 +197,12 @@ void write_values(const std::vector<std::string>& columns, const Eigen::MatrixXd
 
 /// Reads what every kernel needs; returns the seconds that it took.
 double read_points(const SumOptions& options, sum::PointsRequest& request) {
-  request.tolerance = options.tolerance;
+  request.tolerance = tolerance_of(options);
   request.threads = options.threads;
   constexpr double most_if_named = 300;
   if (options.seconds)
     request.most_seconds = *options.seconds;
-  else if (options.method != "auto")
+  else if (options.method != "auto" || by_hand(options))
     request.most_seconds = most_if_named;
   request.tell = [](const std::string& what) { note("{}\n", what); };
   if (!options.grid.empty()) request.grid = sum::parse_grid(options.grid);
@@ -221,6 +243,12 @@ ExitCode sum_gaussians(const SumOptions& options) {
   sum::SumRequest request;
   request.sigma = *options.sigma;
   request.method = named("--method", options.method, fgtd::methods());
+  if (by_hand(options)) {
+    fgtd::HermiteParameters& given = request.hermite.emplace();
+    given.box_scale = options.r.value_or(given.box_scale);
+    given.expansion_order = options.p.value_or(given.expansion_order);
+    if (!options.n.empty()) given.neighbours = sum::parse_neighbours(options.n);
+  }
   for (const std::string& text : options.derivatives) request.derivatives.push_back(sum::parse_derivative(text));
   const double read_seconds = read_points(options, request);
   sum::PointSums sums = sum::sum_points(request);

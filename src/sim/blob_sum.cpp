@@ -1,5 +1,7 @@
 #include "sim/blob_sum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -66,9 +68,33 @@ void BlobSum<d>::choose_tolerance(double unit_error, double maximum, DensityRepo
   const double wanted = unit_error > 0 ? options_.tolerance * maximum / unit_error : coarsest;
   tolerance_ = std::clamp(wanted, fgtd::smallest_tolerance, coarsest);
   report.requested_tolerance = tolerance_;
+  if (by_hand()) {
+    const double bound = bound_by_hand();
+    report.requested_tolerance = options_.tolerance;
+    report.achievable = maximum > 0 ? bound / maximum : 0;
+    return;
+  }
   report.achievable = wanted >= fgtd::smallest_tolerance || maximum == 0
                           ? options_.tolerance
                           : fgtd::smallest_tolerance * unit_error / maximum;
+}
+
+template <int d>
+double BlobSum<d>::bound_by_hand() const {
+  const HermiteSpec& by_hand = *options_.hermite;
+  double bound = 0;
+  for (const WidthGroup& group : groups_)
+    for (const fgtd::Term<d>& term : group.combination) {
+      const auto of_term = fgtd::hermite_bound<d>(by_hand.r, by_hand.p, by_hand.n, term.derivative);
+      if (!of_term)
+        throw InputError(
+            fmt::format("with evaluate.p = {} the error of `hermite` has no bound for this cutoff function. "
+                        "Raise evaluate.p, or leave r, p and n out.",
+                        by_hand.p));
+      const int order = std::accumulate(term.derivative.begin(), term.derivative.end(), 0);
+      bound += std::abs(term.coefficient) * std::pow(group.sigma, order / 2.0) * *of_term;
+    }
+  return bound * weights_.cwiseAbs().sum();
 }
 
 template <int d>
@@ -121,6 +147,7 @@ fgtd::Options BlobSum<d>::options_for(const WidthGroup& group, const fgtd::Tenso
   options.tolerance = tolerance_;
   options.derivative_order = group.derivative_order;
   options.method = method_by_name(options_.method);
+  if (by_hand()) options.hermite = {options_.hermite->r, options_.hermite->p, options_.hermite->n};
   options.threads = options_.threads;
   options.expected_grid = grid;
   return options;

@@ -82,6 +82,7 @@ DensityOptions Simulation::Parts::density_options() const {
   DensityOptions options;
   options.tolerance = evaluate.tolerance;
   options.method = evaluate.method;
+  options.hermite = evaluate.hermite;
   options.threads = threads_;
   options.tiles = usual_tiles(case_.domain.dimension);
   if (evaluate.tile_particles > 0) options.tiles->particles = static_cast<std::int64_t>(evaluate.tile_particles);

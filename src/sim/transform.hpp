@@ -15,11 +15,12 @@
 namespace gaussdrift {
 
 struct DensityOptions {
-  double tolerance = 1e-8;               // relative to max |rho| at that output
-  std::string method = "auto";           // auto, or a method of fgtd by name
-  int threads = 0;                       // 0: all
-  bool measure = true;                   // compare with `direct` on a sample of the grid
-  std::optional<TileLimits> tiles = {};  // usual_tiles() where none are given
+  double tolerance = 1e-8;                  // relative to max |rho| at that output
+  std::string method = "auto";              // auto, or a method of fgtd by name
+  std::optional<HermiteSpec> hermite = {};  // of the method `hermite`; they bound the error in place of the tolerance
+  int threads = 0;                          // 0: all
+  bool measure = true;                      // compare with `direct` on a sample of the grid
+  std::optional<TileLimits> tiles = {};     // usual_tiles() where none are given
 };
 
 /// What one evaluation did.

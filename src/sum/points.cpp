@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <string_view>
@@ -14,6 +15,7 @@
 
 #include "base/number.hpp"
 #include "base/parallel.hpp"
+#include "base/printable.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
@@ -94,6 +96,12 @@ void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
   }
 }
 
+// Of each term, in the unit of the tolerance. Parameters by hand promise their bound, and nothing if they have none.
+double promised(const SumRequest& request, const fgtd::Choice& choice) {
+  if (!request.hermite) return request.tolerance + 2 * rounding;
+  return choice.bound ? *choice.bound + 2 * rounding : std::numeric_limits<double>::infinity();
+}
+
 template <int d>
 void measure(const SumRequest& request, PointSums& result) {
   const SampleOfTargets sample = sample_targets(request);
@@ -119,14 +127,17 @@ void measure(const SumRequest& request, PointSums& result) {
     for (std::size_t i = 0; i < sample.rows.size(); ++i)
       worst.take(std::abs(result.values(sample.rows[i], column) - exact(static_cast<Eigen::Index>(i), column)));
     result.units.push_back(scale);
-    result.measured.push_back({result.columns[k], relative(worst.error(), scale), request.tolerance + 2 * rounding});
+    result.measured.push_back({result.columns[k], relative(worst.error(), scale), promised(request, result.choice)});
   }
 }
 
 // The tables have been checked, so fgtd can only refuse a number of the command line.
 template <class Work>
 void with_errors_of_fgtd(const Work& work) {
-  const base::Words words = {{"Options::tolerance = ", "--tolerance "}, {"with sigma = ", "with --sigma "}};
+  const base::Words words = {{"Options::tolerance = ", "--tolerance "},
+                             {"with sigma = ", "with --sigma "},
+                             {"HermiteParameters::box_scale = ", "--r "},
+                             {"HermiteParameters::expansion_order = ", "--p "}};
   try {
     work();
   } catch (const fgtd::MemoryLimitError& error) {
@@ -157,6 +168,14 @@ std::vector<int> parse_derivative(const std::string& text) {
   return derivative;
 }
 
+int parse_neighbours(const std::string& text) {
+  if (text == "all") return fgtd::HermiteParameters::all_boxes;
+  const auto number = base::read_number<int>(text);
+  if (!number || *number < 0)
+    throw CommandLineError(fmt::format("--n {}: must be a whole number from 0, or all", base::printable(text)));
+  return *number;
+}
+
 PointSums sum_points(const SumRequest& request) {
   check_together(request);
   check_derivatives(request);
@@ -172,6 +191,7 @@ PointSums sum_points(const SumRequest& request) {
   fgtd::Options options;
   options.tolerance = request.tolerance;
   options.method = request.method;
+  options.hermite = request.hermite;
   options.threads = request.threads;
   options.memory_limit = memory_for_plan(request, std::max<std::size_t>(1, request.derivatives.size()));
   options.expected_targets = request.targets ? request.targets->size() : request.sources.size();
@@ -189,7 +209,7 @@ PointSums sum_points(const SumRequest& request) {
         sum<d>(request, options, result);
       };
       within_seconds<fgtd::TimeLimitError>(request, work, [&](double most_seconds) {
-        options.method = fgtd::Method::automatic;
+        options.method = fgtd::Method::automatic, options.hermite.reset();
         work(most_seconds);
       });
     });

@@ -18,7 +18,11 @@ struct SumRequest : PointsRequest {
   double sigma = 0;                           // the Gaussian is exp(-sigma r^2)
   std::vector<std::vector<int>> derivatives;  // none: the plain sum
   fgtd::Method method = fgtd::Method::automatic;
+  std::optional<fgtd::HermiteParameters> hermite = {};  // by hand: their bound takes the place of the tolerance
 };
+
+/// "2", or "all": the n of HermiteParameters. Throws CommandLineError.
+int parse_neighbours(const std::string& text);
 
 struct PointSums {
   int dimension = 0;

@@ -360,6 +360,11 @@ const std::vector<Wrong> wrongs = {
     {"method = \"auto\"", "method = \"hermit\"", 37, "\"hermit\"",
      "unknown value \"hermit\" for evaluate.method; did you mean \"hermite\"?",
      "known values: \"auto\", \"direct\", \"hermite\", \"cells\", \"outer\", \"chebyshev\", \"spread\""},
+    {"method = \"auto\"", "r = 0.4", 37, "r", "evaluate.r, p and n go with method = \"hermite\", not with \"auto\"",
+     "write method = \"hermite\", or leave them out: a tolerance is enough"},
+    {"method = \"auto\"", "method = \"hermite\"\nr = 1", 38, "1",
+     "evaluate.r must be greater than 0 and less than 1, found 1",
+     "r: for method = \"hermite\", by hand: boxes have the side r sqrt(2/sigma)"},
     // output
     {"\"turn/4\", \"turn\"]", "\"turn/4\", 7]", 40, "7",
      "entry 3 of output.times is 7, after time.end = 6.283185307179586"},

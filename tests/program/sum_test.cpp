@@ -250,6 +250,38 @@ TEST(Sum, TellsWhatWasChosenAsJson) {
   EXPECT_EQ(table_of(read_file(folder / "V.csv")).rows.size(), 1200u);
 }
 
+// The thesis's parameters: their bound is told in place of a tolerance, and holds.
+TEST(Sum, TakesRAndPAndNByHand) {
+  const ScratchFolder folder;
+  std::string table = "x,y,weight\n";
+  for (int j = 0; j < 400; ++j)
+    table += std::to_string(std::fmod(0.381966 * j, 1.0)) + "," + std::to_string(std::fmod(0.754878 * j, 1.0)) + "," +
+             std::to_string(j % 3 - 1) + "\n";
+  write_file(folder / "S.csv", table);
+  const auto by_hand = [&](const std::string& options) {
+    const Outcome sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 40 --out V.csv --json " + options);
+    EXPECT_EQ(sum.exit_code, 0) << sum.err;
+    return parsed_json(sum.out);
+  };
+  double before = 1e300;
+  for (const int p : {3, 6, 9, 14}) {
+    const auto told = by_hand("--r 0.5 --p " + std::to_string(p));
+    EXPECT_EQ(told["method"], "hermite");
+    EXPECT_EQ(told["parameters"]["box_scale"], 0.5);
+    EXPECT_EQ(told["parameters"]["expansion_order"], p);
+    EXPECT_EQ(told["parameters"]["neighbours"], "all");
+    EXPECT_EQ(told["parameters"]["cost"], 400.0 * p * p + told["parameters"]["boxes"].get<double>() * p * p * 400);
+    const double bound = told["bound"];
+    EXPECT_LT(bound, before);
+    EXPECT_LE(told["measured"]["errors"]["d_0_0"].get<double>(), bound);
+    before = bound;
+  }
+  const auto near = by_hand("--p 9 --n 2 --method hermite");
+  EXPECT_EQ(near["parameters"]["neighbours"], 2);
+  EXPECT_GT(near["bound"].get<double>(), 1e-3) << "boxes further away are left out";
+  EXPECT_TRUE(by_hand("--r 1.2 --p 25")["bound"].is_null()) << "(3.5) needs r < 1";
+}
+
 TEST(Sum, ReplacesAnEarlierResultAndLeavesNothingBeside) {
   const ScratchFolder folder;
   write_file(folder / "S.csv", "x,weight\n0,1\n");
@@ -302,6 +334,13 @@ TEST(Sum, RefusesAWrongCommandLine) {
       {"--sources S.csv --sigma 2 --derivative 2000000000,2000000000", "the orders add up to 4e+09, at most 16"},
       {"--sources S.csv --sigma 1e300 --derivative 8,8", "of a Gaussian with --sigma 1e+300"},
       {"--sources S.csv --sigma 2 --seconds 0", "--seconds 0: must be positive"},
+      {"--sources S.csv --sigma 2 --r 0.5 --tolerance 1e-3", "--tolerance excludes --r"},
+      {"--sources S.csv --sigma 2 --r 0", "--r 0, must be positive"},
+      {"--sources S.csv --sigma 2 --p 0", "--p 0, must lie in 1 .. 1000"},
+      {"--sources S.csv --sigma 2 --n -1", "--n -1: must be a whole number from 0, or all"},
+      {"--sources S.csv --sigma 2 --n two", "--n two: must be a whole number from 0, or all"},
+      {"--sources S.csv --sigma 2 --p 9 --method cells", "belong to the method hermite, not to cells"},
+      {"--sources S.csv --kernel log --p 9", "belong to the method hermite of the kernel gauss, not to log"},
       {"--sources S.csv --sigma 2 --seconds soon", "--seconds"},
       {"--sources S.csv --sigma 2 --grid=0:1:3", "--grid has 1 axis, but"},
       {"--sources S.csv --sigma 2 --grid=0:1:3,0:1", "\"0:1\" is not an axis"},

@@ -44,6 +44,32 @@ TEST(Density, OfOneParticleIsItsCutoff) {
   }
 }
 
+// Bound (3.5) of the thesis takes the place of the tolerance, is told, and holds.
+TEST(Density, KeepsTheBoundOfParametersByHand) {
+  const Particles particles = cone_particles(100);
+  const Lattice lattice = make_lattice(2, low, high, 60);
+  for (const char* name : {"gauss2", "gauss4", "two-gauss"}) {
+    const Cutoff cutoff = make_cutoff(name, 2, 2 * 2.0 / 99);
+    const DensityGrid exact = evaluate_density(particles, cutoff, lattice, {.tolerance = 1e-12, .method = "direct"});
+    double before = 1e300;
+    for (const int p : {6, 10, 16}) {
+      DensityReport report;
+      const DensityGrid density = evaluate_density(
+          particles, cutoff, lattice, {.method = "hermite", .hermite = HermiteSpec{.r = 0.5, .p = p}}, &report);
+      double error = 0;
+      for (std::size_t i = 0; i < exact.rho.size(); ++i)
+        error = std::max(error, std::abs(exact.rho[i] - density.rho[i]));
+      EXPECT_LE(error, report.achievable * largest(exact.rho) + 1e-12) << name << " " << p;
+      EXPECT_LT(report.achievable, before);
+      EXPECT_NE(report.choice.find("expansion order " + std::to_string(p)), std::string::npos) << report.choice;
+      before = report.achievable;
+    }
+    EXPECT_LT(before, 1e-4) << name;
+  }
+  DensityOptions none{.method = "hermite", .hermite = HermiteSpec{.r = 0.5, .p = 1}};
+  EXPECT_THROW(evaluate_density(particles, make_cutoff("gauss4", 2, 0.04), lattice, none), InputError);
+}
+
 class EveryToleranceAndMethod : public ::testing::TestWithParam<std::tuple<double, const char*, const char*>> {};
 
 TEST_P(EveryToleranceAndMethod, KeepsItsErrorRelativeToTheMaximum) {

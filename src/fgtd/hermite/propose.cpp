@@ -224,7 +224,8 @@ std::vector<Parameter> list_hermite(const Choice& choice) {
                               {"box_side", chosen.box_side},
                               {"expansion_order", std::int64_t{chosen.expansion_order}},
                               {"neighbours", std::int64_t{chosen.neighbours}},
-                              {"boxes", static_cast<std::int64_t>(chosen.boxes)}};
+                              {"boxes", static_cast<std::int64_t>(chosen.boxes)},
+                              {"cost", chosen.cost}};
   if (chosen.neighbours == HermiteParameters::all_boxes) list[3].value = "all";
   return list;
 }

@@ -50,6 +50,26 @@ Section evaluate_section() {
         .fallback = "auto",
         .choices = summation_methods(),
         .meaning = "algorithm that sums the Gauss transform. `auto` takes the cheapest"},
+       {.name = "r",
+        .type = Type::number,
+        .fallback = "0.5",
+        .range = {0, 1, true, true},
+        .symbol = "r",
+        .meaning =
+            "for `method = \"hermite\"`, by hand: boxes have the side r sqrt(2/sigma). With `r`, `p` or `n` their "
+            "bound takes the place of the tolerance"},
+       {.name = "p",
+        .type = Type::whole,
+        .fallback = "9",
+        .range = {1, 1000},
+        .symbol = "p",
+        .meaning = "for `method = \"hermite\"`, by hand: terms of the series on each axis"},
+       {.name = "n",
+        .type = Type::whole,
+        .range = {0, 1000000},
+        .symbol = "n",
+        .meaning = "for `method = \"hermite\"`, by hand: boxes to each side, on each axis, whose particles count. "
+                   "Without this key all"},
        {.name = "most_seconds",
         .type = Type::number,
         .range = {0, infinity, true},
@@ -122,6 +142,27 @@ void read_spacing(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
 
 }  // namespace
 
+namespace {
+
+void read_by_hand(Reader& in, EvaluateSpec& evaluate) {
+  const Entry* given = nullptr;
+  for (const char* key : {"r", "p", "n"})
+    if (const Entry* entry = in.find("evaluate", key); entry && !given) given = entry;
+  if (!given) return;
+  if (evaluate.method != "hermite") {
+    in.diagnostics.error(
+        given->place, fmt::format("evaluate.r, p and n go with method = \"hermite\", not with \"{}\"", evaluate.method),
+        "write method = \"hermite\", or leave them out: a tolerance is enough");
+    return;
+  }
+  HermiteSpec& by_hand = evaluate.hermite.emplace();
+  if (const auto r = in.number("evaluate", "r")) by_hand.r = r->number;
+  if (const auto p = in.number("evaluate", "p")) by_hand.p = to_int(*p);
+  if (const auto n = in.number("evaluate", "n")) by_hand.n = to_int(*n);
+}
+
+}  // namespace
+
 void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
   const Entry *spacing = in.find("evaluate", "spacing"), *points = in.find("evaluate", "per_axis");
   if (spacing && points &&
@@ -138,6 +179,7 @@ void read_evaluate(Reader& in, EvaluateSpec& evaluate, const Domain& domain) {
   }
   if (const auto tolerance = in.number("evaluate", "tolerance")) evaluate.tolerance = tolerance->number;
   evaluate.method = in.choice("evaluate", "method");
+  read_by_hand(in, evaluate);
   if (const auto most = in.number("evaluate", "most_seconds")) evaluate.most_seconds = most->number;
   if (const auto most = in.number("evaluate", "tile_particles")) evaluate.tile_particles = most->number;
   if (const auto most = in.number("evaluate", "piece_points")) evaluate.piece_points = most->number;
@@ -151,6 +193,11 @@ void write_evaluate(Writer& out, const EvaluateSpec& evaluate) {
     out.entry("per_axis", fmt::format("{}", evaluate.per_axis));
   out.entry("tolerance", written(evaluate.tolerance));
   out.entry("method", written(evaluate.method));
+  if (evaluate.hermite) {
+    out.entry("r", written(evaluate.hermite->r));
+    out.entry("p", fmt::format("{}", evaluate.hermite->p));
+    if (evaluate.hermite->n >= 0) out.entry("n", fmt::format("{}", evaluate.hermite->n));
+  }
   if (evaluate.most_seconds > 0) out.entry("most_seconds", written(evaluate.most_seconds));
   if (evaluate.tile_particles > 0) out.entry("tile_particles", fmt::format("{:.0f}", evaluate.tile_particles));
   if (evaluate.piece_points != EvaluateSpec{}.piece_points)
