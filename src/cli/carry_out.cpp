@@ -70,11 +70,9 @@ void observe_pieces(Simulation& simulation, const Case& spec, const fs::path& fo
       simulation.observe(write::file_series(kind, folder));
 }
 
-/// Lines for the end of the run: what the page does without. `in_haste`: it draws no picture that takes long.
-std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed, bool in_haste = false) {
-  constexpr std::size_t soon_drawn = 250'000;  // points of the grid
-  const bool pictures = !spec.output.images.empty(),
-             later = pictures && in_haste && evaluation_lattice(spec).size() > soon_drawn;
+/// Lines for the end of the run: what the page does without.
+std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed, bool pictures_come_later = false) {
+  const bool pictures = !spec.output.images.empty(), later = pictures && pictures_come_later;
   std::string without;
   if (later)
     without += fmt::format("page   without pictures for now: gaussdrift report {} draws them\n", folder.string());
@@ -165,7 +163,7 @@ class Run {
       std::int64_t keeps = first_ && keeper_->is_time(progress);
       ranks_.max(std::span(&keeps, 1));
       if (keeps) keep(simulation, progress.time, progress.steps_done);
-      return true;
+      return !keeps || !is_to_stop() || progress.time >= progress.end;  // so it is the last one
     });
     try {
       const base::ProcessStopwatch running;
@@ -210,6 +208,14 @@ class Run {
     }
   }
 
+  /// After the last word: what was written in haste goes to the disk, as far as there is time. The system writes the
+  /// rest.
+  void force_checkpoint() {
+    if (!keeper_) return;
+    constexpr double most = 1.5;  // seconds after the signal
+    keeper_->force([this] { return stop_->seconds_since_signal() > most; });
+  }
+
   ExitCode tell_how_to_go_on() const {
     note("{}\n", how_to_go_on());
     return stop_code();
@@ -230,7 +236,7 @@ class Run {
     // The log before the page: `resume` makes the page of a run that was killed here, and cannot make the log.
     const std::string before_page = write_log("");
     const std::string without =
-        told && spec_.output.report ? write_page(folder_, spec_, owed_, stop_->by_signal()) : "";
+        told && spec_.output.report ? write_page(folder_, spec_, owed_, pictures_come_later()) : "";
     if (log_text(without) != before_page) write_log(without);
     owed_.attempt([&] { complete() ? own_folder_->complete() : own_folder_->interrupted(how_to_go_on()); });
   }
@@ -269,7 +275,15 @@ class Run {
       simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
     simulation.observe(own_folder_->watch());
     keeper_.emplace(
-        folder_, [this] { return past_of(spec_); }, spec_.output.checkpoint, task_.goes_on);
+        folder_, [this] { return past(); }, spec_.output.checkpoint, task_.goes_on, task_.threads,
+        [this] { return in_haste(); });
+    if (!input::data_files(spec_).empty()) past();  // a signal is not to wait for its hash
+    keeper_->force();                               // a checkpoint that was written in haste may be all that there is
+  }
+
+  const std::string& past() {
+    if (task_.past.empty()) task_.past = past_of(spec_);
+    return task_.past;
   }
 
   /// Ranks stop together, where one of them is asked to.
@@ -282,18 +296,28 @@ class Run {
 
   ExitCode stop_code() const { return stop_->by_signal() ? stop_->code() : stop_code_; }
 
+  /// Of the page: after a signal it has those that are soon drawn.
+  bool pictures_come_later() const {
+    constexpr std::size_t soon_drawn = 250'000;  // points of the grid
+    constexpr double soon = 0.7;                 // seconds; they take as long on a busy machine
+    return in_haste() && (evaluation_lattice(spec_).size() > soon_drawn || stop_->seconds_since_signal() > soon);
+  }
+
   /// A checkpoint, and with it the numbers so far: a run that is killed has a page.
   void keep(const Simulation& simulation, double time, std::size_t steps) {
     const bool shared = ranks_.size() > 1;
     const Particles gathered = shared ? simulation.all_particles() : Particles();
     ranks_.agree_on([&] {
       if (!first_) return;
-      const std::size_t before = keeper_->written();
-      keeper_->write(time, steps, shared ? gathered : simulation.particles(), simulation.state());
-      if (keeper_->written() > before)
-        write::write_text(folder_ / "summary.json", write::summary_json(spec_, simulation.summary(), {}));
+      const RunSummary so_far = simulation.summary();
+      if (!keeper_->is_wanted(time, steps, so_far.frames.size())) return;
+      keeper_->write(time, steps, so_far.frames.size(), shared ? gathered : simulation.particles(), simulation.state());
+      write::write_text(folder_ / "summary.json", write::summary_json(spec_, so_far, {}));
     });
   }
+
+  /// A signal's sender does not wait for the disk.
+  bool in_haste() const { return stop_->by_signal() || stop_code_ != ExitCode::stopped; }
 
   void look_back_unless_stopped() {
     const base::AbandonWanted wanted = [this] { return stop_->by_signal(); };
@@ -431,6 +455,7 @@ ExitCode carry_out(RunTask task, base::Communicator& ranks) {
       run.write();
     }
     code = static_cast<std::int64_t>(went_on ? run.report() : run.tell_how_to_go_on());
+    run.force_checkpoint();
   });
   ranks.sum(std::span(&code, 1));  // the others have 0
   return static_cast<ExitCode>(code);

@@ -13,8 +13,14 @@ constexpr double least_part_of_run = 50;  // an interval is so many times as lon
 }  // namespace
 
 CheckpointKeeper::CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past,
-                                   std::optional<double> asked, bool resumed)
-    : folder_(std::move(folder)), past_(std::move(past)), asked_(asked), resumed_(resumed) {}
+                                   std::optional<double> asked, bool resumed, int threads, write::InHaste in_haste)
+    : folder_(std::move(folder)),
+      past_(std::move(past)),
+      asked_(asked),
+      resumed_(resumed),
+      threads_(threads),
+      in_haste_(std::move(in_haste)),
+      on_disk_(!resumed) {}
 
 bool CheckpointKeeper::is_due(const Progress& progress) const {
   const double since = since_last_.seconds();
@@ -32,15 +38,28 @@ bool CheckpointKeeper::is_time(const Progress& progress) {
   return (keeps_one && progress.time >= progress.end) || is_due(progress);
 }
 
-void CheckpointKeeper::write(double time, std::size_t steps, const Particles& particles, const std::string& state) {
-  if (asked_ && *asked_ == 0) return;
+bool CheckpointKeeper::is_wanted(double time, std::size_t steps, std::size_t outputs) const {
+  if (asked_ && *asked_ == 0) return false;
+  return written_ == 0 || last_.time != time || last_.steps != steps || outputs_ != outputs;
+}
+
+void CheckpointKeeper::write(double time, std::size_t steps, std::size_t outputs, const Particles& particles,
+                             const std::string& state) {
   const base::Stopwatch watch;
   if (hash_.empty()) hash_ = past_();
-  last_ = write::write_checkpoint(folder_, hash_, time, steps, particles, state);
+  force();  // the one that stays: the other is about to go
+  on_disk_ = false;
+  last_ = write::write_checkpoint(folder_, hash_, time, steps, particles, state, threads_, in_haste_);
+  on_disk_ = !in_haste_();
+  outputs_ = outputs;
   last_seconds_ = watch.seconds();
   seconds_ += last_seconds_;
   ++written_;
   since_last_ = base::Stopwatch();
+}
+
+void CheckpointKeeper::force(const write::InHaste& in_haste) {
+  if (!on_disk_) on_disk_ = write::force_checkpoints(folder_, in_haste);
 }
 
 }  // namespace gaussdrift::cli

@@ -19,14 +19,21 @@ class CheckpointKeeper {
   /// would take more than a fiftieth of the time, once a run is seen to take more than five minutes.
   /// `past` gives the hash of what the particles depend on; asked for once, and only if something is written.
   /// `resumed`: the run goes on from a checkpoint, and keeps one of its end.
+  /// `in_haste`: whether there is no time to wait for the disk.
   CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past, std::optional<double> asked,
-                   bool resumed);
+                   bool resumed, int threads, write::InHaste in_haste);
 
   /// To be called between steps: whether it is time to write one. So it is at the end of a run that keeps checkpoints.
   bool is_time(const Progress& progress);
 
-  /// Writes one, whatever the time. Not if the case wants none. `particles` are those of all ranks. Throws FileError.
-  void write(double time, std::size_t steps, const Particles& particles, const std::string& state);
+  /// Whether the case wants checkpoints, and the last one is not of this moment.
+  bool is_wanted(double time, std::size_t steps, std::size_t outputs) const;
+
+  /// Writes one, whatever the time. `particles` are those of all ranks. Throws FileError.
+  void write(double time, std::size_t steps, std::size_t outputs, const Particles& particles, const std::string& state);
+
+  /// Waits until the disk has the checkpoints, or until `in_haste` says so. Throws FileError.
+  void force(const write::InHaste& in_haste = {});
 
   std::size_t written() const { return written_; }
   double seconds() const { return seconds_; }  // of all
@@ -40,6 +47,10 @@ class CheckpointKeeper {
   std::string hash_;  // what it said
   std::optional<double> asked_;
   bool resumed_;
+  int threads_;
+  write::InHaste in_haste_;
+  bool on_disk_;             // all that there is
+  std::size_t outputs_ = 0;  // in the last one
   base::Stopwatch since_start_, since_last_;
   std::optional<double> begun_at_;  // time of the scene
   std::size_t written_ = 0;

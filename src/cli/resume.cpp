@@ -125,7 +125,8 @@ RunTask task_of(const ResumeOptions& options) {
   task.json = options.json;
   task.threads = options.threads;
   std::vector<std::string> refused;
-  task.from = write::read_checkpoint(options.folder, past_of(before), refused);
+  task.past = past_of(before);
+  task.from = write::read_checkpoint(options.folder, task.past, refused);
   for (const std::string& why : refused) note("warning: {}\n", why);
   const bool complete = write::says_complete(options.folder);
   if (task.from) {

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 #include "base/duration_text.hpp"
 
@@ -14,9 +17,19 @@ namespace {
 constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t received = 0;
+std::atomic<std::int64_t> received_at{0};                       // nanoseconds of the clock that never goes back
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);  // a handler may set nothing else
+
+std::int64_t nanoseconds_now() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
+}
+
 std::array<struct sigaction, signals.size()> before;
 
 extern "C" void remember(int signal) {
+  received_at = nanoseconds_now();
   received = signal;
   for (const int each : signals) std::signal(each, SIG_DFL);  // a second one ends the program
 }
@@ -40,6 +53,10 @@ StopRequest::~StopRequest() {
 }
 
 bool StopRequest::by_signal() const { return received != 0; }
+
+double StopRequest::seconds_since_signal() const {
+  return by_signal() ? 1e-9 * static_cast<double>(nanoseconds_now() - received_at) : 0;
+}
 
 bool StopRequest::made() const { return by_signal() || watch_.seconds() > after_; }
 

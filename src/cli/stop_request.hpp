@@ -22,6 +22,8 @@ class StopRequest {
   bool made() const;
   /// By a signal: its sender does not wait for long.
   bool by_signal() const;
+  /// Seconds since the signal; 0 where there was none.
+  double seconds_since_signal() const;
   /// How the program then ends.
   ExitCode code() const;
 

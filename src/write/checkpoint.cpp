@@ -1,9 +1,12 @@
 #include "write/checkpoint.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -14,6 +17,7 @@
 #include <system_error>
 
 #include "base/json_file.hpp"
+#include "base/parallel.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/columns.hpp"
 #include "write/atomic_file.hpp"
@@ -27,7 +31,8 @@ namespace {
 
 constexpr const char* kind = "gaussdrift checkpoint";
 constexpr int version = 1;
-constexpr std::size_t most_in_a_piece = std::size_t{1} << 22;  // particles
+constexpr std::size_t most_in_a_piece = std::size_t{1} << 22;  // particles; of any version
+constexpr std::size_t in_a_piece = std::size_t{1} << 20;       // so that threads share ten million evenly
 constexpr const char* manifest_name = "manifest.json";
 
 fs::path slot(const fs::path& folder, int number) { return folder / checkpoints_folder / std::to_string(number); }
@@ -77,14 +82,15 @@ class RawFile {
 
 /// Writes a whole file and tells what the manifest says of it.
 template <class Write>
-json write_raw(const fs::path& folder, const fs::path& name, const Write& write) {
+json write_raw(const fs::path& folder, const fs::path& name, const InHaste& in_haste, const Write& write) {
   json entry{{"file", name.string()}};
-  write_atomically(folder / name, [&](std::FILE* part) {
+  const auto write_and_sum = [&](std::FILE* part) {
     RawFile file(part);
     write(file);
     entry["bytes"] = file.bytes();
     entry["crc32"] = file.sum();
-  });
+  };
+  write_atomically(folder / name, write_and_sum, in_haste);
   return entry;
 }
 
@@ -221,16 +227,26 @@ Checkpoint read_slot(const fs::path& folder, const json& manifest) {
   return checkpoint;
 }
 
+/// Of a checkpoint that is to be replaced. Its manifest goes first: from then on it is none.
+void clear_slot(const fs::path& here) {
+  std::error_code error;
+  fs::remove(here / manifest_name, error);
+  if (error) throw FileError(fmt::format("{} cannot be replaced: {}", here.string(), error.message()));
+  // Removed, not replaced: some systems write a file to the disk at once when it replaces another.
+  std::size_t number = 0;
+  while (fs::remove(here / piece_file(number++), error)) {
+  }
+}
+
 }  // namespace
 
 CheckpointFacts write_checkpoint(const fs::path& folder, const std::string& past, double time, std::size_t steps,
-                                 const Particles& particles, const std::string& state) {
+                                 const Particles& particles, const std::string& state, int threads,
+                                 const InHaste& in_haste) {
   const std::uint64_t serials[] = {serial_of(slot(folder, 0)), serial_of(slot(folder, 1))};
   const int older = serials[0] <= serials[1] ? 0 : 1;
   const fs::path here = slot(folder, older);
-  std::error_code error;
-  fs::remove(here / manifest_name, error);  // from now on it is none
-  if (error) throw FileError(fmt::format("{} cannot be replaced: {}", here.string(), error.message()));
+  clear_slot(here);
 
   CheckpointFacts facts{time, steps, particles.size(), 0};
   json manifest{{"kind", kind},
@@ -243,27 +259,50 @@ CheckpointFacts write_checkpoint(const fs::path& folder, const std::string& past
                 {"dimension", particles.dimension},
                 {"paths", particles.path.size()},
                 {"spread", fmt::format("{:a}", particles.spread)},
-                {"columns", columns_of(particles)},
-                {"pieces", json::array()}};
-  std::size_t number = 0;
-  for (std::size_t first = 0; first < particles.size(); first += most_in_a_piece, ++number) {
-    const std::size_t count = std::min(most_in_a_piece, particles.size() - first);
-    json piece = write_raw(here, piece_file(number), [&](RawFile& file) {
+                {"columns", columns_of(particles)}};
+  std::vector<json> pieces((particles.size() + in_a_piece - 1) / in_a_piece);
+  const double all_bytes = bytes_of_checkpoint(particles), a_second = 5e8;
+  base::parallel_for({pieces.size(), all_bytes / a_second}, threads, [&](std::size_t number) {
+    const std::size_t first = number * in_a_piece, count = std::min(in_a_piece, particles.size() - first);
+    pieces[number] = write_raw(here, piece_file(number), in_haste, [&](RawFile& file) {
       for_each_column(particles, [&](std::string_view, std::size_t, const auto& column) {
         file.write(column.data() + first, 8 * count);
       });
     });
-    piece["particles"] = count;
-    facts.bytes += piece["bytes"].get<double>();
-    manifest["pieces"].push_back(std::move(piece));
-  }
-  manifest["state"] = write_raw(here, state_file, [&](RawFile& file) { file.write(state.data(), state.size()); });
+    pieces[number]["particles"] = count;
+  });
+  for (const json& piece : pieces) facts.bytes += piece["bytes"].get<double>();
+  manifest["pieces"] = std::move(pieces);
+  manifest["state"] =
+      write_raw(here, state_file, in_haste, [&](RawFile& file) { file.write(state.data(), state.size()); });
   facts.bytes += manifest["state"]["bytes"].get<double>();
   manifest["crc32"] = sum_of(manifest);
-  write_text(here / manifest_name, manifest.dump(2) + "\n");
-  while (fs::remove(here / piece_file(number++), error)) {  // of an older one with more particles
-  }
+  write_text(here / manifest_name, manifest.dump(2) + "\n", in_haste);
   return facts;
+}
+
+bool force_checkpoints(const fs::path& folder, const InHaste& in_haste) {
+  for (const fs::path& file : checkpoint_files(folder)) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(fs::symlink_status(file, ignored))) continue;  // of a stranger, and none of a checkpoint
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    if (descriptor < 0) fail_to_write(file, errno);
+    try {
+      const bool forced = force_to_disk(descriptor, in_haste);
+      ::close(descriptor);
+      if (!forced) return false;
+    } catch (const std::system_error& error) {
+      ::close(descriptor);
+      fail_to_write(file, error.code().value());
+    }
+  }
+  try {
+    for (const int number : {0, 1})
+      if (fs::exists(slot(folder, number))) flush_folder(slot(folder, number));
+  } catch (const std::system_error& error) {
+    fail_to_write(folder / checkpoints_folder, error.code().value());
+  }
+  return true;
 }
 
 std::optional<Checkpoint> read_checkpoint(const fs::path& folder, const std::string& past,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gaussdrift/particles.hpp"
+#include "write/part_file.hpp"
 
 namespace gaussdrift::write {
 
@@ -30,8 +31,16 @@ struct Checkpoint {
 
 /// Writes a checkpoint in place of the older one of the two. `past`: a hash of all that the particles depend on.
 /// Throws FileError; the newer of the two then stands.
+/// Once `in_haste` says so the disk is not waited for. The checkpoint then survives the end of this process, however it
+/// comes, and is refused after a loss of power unless force_checkpoints() has returned true; the other one is not
+/// touched. Files are written by `threads` threads.
 CheckpointFacts write_checkpoint(const std::filesystem::path& folder, const std::string& past, double time,
-                                 std::size_t steps, const Particles& particles, const std::string& state);
+                                 std::size_t steps, const Particles& particles, const std::string& state,
+                                 int threads = 1, const InHaste& in_haste = {});
+
+/// Waits until the disk has all checkpoints of the folder, or until `in_haste` says so. Returns whether it has them.
+/// Throws FileError.
+bool force_checkpoints(const std::filesystem::path& folder, const InHaste& in_haste = {});
 
 /// The newest checkpoint that is whole, of this format and of this past. Why the others are not, in `refused`: one line
 /// each. Takes no more memory than the files have bytes.

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/seam.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
 
@@ -60,7 +61,35 @@ bool same_file(int descriptor, const fs::path& name) {
          open.st_ino == named.st_ino;
 }
 
+bool is_in(const InHaste& haste) { return haste && haste(); }
+
+/// Starts to write a part of a file, or waits for it. What is not known here is left to fsync.
+void force_part(int descriptor, off_t first, off_t size, bool wait) {
+#ifdef SYNC_FILE_RANGE_WRITE  // of Linux
+  const unsigned how =
+      wait ? SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE | SYNC_FILE_RANGE_WAIT_AFTER : SYNC_FILE_RANGE_WRITE;
+  if (::sync_file_range(descriptor, first, size, how) != 0 && errno != EINVAL && errno != ENOSYS && errno != ESPIPE)
+    fail();
+#endif
+}
+
 }  // namespace
+
+bool force_to_disk(int descriptor, const InHaste& in_haste) {
+  constexpr off_t part = 8 << 20;  // a twentieth of a second on a slow disk
+  struct stat facts {};
+  if (::fstat(descriptor, &facts) != 0) fail();
+  for (off_t first = 0; first + part < facts.st_size; first += part) {
+    if (is_in(in_haste)) return false;
+    base::seam();
+    force_part(descriptor, first + part, part, false);  // the disk is not to wait for us
+    force_part(descriptor, first, part, true);
+  }
+  if (is_in(in_haste)) return false;
+  // File systems without fsync (EINVAL) have nothing to say.
+  if (::fsync(descriptor) != 0 && errno != EINVAL) fail();
+  return true;
+}
 
 void fail_to_write(const fs::path& file, int reason) {
   throw FileError(fmt::format("cannot write {}: {} ({}); {}; everything written before is intact", file.string(),
@@ -132,16 +161,15 @@ void PartFile::write_at(long position, std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size()) fail();
 }
 
-void PartFile::flush() {
+void PartFile::flush(const InHaste& in_haste) {
   if (std::fflush(stream_) != 0) fail();
-  // File systems without fsync (EINVAL) have nothing to say.
-  if (::fsync(::fileno(stream_)) != 0 && errno != EINVAL) fail();
+  force_to_disk(::fileno(stream_), in_haste);
 }
 
-void PartFile::take_name(const fs::path& file) {
+void PartFile::take_name(const fs::path& file, const InHaste& in_haste) {
   if (::rename(hidden_.c_str(), file.c_str()) != 0) fail();
   hidden_.clear();
-  flush_folder(folder_of(file));
+  if (!is_in(in_haste)) flush_folder(folder_of(file));
 }
 
 bool PartFile::hide_again(const fs::path& file) {

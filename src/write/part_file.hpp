@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string_view>
 
 namespace gaussdrift::write {
@@ -13,6 +14,13 @@ namespace gaussdrift::write {
 
 /// Returns when the disk has the names in the folder. Throws std::system_error.
 void flush_folder(const std::filesystem::path& folder);
+
+/// Says that there is no time to wait for the disk any longer. Several threads may ask.
+using InHaste = std::function<bool()>;
+
+/// Waits until the disk has all of an open file. Large files are waited for piece by piece: each is a seam (base/seam.hpp),
+/// and is left where `in_haste` says so. Returns whether the disk has all. Throws std::system_error.
+bool force_to_disk(int descriptor, const InHaste& in_haste = {});
 
 /// A file that goes away with this object, unless it has got a name. All throw std::system_error.
 class PartFile {
@@ -25,10 +33,11 @@ class PartFile {
 
   std::FILE* stream() const { return stream_; }
   void write_at(long position, std::string_view text);
-  /// Returns when the disk has all of it. What a disk cannot take is known then, and not only when the file is closed.
-  void flush();
+  /// Returns when the disk has all of it, or the system where `in_haste` says so. What a disk cannot take is known then,
+  /// and not only when the file is closed.
+  void flush(const InHaste& in_haste = {});
   /// Replaces `file` by this one. It stays open, so that what it holds can be read and lengthened.
-  void take_name(const std::filesystem::path& file);
+  void take_name(const std::filesystem::path& file, const InHaste& in_haste = {});
   /// A second, hidden name for a file that has taken the name `file`; it may lose the other one then. False where that
   /// name is another file's by now, or where files have one name only.
   bool hide_again(const std::filesystem::path& file);

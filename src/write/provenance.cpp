@@ -99,11 +99,14 @@ std::string provenance_json(const Case& spec, const std::string& resolved, const
                 {"date", date()},
                 {"case", hash_of(spec.source)}};
   json files = json::array(), paths = json::object();  // absolute, for a folder that is moved
+  std::string all = resolved;                          // as in hash_of()
   for (const DataFile& each : data) {
-    files.push_back({{"file", each.name}, {"hash", hash_of_file(each.file)}});
+    const std::string hash = hash_of_file(each.file);
+    all += hash;
+    files.push_back({{"file", each.name}, {"hash", hash}});
     paths[each.name] = std::filesystem::absolute(each.file).lexically_normal().string();
   }
-  document["resolved_case"] = hash_of(resolved, data);
+  document["resolved_case"] = hash_of(all);
   if (!files.empty()) document["data"] = files, document["data_paths"] = paths;
   return document.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }

@@ -54,6 +54,12 @@ TEST_P(FaultsAgain, AKill) {
   tell(words("calls killed a ", ""), calls);
 }
 
+TEST_P(FaultsAgain, ASignal) {
+  const long calls = begin_again().calls;
+  for (const long at : spread(0, calls, faults_of_a_test(3))) suffer(signalled_at(at), of_signals);
+  tell(words("calls of a ", " in which SIGTERM came"), calls);
+}
+
 TEST_P(FaultsAgain, AnAllocation) {
   const long allocations = begin_again().allocations;
   for (const long at : spread(0, allocations, faults_of_a_test(10)))

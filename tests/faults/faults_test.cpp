@@ -34,6 +34,13 @@ TEST_F(Faults, AKill) {
   tell("calls killed a run with pictures and a page", calls);
 }
 
+/// In the middle of a checkpoint, among others: it is the last one then, and the disk is not waited for.
+TEST_F(Faults, ASignal) {
+  const long calls = begin(drawn).calls;
+  for (const long at : spread(0, calls, faults_of_a_test(10))) suffer(signalled_at(at), of_signals);
+  tell("calls in which SIGTERM came, in a run with pictures and a page", calls);
+}
+
 /// Before main, while the command line is read, and while the tables of keys are made.
 TEST_F(Faults, EachOfTheFirstAllocations) {
   begin(apart);

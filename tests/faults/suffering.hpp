@@ -39,7 +39,8 @@ inline const std::string apart = small(30, "", "none");
 inline const std::string drawn = small(30, draws_pictures ? "\"heatmap\"" : "", draws_pictures ? "html" : "none");
 
 /// The program may go on to its end (0) where nothing is lost.
-inline const std::set<int> of_files{0, 6}, of_memory{0, 3, 6}, of_kills{128 + 9};  // as the shell tells it
+inline const std::set<int> of_files{0, 6}, of_memory{0, 3, 6}, of_kills{128 + 9},  // as the shell tells it
+    of_signals{0, 128 + 15};
 
 /// How many faults a test makes: GAUSSDRIFT_FAULTS (tools/torture), else `usual`.
 inline long faults_of_a_test(long usual) {
@@ -60,6 +61,8 @@ inline std::vector<long> spread(long least, long most, long count) {
 inline std::string at_call(long call, int error) {
   return "FAULTS_ERROR=" + std::to_string(error) + " FAULTS_AT=" + std::to_string(call);
 }
+
+inline std::string signalled_at(long call) { return "FAULTS_ERROR=term FAULTS_AT=" + std::to_string(call); }
 
 inline std::string killed_at(long call) { return "FAULTS_ERROR=kill FAULTS_AT=" + std::to_string(call); }
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "base/seam.hpp"
 #include "gaussdrift/error.hpp"
 #include "message_of.hpp"
 #include "scratch_folder.hpp"
@@ -64,6 +65,22 @@ TEST(AtomicFile, KeepsTheOldFileWhenWritingFails) {
   EXPECT_THROW(write_atomically(folder / "file.txt", broken), std::logic_error);
   EXPECT_EQ(read_file(folder / "file.txt"), "old");
   EXPECT_EQ(folder.count(), 1u);
+}
+
+/// Two pieces are written, and two waited for before the last.
+TEST(AtomicFile, MayBeAbandonedWhileTheDiskIsWaitedFor) {
+  const ScratchFolder folder;
+  write_text(folder / "large", "old");
+  const std::string text(std::size_t{1} << 24 | 1000, 'x');
+  int seams = 0;
+  const base::AbandonWanted at_the_fourth = [&] { return ++seams == 4; };
+  {
+    const base::Abandonable while_it_lasts(&at_the_fourth);
+    EXPECT_THROW(write_text(folder / "large", text), base::Abandoned);
+  }
+  EXPECT_EQ(read_file(folder / "large"), "old");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
+            1);
 }
 
 TEST(AtomicFile, TurnsSystemErrorsIntoFileErrors) {

@@ -1,6 +1,7 @@
 #include "write/checkpoint.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <zlib.h>
 
 #include <cstdint>
@@ -66,6 +67,57 @@ TEST_F(TwoCheckpoints, AThirdTakesThePlaceOfTheOlder) {
   EXPECT_EQ(read()->facts.time, 3);
   fs::remove(folder / "state/0/manifest.json");
   EXPECT_EQ(read()->facts.time, 2);
+}
+
+const InHaste always = [] { return true; };
+
+/// The system has the files, so it is whole when the process ends.
+TEST_F(TwoCheckpoints, OneInHasteIsWhole) {
+  write_checkpoint(folder.path(), "hash", 3, 30, some_particles(7, 1), "third", 1, always);
+  EXPECT_FALSE(force_checkpoints(folder.path(), always));
+  EXPECT_EQ(read()->facts.time, 3);
+  expect_same(read()->particles, some_particles(7, 1));
+  EXPECT_TRUE(force_checkpoints(folder.path()));
+}
+
+/// What a file system may have of it after a loss of power: a name with nothing behind it, or with zeros.
+TEST_F(TwoCheckpoints, OneInHasteThatLostItsPowerIsRefusedAndTheOlderTaken) {
+  write_checkpoint(folder.path(), "hash", 3, 30, some_particles(7, 1), "third", 1, always);
+  for (const char* name : {"manifest.json", "particles_0000.raw", "run.raw"}) {
+    const fs::path file = folder / "state/0" / name;
+    const std::string whole = read_file(file);
+    for (const std::string& left : {std::string(), std::string(whole.size(), '\0')}) {
+      std::ofstream(file, std::ios::binary) << left;
+      EXPECT_EQ(read()->facts.time, 2) << name;
+      EXPECT_EQ(refused.size(), 1u);
+    }
+    std::ofstream(file, std::ios::binary) << whole;
+    EXPECT_EQ(read()->facts.time, 3) << name;
+  }
+}
+
+/// A stranger's folder may have a pipe or a link there; nobody waits for it.
+TEST_F(TwoCheckpoints, OnlyFilesAreForcedToTheDisk) {
+  fs::remove(folder / "state/0/run.raw");
+  fs::create_symlink("nowhere", folder / "state/0/run.raw");
+  ASSERT_EQ(mkfifo((folder / "state/0/particles_0001.raw").c_str(), 0600), 0);
+  EXPECT_TRUE(force_checkpoints(folder.path()));
+}
+
+TEST(LargeCheckpoint, HasTheSameFilesFromAnyNumberOfThreads) {
+  const ScratchFolder one, two;
+  Particles particles;
+  constexpr std::size_t count = (std::size_t{1} << 20) + 5;  // in two pieces
+  particles.dimension = 1;
+  for (std::size_t j = 0; j < count; ++j) particles.position[0].push_back(static_cast<double>(j));
+  particles.alpha.assign(count, 0.5);
+  particles.id.assign(count, 1);
+  write_checkpoint(one.path(), "hash", 1, 10, particles, "");
+  write_checkpoint(two.path(), "hash", 1, 10, particles, "", 2);
+  for (const char* name : {"manifest.json", "particles_0000.raw", "particles_0001.raw", "run.raw"})
+    EXPECT_TRUE(read_file(one / "state/0" / name) == read_file(two / "state/0" / name)) << name;
+  std::vector<std::string> refused;
+  expect_same(read_checkpoint(two.path(), "hash", refused)->particles, particles);
 }
 
 TEST_F(TwoCheckpoints, WhatIsDamagedIsRefusedAndTheOlderTaken) {

@@ -2,7 +2,8 @@
 // allocation fail. The environment says what is to happen:
 //   FAULTS_FOLDER   calls on files in it, at any depth, are counted
 //   FAULTS_AT       which call fails, from 1
-//   FAULTS_ERROR    with which errno; "kill": the process is killed there by SIGKILL
+//   FAULTS_ERROR    with which errno; "kill": the process is killed there by SIGKILL; "term": it gets SIGTERM there, and
+//                   the call is done
 //   FAULTS_LASTING  set: all later calls fail too, but those that close or remove, as on a disk that stays full
 //   FAULTS_NEW_AT   which allocation of the program itself fails, from 1 after the first call that is counted
 //   FAULTS_NEW_ALL  set: allocations are counted from the start of the program
@@ -41,7 +42,8 @@ long number_of(const char* variable) {
 struct Plan {
   Plan() {
     if (const char* text = std::getenv("FAULTS_FOLDER")) folder = text;
-    if (const char* text = std::getenv("FAULTS_ERROR")) kill = std::strcmp(text, "kill") == 0;
+    if (const char* text = std::getenv("FAULTS_ERROR"))
+      signal = std::strcmp(text, "kill") == 0 ? SIGKILL : std::strcmp(text, "term") == 0 ? SIGTERM : 0;
     report = std::getenv("FAULTS_REPORT");
     at = number_of("FAULTS_AT"), error = static_cast<int>(number_of("FAULTS_ERROR"));
     lasting = std::getenv("FAULTS_LASTING") != nullptr;
@@ -50,8 +52,8 @@ struct Plan {
   const char* folder = nullptr;
   const char* report = nullptr;
   long at = 0, new_at = 0;
-  int error = 0;
-  bool kill = false, lasting = false, new_all = false;
+  int error = 0, signal = 0;
+  bool lasting = false, new_all = false;
 };
 
 const Plan& plan() {
@@ -108,15 +110,15 @@ bool strikes(const char* call, const char* path, Kind kind, const Half& half) {
   const bool first = number == plan().at;
   const bool later = plan().lasting && plan().at > 0 && number > plan().at && kind == Kind::writes;
   if (!first && !later) return errno = before, false;
-  half();
+  if (plan().signal != SIGTERM) half();
   if (first) {
     char line[4200];
     std::snprintf(line, sizeof line, "struck %s %s\n", call, path);
     report(line);
   }
-  if (plan().kill) ::kill(getpid(), SIGKILL);
-  errno = plan().error;
-  return true;
+  if (plan().signal) ::kill(getpid(), plan().signal);
+  errno = plan().signal ? before : plan().error;
+  return !plan().signal;
 }
 
 bool strikes(const char* call, const char* path, Kind kind = Kind::writes) {
