@@ -12,7 +12,6 @@ namespace gaussdrift::accuracy {
 /// {"accuracy_table": rows of tolerance, error, milliseconds}, with "accuracy_table_note" where a time is null because
 /// it cannot be trusted; or {"accuracy_table_left_out": why}. It is a luxury: about a tenth of the run, or half a
 /// second, is spent.
-nlohmann::ordered_json accuracy_table(const Case& spec, const RunSummary& summary, const LastFrame::Kept& last,
-                                      int threads);
+nlohmann::ordered_json accuracy_table(const Case& spec, double run_seconds, const LastFrame::Kept& last, int threads);
 
 }  // namespace gaussdrift::accuracy

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/state_bytes.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "sim/scene.hpp"
@@ -35,6 +36,9 @@ struct Budget {
 
   bool known() const { return not_covered.empty(); }
 };
+
+/// To bytes and from bytes.
+void pass(base::StateBytes& bytes, Budget& budget);
 
 /// Why a case has no budget: effects that move weight between particles, ...; empty if it has one.
 std::string budget_not_covered(const Case& spec);
@@ -76,7 +80,7 @@ class LastFrame : public Observer {
     std::optional<std::vector<double>> exact;  // on the grid, if the run had it there
     FrameNumbers numbers;
   };
-  explicit LastFrame(Kept& kept, double last_time) : kept_(kept), last_(last_time) {}
+  LastFrame(Kept& kept, double last_time) : kept_(kept), last_(last_time) {}
   std::string name() const override { return "error budget"; }
   bool needs_particles(double time) const override { return time == last_; }
   void frame(const Frame& frame) override;

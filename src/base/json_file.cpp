@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -91,7 +92,19 @@ std::string read_whole(const fs::path& file, const fs::file_status& status, std:
   return text;
 }
 
+/// Why a text is no object; empty: it is one.
+std::string why_no_object(std::string_view text) {
+  Look look(text);
+  json::sax_parse(text, &look);
+  return look.reason();
+}
+
 }  // namespace
+
+json json_in(std::string_view text) {
+  if (const std::string reason = why_no_object(text); !reason.empty()) throw std::out_of_range(reason);
+  return json::parse(text);
+}
 
 std::optional<json> json_if_there(const fs::path& file, std::size_t most_bytes, std::string_view remedy) {
   std::error_code error;
@@ -99,11 +112,7 @@ std::optional<json> json_if_there(const fs::path& file, std::size_t most_bytes, 
   if (status.type() == fs::file_type::not_found) return std::nullopt;
   std::string reason;
   const std::string text = read_whole(file, status, most_bytes, reason);
-  if (reason.empty()) {
-    Look look(text);
-    json::sax_parse(text, &look);
-    reason = look.reason();
-  }
+  if (reason.empty()) reason = why_no_object(text);
   if (reason.empty()) return json::parse(text);
   throw FileError(file.string() + " is damaged: " + reason + "; " + std::string(remedy));
 }

@@ -192,11 +192,13 @@ class Run {
     warnings_ = warnings_of(spec_, summary_);
     warnings_.insert(warnings_.end(), of_observers_.begin(), of_observers_.end());
     if (!complete()) return;
-    if (last_.any || spec_.output.times.empty())
+    if (last_.kept.any || last_.seen || spec_.output.times.empty())
       look_back_unless_stopped();
     else if (looks_back(spec_))
       warnings_.push_back(
-          "no error budget and no accuracy table: an earlier part of this run wrote the last output, and they need it");
+          "no error budget and no accuracy table: an earlier part of this run wrote the last output when it was not "
+          "yet "
+          "the last one, or did not want them, and they need it");
     if (const auto target = task_.asked.accuracy.target; target && !summary_.frames.empty()) {
       const auto& error = summary_.frames.back().second.error;
       const bool known = error && std::isfinite(error->linf);
@@ -271,8 +273,7 @@ class Run {
     prepare_folder(simulation);
     add_observers(simulation, spec_, folder_, of_observers_);
     const auto& times = spec_.output.times;
-    if (looks_back(spec_) && !times.empty())
-      simulation.observe(std::make_unique<accuracy::LastFrame>(last_, times.back()));
+    if (looks_back(spec_) && !times.empty()) simulation.observe(keep_last_output(spec_, last_, task_.threads));
     simulation.observe(own_folder_->watch());
     keeper_.emplace(
         folder_, [this] { return past(); }, spec_.output.checkpoint, task_.goes_on, task_.threads,
@@ -323,7 +324,14 @@ class Run {
     const base::AbandonWanted wanted = [this] { return stop_->by_signal(); };
     try {
       const base::Abandonable while_it_lasts(&wanted);
-      budget_ = look_back(spec_, summary_, last_, more_, warnings_, task_.threads);
+      if (!last_.seen) {
+        const base::Stopwatch watch;
+        last_.seen = look_back(spec_, summary_.seconds, last_.kept, summary_.stages, task_.threads);
+        summary_.seconds += watch.seconds();
+      }
+      budget_ = last_.seen->measured;
+      more_.update(last_.seen->more);
+      warnings_.insert(warnings_.end(), last_.seen->warnings.begin(), last_.seen->warnings.end());
     } catch (const base::Abandoned&) {
       looked_back_ = false;
       warnings_.push_back(
@@ -417,7 +425,7 @@ class Run {
   std::optional<StopRequest> stop_;
   std::atomic<bool> moved_on_{false};  // by a step or more
   std::optional<CheckpointKeeper> keeper_;
-  accuracy::LastFrame::Kept last_;
+  LastOutput last_;
   RunSummary summary_;
   std::optional<accuracy::Budget> budget_;
   bool looked_back_ = true;                                  // or did not want to

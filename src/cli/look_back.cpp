@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <stdexcept>
 
 #include "accuracy/accuracy_table.hpp"
+#include "base/json_file.hpp"
+#include "base/state_bytes.hpp"
 #include "base/stopwatch.hpp"
 #include "sim/grid_pieces.hpp"
 
@@ -16,6 +19,57 @@ bool budgeted(const Case& spec) {
   return spec.accuracy.budget != AccuracySpec::Budget::none && spec.reference.kind != ReferenceSpec::Kind::none;
 }
 
+void pass(base::StateBytes& bytes, LookBack& seen) {
+  bool there = seen.measured.has_value();
+  bytes(there);
+  if (bytes.reading()) seen.measured = there ? std::optional(accuracy::Budget()) : std::nullopt;
+  if (there) accuracy::pass(bytes, *seen.measured);
+  std::string more = seen.more.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  bytes(more, seen.warnings);
+  if (bytes.reading()) seen.more = base::json_in(more);
+}
+
+class KeepLastOutput : public accuracy::LastFrame {
+ public:
+  KeepLastOutput(const Case& spec, LastOutput& last, int threads)
+      : LastFrame(last.kept, spec.output.times.back()), spec_(spec), last_(last), threads_(threads) {}
+
+  void frame(const Frame& frame) override {
+    LastFrame::frame(frame);
+    if (!last_.kept.any || last_.kept.time >= spec_.time.end) return;
+    StageTimes within_this_stage;
+    last_.seen = look_back(spec_, frame.numbers.seconds, last_.kept, within_this_stage, threads_);
+    last_.kept = {};  // its particles need not stay in memory
+  }
+
+  std::string state() const override {
+    if (!last_.seen) return {};
+    double time = spec_.output.times.back();
+    base::StateBytes bytes;
+    bytes(time);
+    pass(bytes, *last_.seen);
+    return bytes.written();
+  }
+
+  /// Of a run whose last output is another by now it is of no use.
+  void restore(const std::vector<std::pair<double, FrameNumbers>>& frames, const std::string& state) override {
+    if (state.empty()) return;
+    base::StateBytes bytes(state);
+    double time = 0;
+    LookBack seen;
+    bytes(time);
+    pass(bytes, seen);
+    bytes.end();
+    const double last = spec_.output.times.back();
+    if (time == last && !frames.empty() && frames.back().first == last) last_.seen = std::move(seen);
+  }
+
+ private:
+  const Case& spec_;
+  LastOutput& last_;
+  int threads_;
+};
+
 }  // namespace
 
 bool looks_back(const Case& spec) {
@@ -24,39 +78,43 @@ bool looks_back(const Case& spec) {
   return (budgeted(spec) && accuracy::budget_not_covered(spec).empty()) || spec.output.report;
 }
 
-std::optional<accuracy::Budget> look_back(const Case& spec, RunSummary& summary, const accuracy::LastFrame::Kept& last,
-                                          nlohmann::ordered_json& more, std::vector<std::string>& warnings,
-                                          int threads) {
+LookBack look_back(const Case& spec, double run_seconds, const accuracy::LastFrame::Kept& last, StageTimes& stages,
+                   int threads) {
+  LookBack seen;
+  const base::Stopwatch all;
   const auto stage = [&](const char* name, const auto& work) {
     const base::Stopwatch watch;
     try {
       work();
     } catch (const std::bad_alloc&) {
-      warnings.push_back(fmt::format("no {}: out of memory", name));
+      seen.warnings.push_back(fmt::format("no {}: out of memory", name));
     } catch (const std::exception& error) {
-      warnings.push_back(fmt::format("no {}: {}", name, error.what()));
+      seen.warnings.push_back(fmt::format("no {}: {}", name, error.what()));
     }
-    const double seconds = watch.seconds();
-    summary.stages.add(name, seconds);
-    summary.seconds += seconds;
+    stages.add(name, watch.seconds());
   };
-  std::optional<accuracy::Budget> measured, predicted;
+  std::optional<accuracy::Budget> predicted;
   if (budgeted(spec)) {
     const auto effort = spec.accuracy.budget == AccuracySpec::Budget::measured ? accuracy::Effort::whatever
                                                                                : accuracy::Effort::share_of_run;
     stage("error budget",
-          [&] { measured = accuracy::measure_budget(spec, make_scene(spec, threads), last, effort, threads); });
+          [&] { seen.measured = accuracy::measure_budget(spec, make_scene(spec, threads), last, effort, threads); });
     stage("predicted error budget",
           [&] { predicted = accuracy::predict_budget(spec, make_scene(spec, threads), effort, threads); });
   }
-  if (measured && predicted)
-    more["budget"] = {{"norm", "largest error at the last output, relative to the largest exact density there"},
-                      {"predicted", accuracy::to_json(*predicted)},
-                      {"measured", accuracy::to_json(*measured)},
-                      {"advice", measured->advice}};
+  if (seen.measured && predicted)
+    seen.more["budget"] = {{"norm", "largest error at the last output, relative to the largest exact density there"},
+                           {"predicted", accuracy::to_json(*predicted)},
+                           {"measured", accuracy::to_json(*seen.measured)},
+                           {"advice", seen.measured->advice}};
   if (spec.output.report)
-    stage("accuracy table", [&] { more.update(accuracy::accuracy_table(spec, summary, last, threads)); });
-  return measured;
+    stage("accuracy table",
+          [&] { seen.more.update(accuracy::accuracy_table(spec, run_seconds + all.seconds(), last, threads)); });
+  return seen;
+}
+
+std::unique_ptr<Observer> keep_last_output(const Case& spec, LastOutput& last, int threads) {
+  return std::make_unique<KeepLastOutput>(spec, last, threads);
 }
 
 }  // namespace gaussdrift::cli

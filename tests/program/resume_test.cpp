@@ -69,6 +69,27 @@ TEST_F(Resume, AfterAStopByTheClock) {
   expect_same(folder / "whole", folder / "part");
 }
 
+/// The budget is of the last output, and steps come after it: another process has them.
+TEST_F(Resume, AfterItsLastOutputWithTheErrorBudgetOfTheUnbrokenRun) {
+  const std::string run = "run turning.toml --set output.times=[0,0.04] --set 'accuracy.budget=\"measured\"' --out ";
+  const auto summary_of = [&](const char* name) {
+    return nlohmann::json::parse(read_file(folder / name / "summary.json"));
+  };
+  ASSERT_EQ(gaussdrift_in(folder, run + "unbroken").exit_code, 0);
+  Outcome stopped = gaussdrift_in(folder, run + "part --stop-after 0.05");
+  for (int stops = 0; stopped.exit_code == 7 && summary_of("part").at("frames").size() < 2 && stops < 100; ++stops)
+    stopped = gaussdrift_in(folder, "resume part --stop-after 0.05");
+  ASSERT_EQ(stopped.exit_code, 7) << stopped.err;
+  EXPECT_FALSE(summary_of("part").contains("budget"));
+  stopped = gaussdrift_in(folder, "resume part");
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  EXPECT_EQ(stopped.err.find("warning"), std::string::npos) << stopped.err;
+  ASSERT_TRUE(summary_of("unbroken").contains("budget"));
+  EXPECT_TRUE(summary_of("unbroken").at("budget").at("measured").at("total").is_number());
+  EXPECT_EQ(summary_of("unbroken").at("budget"), summary_of("part").at("budget"));
+  expect_same(folder / "unbroken", folder / "part");
+}
+
 TEST_F(Resume, AfterSignalsWhichItAnswersWithTheirExitCodes) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
     fs::remove_all(folder / "part");
