@@ -12,6 +12,7 @@
 #include "accuracy/memory_limits.hpp"
 #include "accuracy/trial.hpp"
 #include "accuracy/trial_times.hpp"
+#include "base/has_one.hpp"
 #include "base/size_text.hpp"
 #include "effect/catalogue.hpp"
 #include "gaussdrift/accuracy.hpp"
@@ -100,6 +101,11 @@ double bytes_of_particle(const Case& spec, const EffectMemory& effects) {
   return number * (spec.domain.dimension + 2 + effects.integrals + effects.columns);
 }
 
+/// Of an output, to draw it again: single precision, thinned in space.
+double kept_for_pictures(const Case& spec, double grid_points) {
+  return 4 * (in_space(spec) ? std::min(grid_points, 2.1e6) : grid_points);
+}
+
 }  // namespace
 
 double disk_of_run(const Case& spec, const Extent& all, double seconds) {
@@ -107,6 +113,8 @@ double disk_of_run(const Case& spec, const Extent& all, double seconds) {
   const auto frames = static_cast<double>(spec.output.times.size());
   double bytes = 1e4 + 250 * frames;
   for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
+  if (!spec.output.images.empty() && !base::has_one(spec.output.files, &OutputFile::shows_density))
+    bytes += frames * kept_for_pictures(spec, extent.grid_points) * (extent.compared_everywhere ? 2 : 1);
   for (const OutputFile& file : spec.output.files) bytes += frames * write::find_output_file(file.name).bytes(extent);
   if (spec.output.report) bytes += 5e4 + (spec.output.images.empty() ? 0 : 5e5);  // the page and its picture
   const bool checkpoints = spec.output.checkpoint ? *spec.output.checkpoint > 0 : seconds >= write::long_run;
@@ -135,8 +143,7 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
       kept ? RunMemory{.particles = n * particle, .grid = m * number * (extent.compared_everywhere ? 2 : 1)}
            : RunMemory{};
   if (pictures)
-    stays.pictures =
-        std::min(frames * std::min(m, in_space(spec) ? 2.1e6 : m) * 4, static_cast<double>(render::most_kept_bytes));
+    stays.pictures = std::min(frames * kept_for_pictures(spec, m), static_cast<double>(render::most_kept_bytes));
 
   // Lines of the lattice are seeded one by one and joined.
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));

@@ -12,6 +12,7 @@
 
 #include "accuracy/footprint.hpp"
 #include "base/counted.hpp"
+#include "base/has_one.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "base/process_stopwatch.hpp"
@@ -58,8 +59,10 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
     if (const std::string reason = render::unavailable_reason(); !reason.empty())
       note("warning: no pictures are drawn: {}\n", reason);
     else
-      simulation.observe(render::picture_series(folder, images, spec.title.empty() ? spec.name : spec.title,
-                                                {.warn = [&](const std::string& line) { later.push_back(line); }}));
+      simulation.observe(render::picture_series(
+          folder, images, spec.title.empty() ? spec.name : spec.title,
+          {.warn = [&](const std::string& line) { later.push_back(line); },
+           .run_writes_densities = base::has_one(spec.output.files, &OutputFile::shows_density)}));
   }
 }
 

@@ -16,6 +16,7 @@
 #include "cli/verbs.hpp"
 #include "render/styles.hpp"
 #include "write/folder_lock.hpp"
+#include "write/result_folder.hpp"
 #include "write/run_folder.hpp"
 
 namespace gaussdrift::cli {
@@ -69,6 +70,39 @@ const render::Style& style_called(const std::string& name) {
                                      near ? fmt::format("; did you mean {}?", *near) : ";", fmt::join(names, ", ")));
 }
 
+/// Where pictures go: images/ of the run, the folder of --out, or the working folder for a single density. They replace
+/// pictures that stand on its list, and no other file.
+class Place {
+ public:
+  /// `drawn`: the folder of the run, which is locked, or a density. Throws FileError.
+  Place(const fs::path& drawn, const fs::path& out, const std::vector<std::string>& names) {
+    if (!out.empty()) {
+      own_.emplace(out, "drawing", write::ResultFolder::Earlier::join);
+      own_->claim(names);
+      folder_ = out;
+    } else if (fs::is_directory(drawn)) {
+      std::vector<std::string> in_the_run;
+      for (const std::string& name : names) in_the_run.push_back("images/" + name);
+      write::add_to_own_files(drawn, in_the_run);
+      folder_ = drawn / "images";
+    } else {
+      for (const std::string& name : names)
+        if (std::error_code ignored; fs::exists(fs::symlink_status(name, ignored)))
+          throw FileError(fmt::format(
+              "{} is there already and would be replaced; move it away, or choose a folder with --out", name));
+      folder_ = ".";
+    }
+  }
+  const fs::path& folder() const { return folder_; }
+  void complete() {
+    if (own_) own_->complete();
+  }
+
+ private:
+  fs::path folder_;
+  std::optional<write::ResultFolder> own_;
+};
+
 ExitCode render(const RenderOptions& options) {
   check_folder_name(options.out, "pictures are written into a folder, as surface_0000.png and so on");
   const std::vector<std::string> fields{"rho", "rho_exact", "error"};
@@ -100,13 +134,16 @@ ExitCode render(const RenderOptions& options) {
     throw CommandLineError(
         fmt::format("--style {} does not show densities of {} dimensions", style->about.name, dimension));
   const auto [range_min, range_max] = style->range(low, high);
-  const fs::path out = options.out.empty() ? (into_the_run ? options.folder / "images" : fs::path(".")) : options.out;
+  std::vector<std::string> names;
+  for (const std::size_t i : wanted)
+    names.push_back(fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_", style->about.name,
+                                outputs[i].number));
+  Place place(options.folder, options.out, names);
   nlohmann::ordered_json written = nlohmann::ordered_json::array();
-  std::vector<std::string> names;                              // of the run, from now on
   const fs::path named = (options.folder / "").parent_path();  // "a/b/" is "a/b"
+  auto name = names.begin();
   for (const std::size_t i : wanted) {
-    const fs::path png = out / fmt::format("{}{}_{:04}.png", options.field == "rho" ? "" : options.field + "_",
-                                           style->about.name, outputs[i].number);
+    const fs::path png = place.folder() / *name++;
     draw(*style, read::read_density(outputs[i].file, options.field),
          {.title = named.stem().string(),
           .quantity = options.field == "rho" ? "density" : options.field,
@@ -115,10 +152,9 @@ ExitCode render(const RenderOptions& options) {
           .range_max = range_max},
          png);
     written.push_back(png.string());
-    names.push_back("images/" + png.filename().string());
     if (!options.json) say("wrote  {}\n", png.string());
   }
-  if (into_the_run) write::add_to_own_files(options.folder, names);
+  place.complete();
   if (options.json) say("{}\n", laid_out(nlohmann::ordered_json{{"written", written}}));
   return ExitCode::ok;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -55,7 +56,9 @@ class PictureSeries : public Observer {
  public:
   PictureSeries(const fs::path& folder, const std::vector<PictureStyle>& styles, std::string title,
                 SeriesOptions options)
-      : folder_(folder / "images"), warn_(std::move(options.warn)), kept_(folder, options.most_bytes) {
+      : folder_(folder / "images"),
+        warn_(std::move(options.warn)),
+        kept_(folder, options.most_bytes, options.run_writes_densities) {
     for (const PictureStyle& about : styles) styles_.push_back({find_style(about.name), {}});
     options_.title = std::move(title);
   }
@@ -99,6 +102,7 @@ class PictureSeries : public Observer {
   void finish() override {
     draw_again(false);
     draw_again(true);
+    kept_.remove_files(times_.size());
   }
 
  private:
@@ -109,6 +113,11 @@ class PictureSeries : public Observer {
     bytes.end();
     if (lattice.dimension < 1 || lattice.dimension > max_dimension)
       throw std::out_of_range("its grid has no such dimension");
+    double points = 1;
+    for (const std::size_t along : lattice.points) points *= static_cast<double>(along);
+    constexpr double most_points = 1e12;
+    if (bytes.reading() && !(points >= 0 && points <= most_points && std::isfinite(lattice.spacing)))
+      throw std::out_of_range("its grid is wrong");
   }
 
   static DensityGrid error_of(const Frame& frame) {
@@ -120,7 +129,7 @@ class PictureSeries : public Observer {
   /// By the styles that show the density, or those that show its error.
   void show(const Frame& frame, const DensityGrid& density, std::pair<double, double> extremes, bool error) {
     const auto index = static_cast<std::size_t>(frame.index);
-    kept_.keep(error, index, density);
+    kept_.keep(error, index, frame.time, density);
     for (Drawn& drawn : styles_) {
       if (drawn.style.about.shows_error != error) continue;
       drawn.include(index, extremes.first, extremes.second);

@@ -19,14 +19,15 @@ constexpr std::size_t most_kept_bytes = 256'000'000;
 struct SeriesOptions {
   std::function<void(const std::string&)> warn{};  // gets lines for people
   std::size_t most_bytes = most_kept_bytes;
+  bool run_writes_densities = false;  // in its density files
 };
 
 /// images/surface_0000.png, ... The range is that of the first frame, with round ends. If a later frame leaves it by
 /// more than a hundredth, all pictures are drawn again at the end, with the wider range (in 3D from every second,
 /// third, ... point where an axis has more than 128). Errors have a range of their own, as far below 0 as above;
 /// styles that show them need frames with an exact density. What is drawn again and is no longer in memory, because there
-/// was too much or an earlier process drew it, is read from the density files of the run in `folder`. Where there are
-/// none, these pictures stay as they are, and a warning says so.
+/// was too much or an earlier process drew it, is read from the density files of the run in `folder`, or from state/pictures/
+/// where it writes none. Where these are gone, the pictures stay as they are, and a warning says so.
 std::unique_ptr<Observer> picture_series(const std::filesystem::path& folder, const std::vector<PictureStyle>& styles,
                                          std::string title, SeriesOptions options = {});
 

@@ -68,14 +68,28 @@ Plane projection(const DensityGrid& density, int across, int up) {
   return plane;
 }
 
+namespace {
+
+std::size_t points_apart(const Lattice& full, std::size_t most) {
+  const std::size_t longest = std::max({full.points[0], full.points[1], full.points[2]});
+  return std::max<std::size_t>(1, (longest - 1 + most - 1) / std::max<std::size_t>(1, most));
+}
+
+}  // namespace
+
+Lattice thinned_lattice(const Lattice& full, std::size_t most) {
+  const std::size_t every = points_apart(full, most);
+  Lattice thin = full;
+  thin.spacing = full.spacing * static_cast<double>(every);
+  for (std::size_t k = 0; k < 3; ++k) thin.points[k] = (full.points[k] - 1) / every + 1;
+  return thin;
+}
+
 DensityGrid thinned(const DensityGrid& density, std::size_t most) {
   const Lattice& full = density.lattice;
-  const std::size_t longest = std::max({full.points[0], full.points[1], full.points[2]});
-  const std::size_t every = std::max<std::size_t>(1, (longest - 1 + most - 1) / std::max<std::size_t>(1, most));
+  const std::size_t every = points_apart(full, most);
   if (every == 1) return density;
-  DensityGrid thin{full, {}};
-  thin.lattice.spacing = full.spacing * static_cast<double>(every);
-  for (std::size_t k = 0; k < 3; ++k) thin.lattice.points[k] = (full.points[k] - 1) / every + 1;
+  DensityGrid thin{thinned_lattice(full, most), {}};
   const auto step = strides(full);
   thin.rho.reserve(thin.lattice.size());
   for (std::size_t k = 0; k < thin.lattice.points[2]; ++k)

@@ -22,6 +22,9 @@ Plane slice(const DensityGrid& density, int across, int up, std::size_t index);
 /// At each point of the plane: the value largest in size on the line along the third axis. NaN only if all are NaN.
 Plane projection(const DensityGrid& density, int across, int up);
 
+/// The lattice of thinned().
+Lattice thinned_lattice(const Lattice& full, std::size_t most);
+
 /// Every second, third, ... point of each axis and the last one nearest to its end, so that no axis has more than
 /// `most`.
 DensityGrid thinned(const DensityGrid& density, std::size_t most);

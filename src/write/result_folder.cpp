@@ -119,16 +119,25 @@ void ResultFolder::set_aside() {
 }
 
 fs::path ResultFolder::claim(const std::string& name) {
+  claim(std::vector{name});
+  return folder_ / name;
+}
+
+void ResultFolder::claim(const std::vector<std::string>& names) {
   if (!begun_ && replaces_) set_aside();
   begun_ = true;
   std::error_code ignored;
-  if (own_.has(name)) return folder_ / name;
-  if (fs::exists(fs::symlink_status(folder_ / name, ignored)))
-    refuse(folder_,
-           fmt::format("{} in it is no file of an earlier {} and would be replaced; move it away", name, kind_));
-  own_.add(name);
-  tell("running");
-  return folder_ / name;
+  bool more = false;
+  for (const std::string& name : names)
+    if (!own_.has(name) && fs::exists(fs::symlink_status(folder_ / name, ignored)))
+      refuse(folder_,
+             fmt::format("{} in it is no file of an earlier {} and would be replaced; move it away", name, kind_));
+  for (const std::string& name : names) {
+    if (own_.has(name)) continue;
+    own_.add(name);
+    more = true;
+  }
+  if (more) tell("running");
 }
 
 void ResultFolder::has_result() {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "write/folder_lock.hpp"
 #include "write/own_files.hpp"
@@ -28,6 +29,8 @@ class ResultFolder {
   /// To be called before a file of this name is written: puts it on the list. Refuses one that is there and was not written by
   /// these or earlier results. Returns its path.
   std::filesystem::path claim(const std::string& name);
+  /// The same for many.
+  void claim(const std::vector<std::string>& names);
   /// A claimed file is there: earlier results are removed.
   void has_result();
   void complete();

@@ -15,6 +15,7 @@
 #include "gaussdrift/error.hpp"
 #include "sim/grid_pieces.hpp"
 #include "write/atomic_file.hpp"
+#include "write/checkpoint.hpp"
 #include "write/output_files.hpp"
 #include "write/provenance.hpp"
 #include "write/series_table.hpp"
@@ -30,13 +31,14 @@ constexpr const char* status_name = "status.json";
 constexpr const char* earlier_name = "earlier";
 constexpr std::size_t most_names = 40'000;  // in status.json, and as many as most_json_of_names has room for
 
-/// The files that a run writes. `most`: of a series. `in_pieces`: where its grid has several.
-OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_t most, bool in_pieces) {
+/// The files that a run writes: series of these kinds, `most` files each. `in_pieces`: where its grid has several.
+OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<std::string>& picture_styles,
+                      std::size_t most, bool in_pieces) {
   OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
                   "state/", "summary.json", "summary.png", "view.py"});
-  for (const FileKind& kind : output_files()) {
-    const std::string name(kind.about.name);
+  for (const std::string& name : kinds) {
     files.add(name + ".pvd");
+    const FileKind& kind = find_output_file(name);
     const std::string numbered = name + "/" + name + "_";
     const bool pieces_for_certain = in_pieces && kind.piece;
     if (!pieces_for_certain) files.add(numbered_names(numbered, most, kind.ending));
@@ -49,9 +51,17 @@ OwnFiles files_of_run(const std::vector<std::string>& picture_styles, std::size_
 }
 
 OwnFiles files_of(const Case& spec) {
-  std::vector<std::string> styles;
+  std::vector<std::string> kinds, styles;
+  for (const OutputFile& file : spec.output.files) kinds.emplace_back(file.name);
   for (const PictureStyle& style : spec.output.images) styles.emplace_back(style.name);
-  return files_of_run(styles, spec.output.times.size(), pieces_of_grid(spec).count() > 1);
+  return files_of_run(kinds, styles, spec.output.times.size(), pieces_of_grid(spec).count() > 1);
+}
+
+/// Of a version that wrote no list.
+OwnFiles files_without_list(const std::vector<std::string>& picture_styles) {
+  std::vector<std::string> kinds;
+  for (const FileKind& kind : output_files()) kinds.emplace_back(kind.about.name);
+  return files_of_run(kinds, picture_styles, 1'000'000'000, false);
 }
 
 /// What status.json says. The folder may be a stranger's. Throws FileError if the file is damaged: which files are the
@@ -187,9 +197,10 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
   check_links(folder_);
   const Status run(folder_), aside(folder_ / earlier_name);
   const bool old_version = !run.there && fs::exists(folder_ / "run.toml");
-  const OwnFiles files = old_version ? files_of_run(options.picture_styles, 1'000'000'000, false) : run.files;
+  const OwnFiles files = old_version ? files_without_list(options.picture_styles) : run.files;
   keeps_earlier_ = aside.is_set_aside;
   if (options.go_on) {
+    if (run.there) refuse_strangers(files, "the run");
     for (const std::string& name : files.names()) own_.add(name);
     outputs_ = run.outputs, time_ = run.time;
     check_space(folder_, options.bytes, own_.bytes_in(folder_));
@@ -206,7 +217,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
   }
   if (problem) refuse(folder_, problem.message());
   const bool killed_at_once = run.there && run.outputs == 0 && !run.is_set_aside && !keeps_earlier_ && nothing_else &&
-                              !fs::exists(folder_ / "state");
+                              checkpoint_files(folder_).empty();
   if (!empty && !killed_at_once && !options.force)
     throw FileError(fmt::format("{} is not empty; --force replaces the earlier run in it, --out DIR writes elsewhere",
                                 folder_.string()));
@@ -217,9 +228,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
                     folder_.string()));
   if (fs::exists(folder_ / earlier_name) && !keeps_earlier_ && !run.is_set_aside)
     refuse(folder_, "earlier in it is not of a run, and an earlier run would be kept there; move it away");
-  for (const std::string& name : own_.found_in(folder_))
-    if (!files.has(name))
-      refuse(folder_, fmt::format("{} in it is no file of the earlier run and would be replaced; move it away", name));
+  refuse_strangers(files, "the earlier run");
   check_space(folder_, options.bytes, files.bytes_in(folder_));
   fs::remove(folder_ / "run.toml.part", problem);  // of earlier versions, killed at once
   if (killed_at_once)
@@ -227,6 +236,13 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
   else
     set_aside(files, run.outputs > 0 || old_version, run.there);
   tell("running", "wait, or look at what is there: every file is whole");
+}
+
+/// Files that would be replaced and are not on the list of `whose`.
+void RunFolder::refuse_strangers(const OwnFiles& listed, const char* whose) const {
+  for (const std::string& name : own_.found_in(folder_))
+    if (!listed.has(name))
+      refuse(folder_, fmt::format("{} in it is no file of {} and would be replaced; move it away", name, whose));
 }
 
 /// The run that is to be replaced goes into earlier/. Its list goes last: while it is at the top, a process that is killed
@@ -309,8 +325,16 @@ class RunFolder::Watch : public Observer {
 std::unique_ptr<Observer> RunFolder::watch() { return std::make_unique<Watch>(*this); }
 
 void add_to_own_files(const fs::path& folder, const std::vector<std::string>& names) {
+  check_links(folder);
   Status status(folder);
   if (!status.there) return;
+  std::error_code ignored;
+  for (const std::string& name : names)
+    if (!status.files.has(name) && fs::exists(fs::symlink_status(folder / name, ignored)))
+      throw FileError(
+          fmt::format("{} is no file of the run in {} and would be replaced; move it away, or choose another "
+                      "folder with --out",
+                      (folder / name).string(), folder.string()));
   const std::size_t before = status.files.names().size();
   for (const std::string& name : names)
     if (!status.files.has(name)) status.files.add(name);

@@ -42,6 +42,7 @@ class RunFolder {
 
  private:
   class Watch;
+  void refuse_strangers(const OwnFiles& listed, const char* whose) const;
   void set_aside(const OwnFiles& earlier, bool has_outputs, bool lists_itself);
   void seen(double time);
   void end(const std::string& state, const std::string& next);
@@ -55,7 +56,8 @@ class RunFolder {
   bool keeps_earlier_ = false, ended_ = false;
 };
 
-/// Puts more files onto the list of the run in that folder, if there is one. The caller holds its lock.
+/// Puts more files onto the list of the run in that folder, before they are written. Throws FileError where one is there
+/// that is not on the list. A run without a list, of an earlier version, has none. The caller holds the lock.
 void add_to_own_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 /// case.toml (as it was), run.toml (resolved), view.py (opens the series in ParaView). Throws FileError.

@@ -52,7 +52,7 @@ TEST_F(Faults, EachOfTheFirstAllocations) {
 TEST_F(Faults, ALaterAllocation) {
   constexpr long first = 500;
   const long allocations = begin(apart + without_budget, "FAULTS_NEW_ALL=1").allocations;
-  for (const long at : spread(first, allocations, faults_of_a_test(60)))
+  for (const long at : spread(first, allocations, faults_of_a_test(200)))
     suffer("FAULTS_NEW_ALL=1 FAULTS_NEW_AT=" + std::to_string(at), of_memory);
   tell("later allocations failed", allocations - first);
 }

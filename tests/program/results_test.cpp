@@ -102,6 +102,38 @@ TEST(Render, DrawsAgainWithoutRunning) {
   EXPECT_NE(absent.err.find("\"error\""), std::string::npos) << absent.err;
 }
 
+/// A picture of the user has the name of one that is to be drawn: in images/ of the run, in a folder of --out, beside a
+/// single density. It stays, and no other is drawn.
+TEST(Render, ReplacesNoFileOfOthers) {
+  if (!draws_pictures) GTEST_SKIP() << without_pictures;
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", scene);
+  ASSERT_EQ(gaussdrift_in(folder, "run a.toml --set output.report=none --set 'output.images=[]'").exit_code, 0);
+  struct Place {
+    const char *command, *strange, *before;  // `before` is drawn first
+  };
+  for (const Place& place :
+       {Place{"render output/a --style heatmap", "output/a/images/heatmap_0001.png",
+              "output/a/images/heatmap_0000.png"},
+        Place{"render output/a --style heatmap --out drawn", "drawn/heatmap_0001.png", "drawn/heatmap_0000.png"},
+        Place{"render output/a/density/density_0001.vti --style contour", "contour_0001.png", "contour_0001.png"}}) {
+    fs::create_directories((folder / place.strange).parent_path());
+    write_file(folder / place.strange, "mine");
+    const Outcome refused = gaussdrift_in(folder, place.command);
+    EXPECT_EQ(refused.exit_code, 6) << place.command;
+    EXPECT_NE(refused.err.find(fs::path(place.strange).filename().string()), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("would be replaced; move it away"), std::string::npos) << refused.err;
+    EXPECT_EQ(read_file(folder / place.strange), "mine");
+    EXPECT_EQ(fs::exists(folder / place.before), std::string(place.before) == place.strange);
+    fs::remove(folder / place.strange);
+    EXPECT_EQ(gaussdrift_in(folder, place.command).exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / place.before));
+  }
+  for (const char* again : {"render output/a --style heatmap", "render output/a --style heatmap --out drawn"})
+    EXPECT_EQ(gaussdrift_in(folder, again).exit_code, 0) << again;
+  EXPECT_EQ(gaussdrift_in(folder, "render output/a --out output/a").exit_code, 6);
+}
+
 TEST(Compare, MeasuresTheDifferenceOfTwoRuns) {
   const ScratchFolder folder;
   write_file(folder / "a.toml", scene);

@@ -173,6 +173,22 @@ TEST_F(Resume, BeginsAgainWhereThereIsNoCheckpointAndTakesTheOlderOfADamagedOne)
   EXPECT_EQ(gaussdrift_in(folder, "resume nowhere").exit_code, 6);
 }
 
+/// A part of the run that writes other files meets those of others.
+TEST_F(Resume, ReplacesNoFileOfOthers) {
+  ASSERT_EQ(gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1").exit_code, 7);
+  fs::create_directory(folder / "part/images");
+  std::ofstream(folder / "part/images/heatmap_0003.png") << "mine";
+  const std::string resume = R"(resume part --set 'output.images=["heatmap"]')";
+  const Outcome refused = gaussdrift_in(folder, resume);
+  EXPECT_EQ(refused.exit_code, 6);
+  EXPECT_NE(refused.err.find("images/heatmap_0003.png in it is no file of the run and would be replaced"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_EQ(read_file(folder / "part/images/heatmap_0003.png"), "mine");
+  fs::remove(folder / "part/images/heatmap_0003.png");
+  EXPECT_EQ(gaussdrift_in(folder, resume).exit_code, 0);
+}
+
 TEST_F(Resume, LooksBackAtUnfinishedRuns) {
   gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1");
   for (const char* verb : {"report part", "compare part whole"}) {
@@ -197,19 +213,26 @@ TEST_F(ResumedPictures, HaveTheColoursOfARunThatNeverStopped) {
   expect_same(folder / "whole", folder / "part");
 }
 
-TEST_F(ResumedPictures, SayWhereTheirRangeStaysNarrow) {
+TEST_F(ResumedPictures, OfARunWithoutDensityFilesHaveTheColoursOfOneThatWasAlwaysLonger) {
   const ScratchFolder folder;
   std::ofstream(folder / "growing.toml") << turning << "[effects.reaction]\nrate = \"-0.3\"\n";
-  EXPECT_EQ(gaussdrift_in(folder,
-                          "run growing.toml --out part --set time.step=0.01 --set time.end=2 "
-                          R"(--set 'output.images=["heatmap"]' --set output.times=[0,2] --set output.vtk=[])")
-                .exit_code,
-            0);
+  const std::string run =
+      "run growing.toml --set time.step=0.01 --set 'output.images=[\"heatmap\"]' --set output.vtk=[] ";
+  EXPECT_EQ(gaussdrift_in(folder, run + "--set time.end=4 --set output.times=[0,2,4] --out whole").exit_code, 0);
+  for (const char* name : {"part", "without"})
+    EXPECT_EQ(
+        gaussdrift_in(folder, run + "--set time.end=2 --set output.times=[0,2] --out " + std::string(name)).exit_code,
+        0);
   const Outcome resumed = gaussdrift_in(folder, "resume part --until 4");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_NE(resumed.err.find("warning: pictures of the density at 1 earlier output keep a narrower range of colours"),
-            std::string::npos)
-      << resumed.err;
+  EXPECT_EQ(resumed.err.find("warning"), std::string::npos) << resumed.err;
+  for (const char* picture : {"images/heatmap_0000.png", "images/heatmap_0001.png", "images/heatmap_0002.png"})
+    EXPECT_TRUE(read_file(folder / "whole" / picture) == read_file(folder / "part" / picture)) << picture;
+
+  fs::remove_all(folder / "without/state/pictures");
+  const Outcome narrow = gaussdrift_in(folder, "resume without --until 4");
+  EXPECT_EQ(narrow.exit_code, 0) << narrow.err;
+  EXPECT_NE(narrow.err.find("1 earlier output keep a narrower range of colours"), std::string::npos) << narrow.err;
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -82,12 +85,14 @@ std::map<std::string, std::string> pictures_of_all(const Lattice& lattice, const
 
 /// By a process for each of two outputs, which keep nothing in memory.
 std::map<std::string, std::string> pictures_of_two(const Lattice& lattice, const std::vector<PictureStyle>& styles,
-                                                   bool with_files, std::vector<std::string>& said) {
+                                                   bool with_files, std::vector<std::string>& said,
+                                                   const std::function<void(const fs::path&)>& between = {}) {
   const ScratchFolder folder;
   Growing scene(lattice);
   const auto files = write::file_series(write::density_output(), folder.path());
   const SeriesOptions options{.warn = [&](const std::string& line) { said.push_back(line); },
-                              .most_bytes = with_files ? 0 : most_kept_bytes};
+                              .most_bytes = 0,
+                              .run_writes_densities = with_files};
   const auto show = [&](Observer& pictures, int index) {
     if (with_files) scene.show(*files, index);
     scene.show(pictures, index);
@@ -98,11 +103,16 @@ std::map<std::string, std::string> pictures_of_two(const Lattice& lattice, const
     show(*first, 0);
     state = first->state();
   }
+  EXPECT_NE(fs::exists(folder / "state/pictures"), with_files);
+  if (between) between(folder.path());
   const auto second = picture_series(folder.path(), styles, "hill", options);
   second->restore(Growing::known(1), state);
   EXPECT_EQ(second->state(), state);
   show(*second, 1);
   second->finish();
+  if (!between) {
+    EXPECT_FALSE(fs::exists(folder / "state"));
+  }
   return pictures_in(folder);
 }
 
@@ -129,16 +139,55 @@ TEST_F(PictureSeries, OfTwoProcessesAreThinnedAlikeInSpace) {
   EXPECT_TRUE(said.empty());
 }
 
-TEST_F(PictureSeries, WithoutDensityFilesEarlierOnesStayAndAWarningSaysSo) {
-  const Lattice flat = make_lattice(2, {-1, -1, 0}, {1, 1, 0}, 21);
+TEST_F(PictureSeries, OfARunWithoutDensityFilesAreTheSameToo) {
   std::vector<std::string> said;
+  const Lattice flat = make_lattice(2, {-1, -1, 0}, {1, 1, 0}, 21);
+  const Lattice solid = make_lattice(3, {-1. / 3, -0.05, 0}, {1, 0.05, 0.1}, 140);
+  for (const auto& [lattice, style] : {std::pair{flat, "error"}, {flat, "heatmap"}, {solid, "slices"}}) {
+    const auto styles = called({style});
+    expect_same_bits(pictures_of_all(lattice, styles), pictures_of_two(lattice, styles, false, said));
+  }
+  EXPECT_TRUE(said.empty());
+}
+
+/// What a run keeps for its pictures stays as long as a checkpoint does.
+TEST_F(PictureSeries, KeepsItsDensitiesBesideACheckpoint) {
+  const ScratchFolder folder;
+  Growing scene(make_lattice(2, {-1, -1, 0}, {1, 1, 0}, 21));
+  fs::create_directories(folder / "state/0");
+  std::ofstream(folder / "state/0/manifest.json") << "{}";
+  const auto pictures = picture_series(folder.path(), called({"heatmap"}), "hill");
+  scene.show(*pictures, 0);
+  pictures->finish();
+  EXPECT_TRUE(fs::exists(folder / "state/pictures/density_0000.raw"));
+}
+
+TEST_F(PictureSeries, WhereItsDensitiesAreGoneOrDamagedEarlierOnesStayAndAWarningSaysSo) {
+  const Lattice flat = make_lattice(2, {-1, -1, 0}, {1, 1, 0}, 21);
   const auto styles = called({"heatmap"});
-  const auto whole = pictures_of_all(flat, styles), two = pictures_of_two(flat, styles, false, said);
-  EXPECT_NE(two.at("heatmap_0000.png"), whole.at("heatmap_0000.png"));
-  EXPECT_EQ(two.at("heatmap_0001.png"), whole.at("heatmap_0001.png"));
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_NE(said[0].find("1 earlier output keep a narrower range of colours"), std::string::npos) << said[0];
-  EXPECT_NE(said[0].find("has no file of t = 0 (output.vtk)"), std::string::npos) << said[0];
+  const auto whole = pictures_of_all(flat, styles);
+  const fs::path name = "state/pictures/density_0000.raw";
+  const std::vector<std::function<void(const fs::path&)>> harms{
+      [&](const fs::path& folder) { fs::remove(folder / name); },
+      [&](const fs::path& folder) { fs::resize_file(folder / name, 100); },
+      [&](const fs::path& folder) {
+        std::string bytes = read_file(folder / name);
+        bytes[50] ^= 1;
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+      },
+      [&](const fs::path& folder) {
+        fs::rename(folder / name, folder / "elsewhere");
+        fs::create_symlink(folder / "elsewhere", folder / name);
+      }};
+  for (const auto& harm : harms) {
+    std::vector<std::string> said;
+    const auto two = pictures_of_two(flat, styles, false, said, harm);
+    EXPECT_NE(two.at("heatmap_0000.png"), whole.at("heatmap_0000.png"));
+    EXPECT_EQ(two.at("heatmap_0001.png"), whole.at("heatmap_0001.png"));
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_NE(said[0].find("1 earlier output keep a narrower range of colours"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find("has no file of t = 0 (output.vtk)"), std::string::npos) << said[0];
+  }
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "message_of.hpp"
 #include "scratch_folder.hpp"
 #include "write/atomic_file.hpp"
+#include "write/output_files.hpp"
 
 namespace gaussdrift::write {
 namespace {
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 Case some_case(std::size_t outputs = 3) {
   Case spec;
   spec.name = "some";
+  spec.output.files = {density_output().about};
   for (std::size_t i = 0; i < outputs; ++i) spec.output.times.push_back(static_cast<double>(i));
   return spec;
 }
