@@ -51,7 +51,7 @@ nlohmann::ordered_json accuracy_table(const Case& spec, double run_seconds, cons
     }
     open = base::to_measure_again(times, enough);
   }
-  json table = json::array(), result;
+  json table = json::array(), result = json::object();
   for (std::size_t i = 0; i < rows; ++i) {
     const bool doubtful = std::find(open.begin(), open.end(), i) != open.end();
     table.push_back({{"tolerance", tolerances[i]},

@@ -45,7 +45,7 @@ std::string to_text(const Budget& budget) {
 
 nlohmann::ordered_json to_json(const Budget& budget) {
   if (!budget.known()) return {{"not_covered", budget.not_covered}};
-  nlohmann::ordered_json json;
+  auto json = nlohmann::ordered_json::object();
   for (const Cause& cause : causes) json[cause.key] = budget.*cause.error;
   json["total"] = budget.total;
   json["dominates"] = budget.dominates;

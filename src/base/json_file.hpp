@@ -1,4 +1,6 @@
 // JSON from a folder that may be a stranger's: bounded, and with the reason where it is not what it should be.
+// JSON that is made here begins as object() or array(). A null that becomes one at its first member ends the program by a
+// segmentation fault where memory runs out just then: nlohmann's operator[] leaves an object that points nowhere.
 #pragma once
 
 #include <cstddef>

@@ -435,7 +435,8 @@ class Run {
   std::vector<std::string> told_, warnings_, of_observers_;  // warnings: at the start, for the end, of observers
   double share_seconds_ = 0;                                 // processor seconds of this rank in the run
   std::vector<Share> shares_;                                // of all ranks, on rank 0
-  nlohmann::ordered_json more_;                              // members of summary.json beside those of the run
+  // Members of summary.json beside those of the run.
+  nlohmann::ordered_json more_ = nlohmann::ordered_json::object();
   std::string summary_text_, ending_;
   OwedFiles owed_;
   std::optional<write::RunFolder> own_folder_;

@@ -100,7 +100,7 @@ ExitCode doctor(const DoctorOptions& options) {
   std::error_code ignored;
   fs::remove_all(folder, ignored);
   bool well = true;
-  nlohmann::ordered_json document;
+  auto document = nlohmann::ordered_json::object();
   for (const Finding& finding : findings) {
     well = well && finding.well;
     document[finding.what] = {{"found", finding.found}, {"well", finding.well}};

@@ -233,6 +233,7 @@ std::string to_json(std::string_view word, const std::vector<Explanation>& expla
   nlohmann::ordered_json document = {{"word", word}, {"meanings", nlohmann::ordered_json::array()}};
   for (const Explanation& one : explanations) {
     nlohmann::ordered_json entry = {{"kind", one.kind}, {"name", one.name}, {"meaning", one.title}};
+    if (!one.facts.empty()) entry["facts"] = nlohmann::ordered_json::object();
     for (const Fact& fact : one.facts) entry["facts"][fact.label] = fact.value;
     document["meanings"].push_back(std::move(entry));
   }

@@ -102,7 +102,7 @@ std::vector<std::string_view> values_with_parameters(std::string_view table, std
 }
 
 Json table_schema(const Table& table) {
-  Json schema;
+  Json schema = Json::object();
   if (table.name == "params") {
     schema = {{"type", "object"},
               {"additionalProperties", number_schema("number", {})},

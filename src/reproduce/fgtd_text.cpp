@@ -176,7 +176,7 @@ std::string to_json(const FgtdReproduction& result) {
     }
     tables.push_back({{"table", table.number}, {"title", table.title}, {"what", table.what}, {"rows", rows}});
   }
-  nlohmann::ordered_json kinds, off = nlohmann::ordered_json::array();
+  auto kinds = nlohmann::ordered_json::object(), off = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < comparisons.size(); ++k) kinds[to_string(comparisons[k])] = result.by_kind[k];
   for (const auto& [place, why] : result.off) off.push_back({{"number", place}, {"why", why}});
   const nlohmann::ordered_json document{{"source", result.source},

@@ -120,7 +120,7 @@ std::string to_json(const Study& study) {
   for (const Experiment& experiment : study.experiments) {
     json samples = json::array();
     for (const Sample& sample : experiment.samples) {
-      json row;
+      json row = json::object();
       for (std::size_t k = 0; k < experiment.keys.size(); ++k) row[experiment.keys[k]] = sample.values[k];
       row["error"] = number(sample.error);
       if (std::isfinite(sample.l1)) {

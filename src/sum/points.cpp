@@ -252,6 +252,7 @@ std::string to_json(const PointSums& sums) {
   nlohmann::ordered_json measured = nullptr;
   if (sums.compared > 0) {
     measured = {{"targets", sums.compared}};
+    if (!sums.measured.empty()) measured["errors"] = nlohmann::ordered_json::object();
     for (const MeasuredError& one : sums.measured) measured["errors"][one.of] = finite_or_null(one.error);
     measured["kept"] = broken_promises(sums.measured, sums.compared).empty();
   }

@@ -65,7 +65,7 @@ json checks_of(const RunSummary& summary) {
 }
 
 json seconds_of(const RunSummary& summary) {
-  json seconds;
+  json seconds = json::object();
   for (const auto& [stage, value] : summary.stages.stages()) seconds[stage] = value;
   seconds["total"] = summary.seconds;
   return seconds;

@@ -110,7 +110,7 @@ TEST(OutputFile, OfACatalogueIsWrittenByARunAndRemovedByTheNext) {
 }
 
 TEST(PictureStyle, OfACatalogueIsKnownToAll) {
-  const std::vector<std::string> overrides{"output.images=[\"toy_picture\"]", "output.vtk=[]"};
+  const std::vector<std::string> overrides{"output.images=[\"toy_picture\"]", "output.vtk=[\"density\"]"};
   EXPECT_FALSE(explains("toy_picture", "picture"));
   EXPECT_THROW(gaussdrift::parse_case(small_case, "small.toml", overrides), Error) << "before it is added";
   const base::Added<render::Style> added(toy_style());

@@ -43,6 +43,7 @@ TEST_F(Faults, ASignal) {
 
 /// Before main, while the command line is read, and while the tables of keys are made.
 TEST_F(Faults, EachOfTheFirstAllocations) {
+  from_its_loading = true;
   begin(apart);
   constexpr long first = 500;
   for (long at = 1; at <= first; ++at) suffer("FAULTS_NEW_ALL=1 FAULTS_NEW_AT=" + std::to_string(at), of_memory);

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "faults/served_program.hpp"
 #include "faults/whole_files.hpp"
 #include "program/program.hpp"
 #include "program/same_run.hpp"
@@ -100,10 +101,12 @@ class Faults : public testing::Test {
 
   Outcome call(const std::string& arguments, const std::string& faults = "") {
     fs::remove(folder / "report.txt");
-    return gaussdrift_in(folder, arguments + " --threads " + std::to_string(threads),
-                         "OMP_WAIT_POLICY=passive LD_PRELOAD='" FAULTS_LIBRARY "' FAULTS_FOLDER='" +
-                             (fs::canonical(folder.path()) / "part").string() + "' FAULTS_REPORT='" +
-                             (folder / "report.txt").string() + "' " + faults);
+    const std::string variables = "FAULTS_FOLDER='" + (fs::canonical(folder.path()) / "part").string() +
+                                  "' FAULTS_REPORT='" + (folder / "report.txt").string() + "' " + faults,
+                      all = arguments + " --threads " + std::to_string(threads);
+    if (from_its_loading)
+      return gaussdrift_in(folder, all, "OMP_WAIT_POLICY=passive LD_PRELOAD='" FAULTS_LIBRARY "' " + variables);
+    return program_.call(folder, variables, all);
   }
 
   /// One fault, and all that is promised after it.
@@ -147,6 +150,7 @@ class Faults : public testing::Test {
 
   const ScratchFolder folder;
   int threads = 1;
+  bool from_its_loading = false;  // faults before main, too
 
  private:
   Counts counts() const {
@@ -213,6 +217,7 @@ class Faults : public testing::Test {
     return nlohmann::json::parse(read_file(folder / run / "status.json"), nullptr, false);
   }
 
+  ServedProgram program_;
   std::string command_, new_run_, before_;
   int usual_end_ = 0;
   std::map<int, long> exits_;
