@@ -1,4 +1,4 @@
-// The program, loaded once: each call begins in a copy of that process (FAULTS_SERVE in preloaded/faults.cpp).
+// The program, loaded once: each call begins in a copy of that process (FAULTS_SERVE in faults/preloaded/faults.cpp).
 #pragma once
 
 #include <sys/wait.h>
