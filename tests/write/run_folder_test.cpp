@@ -38,7 +38,9 @@ void run_in(const fs::path& folder, const std::string& mark, bool force, int out
   write_run_inputs(folder, spec, mark);
   const auto watch = run.watch();
   for (int i = 0; i < outputs; ++i) {
-    write_text(folder / ("density/density_000" + std::to_string(i) + ".vti"), mark);
+    std::string name = "density/density_0000.vti";
+    name[name.size() - 5] = static_cast<char>('0' + i);
+    write_text(folder / name, mark);
     write_text(folder / "density.pvd", mark);
     write_text(folder / "state/0/manifest.json", mark);
     watch->frame(Frame{.index = i, .time = i * 1., .numbers = {}});
