@@ -12,6 +12,7 @@
 #include "field/named/named_fields.hpp"
 #include "input/effect_rules.hpp"
 #include "input/registry.hpp"
+#include "input/thesis_symbols.hpp"
 #include "render/styles.hpp"
 #include "write/output_files.hpp"
 
@@ -22,9 +23,9 @@ namespace {
 /// "\alpha_{j}", "α_j" and "alpha_j" are the same symbol.
 std::string plain_symbol(std::string_view word) {
   static constexpr std::pair<std::string_view, std::string_view> letters[] = {
-      {"α", "alpha"}, {"γ", "gamma"}, {"δ", "delta"},  {"ε", "eps"}, {"ϵ", "eps"},   {"ζ", "zeta"},
-      {"η", "eta"},   {"κ", "kappa"}, {"λ", "lambda"}, {"ν", "nu"},  {"π", "pi"},    {"ρ", "rho"},
-      {"σ", "sigma"}, {"τ", "tau"},   {"ω", "omega"},  {"₀", "_0"},  {"Γ", "Gamma"}, {"epsilon", "eps"}};
+      {"α", "alpha"}, {"β", "beta"}, {"Ω", "Omega"}, {"γ", "gamma"},  {"δ", "delta"}, {"ε", "eps"},      {"ϵ", "eps"},
+      {"ζ", "zeta"},  {"η", "eta"},  {"κ", "kappa"}, {"λ", "lambda"}, {"ν", "nu"},    {"π", "pi"},       {"ρ", "rho"},
+      {"σ", "sigma"}, {"τ", "tau"},  {"ω", "omega"}, {"₀", "_0"},     {"Γ", "Gamma"}, {"epsilon", "eps"}};
   std::string text;
   for (const char letter : word)
     if (letter != '\\' && letter != '{' && letter != '}' && letter != '$') text += letter;
@@ -136,6 +137,13 @@ Explanation about(const Quantity& quantity) {
   return result;
 }
 
+Explanation about(const ThesisSymbol& symbol) {
+  Explanation result{"symbol", std::string(symbol.symbol), std::string(symbol.meaning), {}};
+  add(result.facts, "thesis", fmt::format("[Sch06, Table {}]", symbol.table));
+  add(result.facts, "here", std::string(symbol.here));
+  return result;
+}
+
 Explanation about_effects() {
   Explanation result{"tables", "[effects.*]", "what happens beside transport. Which effects go together:", {}};
   for (const std::string& effect : effect_names()) add(result.facts, effect, goes_with(effect));
@@ -161,6 +169,8 @@ std::vector<std::string> known_words() {
   }
   for (const std::string& table : table_names()) words.push_back(table);
   for (const Quantity& quantity : quantities()) words.emplace_back(quantity.symbol);
+  for (const ThesisSymbol& known : thesis_symbols())
+    if (known.symbol.size() > 2) words.emplace_back(known.symbol);  // one letter is near to any other
   for (const FunctionInfo& function : expression_functions()) words.emplace_back(function.name);
   return words;
 }
@@ -206,6 +216,8 @@ std::vector<Explanation> meanings_of(std::string_view word) {
       found.push_back(about(key));
   for (const Quantity& quantity : quantities())
     if (plain_symbol(quantity.symbol) == symbol) found.push_back(about(quantity));
+  for (const ThesisSymbol& known : thesis_symbols())
+    if (plain_symbol(known.symbol) == symbol) found.push_back(about(known));
   for (const NamedField& field : named_fields())
     if (field.about.name == word) found.push_back(about(field));
   for (const NamedShape& shape : named_shapes())

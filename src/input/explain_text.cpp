@@ -71,8 +71,8 @@ std::string overview_text(std::size_t columns) {
   text += '\n';
   text +=
       hanging("",
-              fmt::format("It also explains tables, effects, named fields and shapes, functions, and these symbols: "
-                          "{}.",
+              fmt::format("It also explains tables, effects, named fields and shapes, functions, every symbol of the "
+                          "thesis's Tables A.1 to A.4, and these symbols: {}.",
                           fmt::join(symbols, ", ")),
               columns);
   return text;

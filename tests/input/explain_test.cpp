@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "input/registry.hpp"
+#include "input/thesis_symbols.hpp"
 
 namespace gaussdrift::input {
 namespace {
@@ -33,6 +34,44 @@ TEST(Explain, KnowsTheSymbolsOfTheThesis) {
   for (const auto& [symbol, part] : symbols) {
     const std::string told = to_text(explain(symbol));
     EXPECT_NE(told.find(part), std::string::npos) << symbol << ":\n" << told;
+  }
+}
+
+// Tables A.1 to A.4, as the thesis writes them.
+TEST(Explain, AnswersEverySymbolOfTheThesissTables) {
+  const std::vector<std::pair<const char*, std::vector<const char*>>> tables = {
+      {"A.1",
+       {"A",   "A_β", "B_I", "B_i", "c",   "d", "HI", "hi",         "LO",  "lo", "M", "m", "N",   "N_i", "n", "n_c",
+        "n_d", "nn",  "p",   "Q",   "Q_I", "R", "r",  "\\tilde{r}", "x_j", "y",  "α", "β", "λ_j", "ν",   "σ"}},
+      {"A.2", {"bf", "be_a", "be_n", "e_a", "e_r", "fgtd", "fgtd_prepare", "fgtd_eval", "G"}},
+      {"A.3",
+       {"c", "h", "j", "n_g", "n_{ge}", "t", "X(t)", "x_j", "u", "u_0", "\\alpha_j(t)", "ϵ", "ζ", "ζ_ϵ", "ρ", "ρ_0",
+        "ρ_ϵ^h", "Ω"}},
+      {"A.4", {"G", "M", "N", "S", "u", "x_j", "y", "Γ_j", "ω"}}};
+  std::size_t symbols = 0;
+  for (const auto& [table, all] : tables)
+    for (const char* symbol : all) {
+      const std::string told = to_text(explain(symbol));
+      EXPECT_NE(told.find(std::string("[Sch06, Table ") + table + "]"), std::string::npos) << symbol << ":\n" << told;
+      ++symbols;
+    }
+  EXPECT_EQ(symbols, thesis_symbols().size());
+}
+
+// What is said to stand for a symbol is there.
+TEST(Explain, SendsSymbolsOfTheThesisToKeysThatThereAre) {
+  for (const ThesisSymbol& symbol : thesis_symbols()) {
+    EXPECT_FALSE(symbol.here.empty()) << symbol.symbol;
+    std::string_view rest = symbol.here;
+    for (std::size_t at = rest.find('`'); at != std::string_view::npos; at = rest.find('`')) {
+      rest.remove_prefix(at + 1);
+      const std::string_view word = rest.substr(0, rest.find('`'));
+      rest.remove_prefix(word.size() + 1);
+      const bool is_key = word.find('.') != std::string_view::npos && word.find(' ') == std::string_view::npos;
+      if (is_key) {
+        EXPECT_FALSE(explain(word).empty()) << word;
+      }
+    }
   }
 }
 
