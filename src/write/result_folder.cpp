@@ -90,7 +90,8 @@ ResultFolder::ResultFolder(fs::path folder, std::string kind, Earlier earlier, c
                     "elsewhere",
                     folder_.string(), kind_));
   replaces_ = there || (told && told->is_set_aside);
-  if (!aside_ && !(told && told->is_set_aside) && fs::exists(folder_ / earlier_name) && replaces_)
+  if (!aside_ && !(told && told->is_set_aside) && fs::exists(folder_ / earlier_name) && replaces_ &&
+      !fs::is_empty(folder_ / earlier_name, problem))
     refuse(folder_, "earlier in it is not of a " + kind_ + ", and the earlier one would be kept there; move it away");
   if (replaces_ && aside_ && told && !told->has_result) {  // died before its first result: the one before is kept
     remove_results(folder_, earlier_);

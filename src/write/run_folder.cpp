@@ -226,7 +226,9 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
         fmt::format("{} holds no earlier run (it has neither status.json nor run.toml), so --force does not touch it; "
                     "choose another folder with --out",
                     folder_.string()));
-  if (fs::exists(folder_ / earlier_name) && !keeps_earlier_ && !run.is_set_aside)
+  // Empty: a process was killed after it had removed the run in it.
+  if (fs::exists(folder_ / earlier_name) && !keeps_earlier_ && !run.is_set_aside &&
+      !fs::is_empty(folder_ / earlier_name, problem))
     refuse(folder_, "earlier in it is not of a run, and an earlier run would be kept there; move it away");
   refuse_strangers(files, "the earlier run");
   check_space(folder_, options.bytes, files.bytes_in(folder_));

@@ -9,6 +9,11 @@ namespace {
 /// Else nine of ten allocations are made for it, after the run.
 const std::string without_budget = "\n[accuracy]\nbudget = \"none\"\n";
 
+/// VTK's writer of particles frees what it has not, where its memory runs out (docs/reliability.md).
+std::string without_particle_files(std::string text) {
+  return text.insert(text.find("images = ["), "vtk = [\"density\"]\n");
+}
+
 TEST_F(Faults, ACallThatFindsTheDiskFull) {
   const long calls = begin(apart).calls;
   for (const long at : spread(0, calls, faults_of_a_test(40))) suffer(at_call(at, ENOSPC), of_files);
@@ -52,7 +57,7 @@ TEST_F(Faults, EachOfTheFirstAllocations) {
 
 TEST_F(Faults, ALaterAllocation) {
   constexpr long first = 500;
-  const long allocations = begin(apart + without_budget, "FAULTS_NEW_ALL=1").allocations;
+  const long allocations = begin(without_particle_files(apart) + without_budget, "FAULTS_NEW_ALL=1").allocations;
   for (const long at : spread(first, allocations, faults_of_a_test(200)))
     suffer("FAULTS_NEW_ALL=1 FAULTS_NEW_AT=" + std::to_string(at), of_memory);
   tell("later allocations failed", allocations - first);
@@ -72,7 +77,7 @@ TEST_F(Faults, AnAllocationBeforeItWrites) {
 /// Some of them while threads share work. Which one comes at which number is left to chance; what is promised is not.
 TEST_F(Faults, AnAllocationWithTwoThreads) {
   threads = 2;
-  const long allocations = begin(small(150, "", "none") + without_budget).allocations;
+  const long allocations = begin(without_particle_files(small(150, "", "none")) + without_budget).allocations;
   for (const long at : spread(0, allocations, faults_of_a_test(10)))
     suffer("FAULTS_NEW_AT=" + std::to_string(at), of_memory);
   tell("allocations failed in a run on two threads, once it wrote", allocations);

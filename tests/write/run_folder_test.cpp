@@ -157,6 +157,15 @@ TEST(RunFolder, IsUsableAfterAProcessThatWasKilledAtOnce) {
   EXPECT_NE(message_of<FileError>([&] { run_in(folder / "no_output", "c", false, 1, true); }), "");
 }
 
+TEST(RunFolder, IsUsableAfterAProcessThatWasKilledWhenTheEarlierRunWasGoneAndItsFolderWasNot) {
+  const ScratchFolder folder;
+  run_in(folder / "r", "old", false, 1, false);
+  fs::create_directory(folder / "r/earlier");
+  run_in(folder / "r", "new", true, 1, true);
+  EXPECT_EQ(state_in(folder / "r"), "complete");
+  EXPECT_FALSE(fs::exists(folder / "r/earlier"));
+}
+
 TEST(RunFolder, ReplacesARunOfAVersionWithoutAList) {
   const ScratchFolder folder;
   for (const char* file : {"run.toml", "density.pvd", "density/density_0007.vti", "images/surface_0007.png"})
