@@ -13,6 +13,7 @@
 #include "accuracy/footprint.hpp"
 #include "base/counted.hpp"
 #include "base/has_one.hpp"
+#include "base/json_file.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "base/process_stopwatch.hpp"
@@ -442,6 +443,16 @@ class Run {
   std::optional<write::RunFolder> own_folder_;
 };
 
+/// What summary.json says of the checks.
+bool has_failed_check(const fs::path& folder) {
+  const auto summary = base::json_if_there(folder / "summary.json", base::most_json_of_numbers, "run it again");
+  const auto checks = summary ? summary->value("checks", nlohmann::ordered_json()) : nlohmann::ordered_json();
+  return std::any_of(checks.begin(), checks.end(), [](const nlohmann::ordered_json& check) {
+    const auto passed = check.is_object() ? check.find("passed") : check.end();
+    return check.is_object() && passed != check.end() && *passed == false;
+  });
+}
+
 }  // namespace
 
 std::string past_of(const Case& spec) { return write::hash_of(input::text_of_past(spec), data_of(spec, {})); }
@@ -479,6 +490,7 @@ ExitCode finish(const Case& spec, const fs::path& folder) {
   if (spec.output.report) put(stdout, write_page(folder, spec, owed));
   owed.attempt([&] { own_folder.complete(); });
   for (const std::string& why : owed.missing()) note("error: {}\n", why);
+  if (has_failed_check(folder)) return ExitCode::check;
   return owed.missing().empty() ? ExitCode::ok : ExitCode::files;
 }
 
