@@ -12,6 +12,7 @@
 
 #include "base/communicator.hpp"
 #include "base/exact_sum.hpp"
+#include "base/seam.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift::laws {
@@ -139,6 +140,25 @@ inline void agreement_on_trouble(Communicator& ranks) {
     } catch (...) {
       EXPECT_FALSE(ranks.failed_together(std::current_exception()));
     }
+  }
+}
+
+/// Where one is asked to, all abandon what they do together, and nothing between that. An error counts for more.
+inline void abandonment(Communicator& ranks) {
+  for (int asked = 0; asked < ranks.size(); ++asked) {
+    const base::AbandonWanted wanted = [&] { return ranks.rank() == asked; };
+    {
+      const base::AbandonableTogether while_it_lasts(ranks, &wanted);
+      if (ranks.size() > 1) base::seam();  // the others would wait for what is sent here
+      EXPECT_THROW(ranks.agree_on([] { base::seam(); }), base::Abandoned);
+      ranks.agree_on([] {});
+      EXPECT_THROW(ranks.agree_on([&] {
+        if (ranks.rank() == ranks.size() - 1) throw FileError("no room");
+        base::seam();
+      }),
+                   FileError);
+    }
+    ranks.agree_on([] { base::seam(); });
   }
 }
 

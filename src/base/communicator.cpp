@@ -77,6 +77,16 @@ bool is_for_the_user(const std::exception_ptr& trouble) {
   }
 }
 
+bool is_abandoned(const std::exception_ptr& trouble) {
+  try {
+    std::rethrow_exception(trouble);
+  } catch (const Abandoned&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void Communicator::sum(std::span<std::int64_t>) {}
@@ -126,10 +136,13 @@ void Communicator::barrier() {
 
 void Communicator::agree(const std::exception_ptr& trouble) {
   agreed_ = nullptr;
-  std::int64_t first = trouble ? size() - rank() : 0;  // largest for the lowest rank
+  constexpr std::int64_t none = 0, abandoned = 1;
+  std::int64_t first = none;
+  if (trouble) first = is_abandoned(trouble) ? abandoned : abandoned + size() - rank();  // largest for the lowest rank
   max(std::span(&first, 1));
-  if (first == 0) return;
-  const int from = size() - static_cast<int>(first);
+  if (first == none) return;
+  if (first == abandoned) throw Abandoned{};
+  const int from = size() - static_cast<int>(first - abandoned);
   if (size() == 1) {
     agreed_ = trouble;
   } else {

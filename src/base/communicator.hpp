@@ -6,11 +6,14 @@
 #include <cstdint>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
+
+#include "base/seam.hpp"
 
 namespace gaussdrift::base {
 
@@ -55,7 +58,8 @@ class Communicator {
 
   /// Ends every phase of a run. Each rank says what went wrong with it; null: nothing. If something did, all throw the
   /// error of the lowest rank that has one. An Error keeps its words and its exit code. Lack of memory and faults of the
-  /// program are told with the rank.
+  /// program are told with the rank. Work that was abandoned on one rank counts as abandoned on all, unless another has an
+  /// error: then all throw Abandoned.
   void agree(const std::exception_ptr& trouble);
   /// Does `work`, which must not communicate, and agrees on how it went.
   template <class Work>
@@ -70,6 +74,9 @@ class Communicator {
   virtual std::vector<Bytes> deliver(std::vector<Bytes> out);
 
  private:
+  friend class AbandonableTogether;
+
+  const AbandonWanted* abandon_wanted_ = nullptr;  // inside agree_on()
   std::exception_ptr agreed_;
   Traffic traffic_;
 };
@@ -78,12 +85,36 @@ template <class Work>
 void Communicator::agree_on(const Work& work) {
   std::exception_ptr trouble;
   try {
+    std::optional<Abandonable> while_it_lasts;
+    if (abandon_wanted_) while_it_lasts.emplace(abandon_wanted_);
     work();
   } catch (...) {
     trouble = std::current_exception();
   }
   agree(trouble);
 }
+
+/// While it lives, what ranks do together may be abandoned: one rank's part of it in agree_on(), at its seams, and then
+/// all throw Abandoned. Between two calls of agree_on() nothing is abandoned, because other ranks wait for what is sent.
+/// On one rank it is an Abandonable.
+class AbandonableTogether {
+ public:
+  AbandonableTogether(Communicator& ranks, const AbandonWanted* wanted)
+      : ranks_(ranks), before_(ranks.abandon_wanted_) {
+    if (ranks.size() == 1)
+      alone_.emplace(wanted);
+    else
+      ranks_.abandon_wanted_ = wanted;
+  }
+  ~AbandonableTogether() { ranks_.abandon_wanted_ = before_; }
+  AbandonableTogether(const AbandonableTogether&) = delete;
+  AbandonableTogether& operator=(const AbandonableTogether&) = delete;
+
+ private:
+  Communicator& ranks_;
+  const AbandonWanted* before_;
+  std::optional<Abandonable> alone_;
+};
 
 /// Values as bytes, to be sent among ranks of the same kind of machine.
 template <class Value>

@@ -156,7 +156,8 @@ class Run {
       if (task_.goes_on)
         simulation.restore(first_ ? std::move(task_.from->particles) : Particles(), first_ ? task_.from->state : "");
     } catch (const Abandoned&) {
-      own_folder_->interrupted(how_to_go_on());
+      is_to_stop();  // all ranks know why
+      if (first_) own_folder_->interrupted(how_to_go_on());
       return false;
     }
     ProgressLine line;
@@ -173,7 +174,10 @@ class Run {
       const base::ProcessStopwatch running;
       summary_ = simulation.run();
       share_seconds_ = running.seconds();
-      if (!complete()) keep(simulation, summary_.time, summary_.steps);
+      if (!complete()) {
+        is_to_stop();  // all ranks know why, also where something was abandoned
+        keep(simulation, summary_.time, summary_.steps);
+      }
     } catch (const FileError& error) {  // a full disk, mostly
       if (ranks_.size() > 1 && !ranks_.failed_together(std::current_exception())) throw;
       keep_what_there_is(simulation);

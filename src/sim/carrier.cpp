@@ -168,22 +168,28 @@ std::size_t Carrier::carry(Particles& particles, double from, double to, std::si
   return leg.steps;
 }
 
-// Steps of transport alone set positions at their very end.
+// Steps of transport alone set positions at their very end, but one rank may be there before another abandons them. Steps
+// that are chosen set positions once all ranks have agreed.
 bool Carrier::attempt(Particles& particles, const std::function<void()>& steps) {
   if (!abandon_wanted_) return steps(), true;
+  const bool only_moved = !between_steps_ && !adaptive_ && ranks_.size() > 1;
   base::StateBytes effects;
   pass_state(effects, particles);
   if (between_steps_) before_ = particles;
+  if (only_moved) before_.position = particles.position, before_.path = particles.path;
+  bool taken = true;
   try {
-    const base::Abandonable while_they_last(abandon_wanted_);
+    const base::AbandonableTogether while_they_last(ranks_, abandon_wanted_);
     steps();
-    return true;
   } catch (const base::Abandoned&) {
+    taken = false;
     if (between_steps_) particles = before_;
+    if (only_moved) particles.position.swap(before_.position), particles.path.swap(before_.path);
     base::StateBytes back(effects.written());
     pass_state(back, particles);
-    return false;
   }
+  if (only_moved) before_ = {};
+  return taken;
 }
 
 bool Carrier::adapt(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,

@@ -145,7 +145,7 @@ class Carrier {
   FlowRates flow_;  // at the start
   std::vector<std::string> warnings_;
   const base::AbandonWanted* abandon_wanted_ = nullptr;
-  Particles before_;  // steps that may be abandoned, where effects change more of them than positions
+  Particles before_;  // steps that may be abandoned: what of them is not set at their very end
   int threads_;
 };
 

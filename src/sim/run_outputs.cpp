@@ -228,7 +228,7 @@ bool Simulation::Parts::show_or_abandon(double time) {
     before_output_ = {summary_.frames.size(), summary_.reference, carrier.written()};
   }
   try {
-    const base::Abandonable while_it_lasts(abandon_wanted());
+    const base::AbandonableTogether while_it_lasts(ranks_, abandon_wanted());
     show_frame(time);
     return true;
   } catch (const base::Abandoned&) {

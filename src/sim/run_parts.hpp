@@ -63,10 +63,8 @@ class Simulation::Parts {
   bool finish();
   void end();
   void sum_up();
-  /// Ranks do not agree at seams yet: where there are several, what is under way is finished.
-  const base::AbandonWanted* abandon_wanted() const {
-    return abandon_wanted_ && ranks_.size() == 1 ? &abandon_wanted_ : nullptr;
-  }
+  /// Null where nobody has said when.
+  const base::AbandonWanted* abandon_wanted() const { return abandon_wanted_ ? &abandon_wanted_ : nullptr; }
 
   // run_outputs.cpp: what an output shows.
   DensityOptions density_options() const;

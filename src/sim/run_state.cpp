@@ -171,7 +171,7 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   placed_at_.reset();
   place(leg_.now);
   try {
-    const base::Abandonable while_it_lasts(abandon_wanted());
+    const base::AbandonableTogether while_it_lasts(ranks_, abandon_wanted());
     take_up(seen);
   } catch (const base::Abandoned&) {
     throw Abandoned();

@@ -91,7 +91,7 @@ void Simulation::Parts::abandon_when(std::function<bool()> wanted) {
 void Simulation::Parts::prepare() {
   if (stage_ != Stage::made) return;
   try {
-    const base::Abandonable while_it_lasts(abandon_wanted());
+    const base::AbandonableTogether while_it_lasts(ranks_, abandon_wanted());
     make_ready();
   } catch (const base::Abandoned&) {
     throw Abandoned();
@@ -175,7 +175,7 @@ RunSummary Simulation::Parts::run() {
 // False if it was abandoned. A run that goes on from state() then shows the last output again, if it is of this time.
 bool Simulation::Parts::finish() {
   try {
-    const base::Abandonable while_it_lasts(abandon_wanted());
+    const base::AbandonableTogether while_it_lasts(ranks_, abandon_wanted());
     on_first([&] {
       for (const auto& observer : observers) {
         base::seam();

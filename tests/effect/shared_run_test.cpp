@@ -40,6 +40,7 @@ struct Seen {
 
 void watch(Simulation& simulation, std::vector<Seen>& seen) {
   simulation.observe("test", [&](const Frame& frame) {
+    while (!seen.empty() && seen.back().time >= frame.time) seen.pop_back();  // an output that is shown again
     seen.push_back({frame.time, frame.numbers, frame.density->rho, frame.exact ? *frame.exact : std::vector<double>(),
                     frame.velocity ? *frame.velocity : std::vector<double>(), *frame.particles});
   });
@@ -183,6 +184,53 @@ TEST(SharedRunToo, GoesOnWithAnyNumberOfRanks) {
       EXPECT_TRUE(simulation.run().complete);
     });
     expect_same(seen, expected);
+  }
+}
+
+// Whichever rank is asked, and whatever is under way.
+TEST(SharedRunToo, IsAbandonedByAllWhereOneIsAskedToAndGoesOn) {
+  for (const Kind& kind : {Kind{"transport", {"time.step=0.01", characteristics}},
+                           Kind{"adaptive", {"time.method=\"dopri5\"", "time.tolerance=1e-6"}},
+                           Kind{"remesh", {"effects.remesh.every=2", "effects.reaction.rate=\"1+x\""}}}) {
+    const Case spec = spec_of(kind);
+    Simulation alone(spec, 1);
+    std::vector<Seen> expected;
+    watch(alone, expected);
+    alone.run();
+    for (const int who : {0, 2}) {
+      // To the end, if it is never asked; else only to the seam with the number `at` of that rank.
+      std::vector<Seen> seen;
+      Particles kept;
+      std::string state;
+      const auto seams_of_run = [&](int at) {
+        int seams = 0;
+        seen.clear();
+        on_ranks(3, [&](base::Communicator& ranks) {
+          Simulation simulation(spec, 1, ranks);
+          if (ranks.rank() == 0) watch(simulation, seen);
+          simulation.prepare();
+          simulation.abandon_when([&, asked = ranks.rank() == who] { return asked && ++seams == at; });
+          const bool complete = simulation.run().complete;
+          EXPECT_EQ(complete, at == 0) << kind << ", seam " << at << " of rank " << who;
+          Particles all = simulation.all_particles();
+          if (ranks.rank() == 0) kept = std::move(all), state = simulation.state();
+        });
+        return seams;
+      };
+      const int seams = seams_of_run(0);
+      ASSERT_GT(seams, 10);
+      expect_same(seen, expected);
+      for (const double part : {0.0, 0.3, 0.5, 0.8, 1.0}) {
+        seams_of_run(1 + static_cast<int>(part * (seams - 1)));
+        on_ranks(2, [&](base::Communicator& ranks) {
+          Simulation simulation(spec, 1, ranks);
+          if (ranks.rank() == 0) watch(simulation, seen);
+          simulation.restore(ranks.rank() == 0 ? kept : Particles(), ranks.rank() == 0 ? state : "");
+          EXPECT_TRUE(simulation.run().complete);
+        });
+        expect_same(seen, expected);
+      }
+    }
   }
 }
 

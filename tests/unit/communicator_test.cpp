@@ -30,6 +30,7 @@ TEST_P(Ranks, BroadcastComesFromAnyRankAndGatherGoesToTheFirst) { on_ranks(GetPa
 TEST_P(Ranks, ExactSumsHaveTheSameBits) { on_ranks(GetParam(), laws::exact_sums); }
 TEST_P(Ranks, AgreeThatNothingIsWrong) { on_ranks(GetParam(), laws::agreement_that_all_is_well); }
 TEST_P(Ranks, AgreeOnTheErrorOfTheLowestRankThatHasOne) { on_ranks(GetParam(), laws::agreement_on_trouble); }
+TEST_P(Ranks, AbandonTogether) { on_ranks(GetParam(), laws::abandonment); }
 
 TEST_P(Ranks, AreAsManyAsWereAskedFor) {
   on_ranks(GetParam(), [&](Communicator& ranks) { EXPECT_EQ(ranks.size(), GetParam()); });

@@ -26,6 +26,7 @@ TEST(Mpi, BroadcastComesFromAnyRankAndGatherGoesToTheFirst) { laws::broadcast_an
 TEST(Mpi, ExactSumsHaveTheSameBits) { laws::exact_sums(*ranks); }
 TEST(Mpi, AgreesThatNothingIsWrong) { laws::agreement_that_all_is_well(*ranks); }
 TEST(Mpi, AgreesOnTheErrorOfTheLowestRankThatHasOne) { laws::agreement_on_trouble(*ranks); }
+TEST(Mpi, AbandonsTogether) { laws::abandonment(*ranks); }
 TEST(Mpi, IsOnOneHost) {
   EXPECT_EQ(ranks->hosts(), 1);
   EXPECT_EQ(ranks->host(), 0);
