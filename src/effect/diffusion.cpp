@@ -66,10 +66,13 @@ std::unique_ptr<Effect> make(const EffectSpec& effect, const EffectScene& scene)
   if (!exchanges(effect, scene.spec.domain.dimension))
     return std::make_unique<CoreSpreading>(coefficient, scene.velocity, scene.spec.time.end, scene.distance,
                                            blobs_are_renewed(scene.spec));
-  return std::make_unique<ParticleExchange>(
-      scene.seeding, scene.core_radius, scene.velocity, scene.follow,
-      ParticleExchange::Options{
-          .coefficient = coefficient, .tolerance = effect.number("tolerance"), .threads = scene.threads});
+  ParticleExchange::Options options{
+      .coefficient = coefficient, .tolerance = effect.number("tolerance"), .threads = scene.threads};
+  options.tiles.particles = scene.spec.evaluate.tile_particles > 0
+                                ? static_cast<std::int64_t>(scene.spec.evaluate.tile_particles)
+                                : usual_tiles(scene.spec.domain.dimension).particles;
+  return std::make_unique<ParticleExchange>(scene.seeding, scene.core_radius, scene.velocity, scene.follow, options,
+                                            scene.ranks);
 }
 
 }  // namespace

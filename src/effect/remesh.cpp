@@ -10,6 +10,7 @@
 
 #include "base/exact_sum.hpp"
 #include "effect/catalogue.hpp"
+#include "effect/meeting_rank.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/placing.hpp"
 
@@ -104,21 +105,14 @@ double Remesh::largest_stretch(const Particles& particles) {
   return std::sqrt(longest) / nodes_.lattice().spacing;
 }
 
-// Neighbours that are on different ranks meet on a third, which the node of the lower one tells. Blocks of nodes are
-// spread over the ranks as if at random.
+// Neighbours that are on different ranks meet on a third, which the node of the lower one tells.
 Particles Remesh::met_by_others(const Particles& particles) const {
   const auto ranks = static_cast<std::size_t>(ranks_.size());
-  const auto meeting = [&](const NodeIndex& node) {
-    std::uint64_t key = 0;
-    for (int k = 0; k < nodes_.dimension(); ++k)
-      key = (key ^ static_cast<std::uint64_t>(node[k] >> 5)) * 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>((key >> 32) % ranks);
-  };
   std::vector<base::Bytes> out(ranks);
   ranks_.agree_on([&] {
     std::vector<std::vector<std::size_t>> chosen(ranks);
     const auto send = [&](std::size_t j, const NodeIndex& node) {
-      auto& list = chosen[meeting(node)];
+      auto& list = chosen[meeting_rank(node, nodes_.dimension(), ranks)];
       if (list.empty() || list.back() != j) list.push_back(j);
     };
     for (const std::size_t j : at_border_) {

@@ -55,6 +55,11 @@ class Tiles {
   template <class Use>
   void within_reach(const Vector& x, const Use& use) const;
 
+  /// Calls use(tile) once for each tile where a particle within reach of x along every axis may count, one beyond the
+  /// lattice as well.
+  template <class Use>
+  void near(const Vector& x, const Use& use) const;
+
   /// For each tile, the numbers of the points within reach of its grid points, ascending. Only tiles that are wanted
   /// have any. Points far beyond the lattice are in none.
   std::vector<std::vector<std::size_t>> gather(const PointsView& points, const std::vector<char>& wanted,
@@ -68,6 +73,8 @@ class Tiles {
     return pieces_[axis] + std::max(0, level - (depth_ - (levels_[axis] - pieces_[axis])));
   }
   void divide(const std::vector<std::vector<std::int64_t>>& counts, const TileLimits& limits, int level, Indices cell);
+  template <class Use>
+  void for_each_of(const Indices& low, const Indices& high, const Use& use) const;
   double sources_of(const Tile& tile, const std::vector<std::int64_t>& smallest) const;
   // Of the grid point at or below a coordinate; those beyond the lattice get the first or the last.
   std::size_t index_below(int axis, double x) const {
@@ -96,7 +103,6 @@ class Tiles {
 template <class Use>
 void Tiles::within_reach(const Vector& x, const Use& use) const {
   Indices low{}, high{};  // cells
-  bool one = true;
   for (int k = 0; k < lattice_.dimension; ++k) {
     const double first = std::ceil((x[k] - reach_ - lattice_.origin[k]) / lattice_.spacing);
     const double last = std::floor((x[k] + reach_ - lattice_.origin[k]) / lattice_.spacing);
@@ -104,12 +110,27 @@ void Tiles::within_reach(const Vector& x, const Use& use) const {
     if (!(first <= end && last >= 0 && first <= last)) return;
     low[k] = cell_of_index_[k][static_cast<std::size_t>(std::max(first, 0.0))];
     high[k] = cell_of_index_[k][static_cast<std::size_t>(std::min(last, end))];
-    one = one && low[k] == high[k];
   }
+  for_each_of(low, high, use);
+}
+
+template <class Use>
+void Tiles::near(const Vector& x, const Use& use) const {
+  Indices low{}, high{};
+  for (int k = 0; k < lattice_.dimension; ++k) {
+    low[k] = cell_of_index_[k][index_below(k, x[k] - reach_)];
+    high[k] = cell_of_index_[k][index_below(k, x[k] + reach_)];
+  }
+  for_each_of(low, high, use);
+}
+
+// The tiles of a box of cells.
+template <class Use>
+void Tiles::for_each_of(const Indices& low, const Indices& high, const Use& use) const {
   const auto tile_at = [&](std::size_t i, std::size_t j, std::size_t l) {
     return tile_of_cell_[i + ((j + (l << levels_[1])) << levels_[0])];
   };
-  if (one) {
+  if (low == high) {
     use(tile_at(low[0], low[1], low[2]));
     return;
   }

@@ -14,7 +14,7 @@ namespace gaussdrift {
 
 std::string why_not_shared(const Case& spec, const VelocityField& velocity) {
   for (const auto& [effect, values] : effects_of(spec.effects)) {
-    if (effect->traits.particles_interact || effect->traits.adds_particles.of(values, spec.domain.dimension))
+    if (effect->traits.particles_interact)
       return fmt::format("[effects.{}] needs all particles in one process", values.name);
   }
   return velocity.evaluates_in_blocks() ? "" : "this velocity is evaluated at all particles at once";

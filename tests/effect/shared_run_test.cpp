@@ -89,7 +89,7 @@ TEST_P(SharedRun, HasTheBitsOfOneRank) {
   std::vector<Seen> expected;
   watch(alone, expected);
   const RunSummary once = alone.run();
-  const bool one_tile = GetParam().name.find("one_tile") != std::string::npos;
+  const bool one_tile = GetParam().name.ends_with("one_tile");
   if (GetParam().refused.empty() && !one_tile) {
     EXPECT_NE(once.transform_choice.find(" tiles"), std::string::npos);
   }
@@ -137,6 +137,13 @@ TEST_P(SharedRun, HasTheBitsOfOneRank) {
 
 const std::string characteristics = "reference.kind=\"characteristics\"";
 
+std::vector<std::string> with_exchange(const std::vector<std::string>& more) {
+  std::vector<std::string> overrides = {"effects.diffusion.D=1e-6", "effects.diffusion.method=\"particle-exchange\"",
+                                        "effects.diffusion.tolerance=1e-4"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return overrides;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     , SharedRun,
     testing::Values(
@@ -156,11 +163,23 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"remesh_beyond",  // the domain: ids of nodes there are negative
              {"effects.remesh.every=2", "velocity.u=[\"-0.5\", \"0.3\"]", "density.center=[-0.7, 0.05]"}},
         Kind{"remesh_one_tile", {"effects.remesh.every=2", "evaluate.tile_particles=1000000"}},
+        Kind{"exchange", with_exchange({})},
+        Kind{"exchange_on_one_tile", with_exchange({"evaluate.tile_particles=1000000"})},
+        Kind{"exchange_remesh", with_exchange({"effects.remesh.every=2", "effects.reaction.rate=\"1+x\""})},
+        Kind{"exchange_beyond",  // the domain: ids of nodes there are negative
+             with_exchange({"velocity.u=[\"-0.5\", \"0.3\"]", "density.center=[-0.7, 0.05]"})},
         Kind{"vortex", {"effects.vortex={}"}, "[effects.vortex] needs all particles"}),
     [](const auto& kind) { return kind.param.name; });
 
-TEST(SharedRunToo, GoesOnWithAnyNumberOfRanks) {
-  const Case spec = spec_of({"reaction", {"effects.reaction.rate=\"1+x\"", "time.step=0.001"}});
+class Resumed : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(SharedRun, Resumed,
+                         testing::Values(Kind{"reaction", {"effects.reaction.rate=\"1+x\"", "time.step=0.001"}},
+                                         Kind{"remesh", {"effects.remesh.every=3", "effects.reaction.rate=\"1+x\""}},
+                                         Kind{"exchange", with_exchange({})}),
+                         [](const auto& kind) { return kind.param.name; });
+
+TEST_P(Resumed, GoesOnWithAnyNumberOfRanks) {
+  const Case spec = spec_of(GetParam());
   Simulation alone(spec, 1);
   std::vector<Seen> expected;
   watch(alone, expected);
@@ -191,7 +210,8 @@ TEST(SharedRunToo, GoesOnWithAnyNumberOfRanks) {
 TEST(SharedRunToo, IsAbandonedByAllWhereOneIsAskedToAndGoesOn) {
   for (const Kind& kind : {Kind{"transport", {"time.step=0.01", characteristics}},
                            Kind{"adaptive", {"time.method=\"dopri5\"", "time.tolerance=1e-6"}},
-                           Kind{"remesh", {"effects.remesh.every=2", "effects.reaction.rate=\"1+x\""}}}) {
+                           Kind{"remesh", {"effects.remesh.every=2", "effects.reaction.rate=\"1+x\""}},
+                           Kind{"exchange", with_exchange({})}}) {
     const Case spec = spec_of(kind);
     Simulation alone(spec, 1);
     std::vector<Seen> expected;
