@@ -1,11 +1,11 @@
-# install_library(name [TARGET target] [COMPONENT component] [CONFIG file]) installs a library as a package that find_package(name)
-# finds: headers, static library, exported target name::name. `cmake --install <build> --component <component>` installs it alone.
+# install_library(name [TARGET target] [COMPONENT component] [CONFIG file] [DEPENDS library ...]) installs a library as a package that
+# find_package(name) finds, and with it those of DEPENDS: headers, static library, exported target name::name. `cmake --install <build> --component <component>` installs it alone.
 # Target and component have the name of the library unless they are given.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 function(install_library library)
-  cmake_parse_arguments(INSTALL "" "TARGET;COMPONENT;CONFIG" "" ${ARGN})
+  cmake_parse_arguments(INSTALL "" "TARGET;COMPONENT;CONFIG" "DEPENDS" ${ARGN})
   foreach(default TARGET=${library} COMPONENT=${library} CONFIG=libraryConfig.cmake.in)
     string(REPLACE "=" ";" default ${default})
     list(GET default 0 key)
@@ -19,6 +19,10 @@ function(install_library library)
   install(EXPORT ${library}Targets NAMESPACE ${library}:: DESTINATION ${package_folder} COMPONENT ${INSTALL_COMPONENT})
 
   set(uses_openmp ${OpenMP_CXX_FOUND})
+  set(find_dependencies "")
+  foreach(needed ${INSTALL_DEPENDS})
+    string(APPEND find_dependencies "find_dependency(${needed} ${PROJECT_VERSION})\n")
+  endforeach()
   configure_package_config_file(${CMAKE_CURRENT_FUNCTION_LIST_DIR}/${INSTALL_CONFIG}
     ${PROJECT_BINARY_DIR}/${library}Config.cmake INSTALL_DESTINATION ${package_folder})
   # Before 1.0 a new minor version may change the interface.

@@ -1,7 +1,7 @@
 # Reads the include lines of src/ and include/ and fails if one points up the module order, or at a header that another module
 # keeps to itself:
 #   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
-#     -> (particle, read, field, blockmatrix, farfield) -> fgtd -> core -> base
+#     -> (particle, read, field, blockmatrix, farfield, rbf) -> fgtd -> core -> base
 #   cli -> mpi -> base, and mpi alone includes <mpi.h>
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
@@ -12,6 +12,7 @@ set(may_mpi base)
 set(may_core base/parallel.hpp base/seam.hpp)
 set(may_fgtd base/parallel.hpp base/seam.hpp core)
 set(may_farfield base/parallel.hpp base/seam.hpp core)
+set(may_rbf base/parallel.hpp base/seam.hpp core fgtd)
 set(may_case "")
 set(may_time base)
 set(may_field base core expression fgtd)
@@ -86,6 +87,8 @@ foreach(file ${files})
     set(module fgtd)
   elseif(file MATCHES "^include/farfield/")
     set(module farfield)
+  elseif(file MATCHES "^include/rbf/")
+    set(module rbf)
   elseif(file MATCHES "^include/gaussdrift/(.*)\\.hpp$")
     set(module "${module_of_${CMAKE_MATCH_1}}")
   else()

@@ -45,7 +45,7 @@ for page, tag, link in links:
         faults.append(f"{page}: the link {link} leads nowhere")
     elif anchor and anchor not in anchors.get(target, ()):
         faults.append(f"{page}: {target} has no {anchor}")
-wanted = ["index.html", "namespacefgtd.html", "classfgtd_1_1Plan.html", "classfarfield_1_1Plan.html", "structgaussdrift_1_1Case.html",
+wanted = ["index.html", "namespacefgtd.html", "classfgtd_1_1Plan.html", "classfarfield_1_1Plan.html", "classrbf_1_1Plan.html", "structgaussdrift_1_1Case.html",
           "page_docs_method.html", "page_docs_usage.html"]
 faults += [f"there is no {name}" for name in wanted if name not in anchors]
 if faults or len(links) < 1000:

@@ -13,6 +13,6 @@ function(call)
 endfunction()
 
 call(${CMAKE_COMMAND} --preset clang -B ${BUILD} -D CMAKE_CXX_FLAGS_RELEASE=-O1)
-call(${CMAKE_COMMAND} --build ${BUILD} --target fgtd farfield
+call(${CMAKE_COMMAND} --build ${BUILD} --target fgtd farfield rbf
   gaussdrift_base gaussdrift_expression gaussdrift_time test_parallel)
 call(${BUILD}/test_parallel --gtest_brief=1)

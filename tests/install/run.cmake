@@ -1,4 +1,4 @@
-# Uses fgtd and farfield as a stranger would, and runs what was built:
+# Uses fgtd, farfield and rbf as a stranger would, and runs what was built:
 #   MODE=package   installs the built tree into a scratch prefix, moves that prefix, configures tests/install/consumer against it
 #   MODE=refuse    the same with the consumer alone compiled for AVX: must not link
 #   MODE=folder    the consumer adds the source folder with add_subdirectory
@@ -29,7 +29,7 @@ endfunction()
 
 # The installed copy has to work wherever it is, so it is moved before it is used.
 function(install_libraries)
-  foreach(component fgtd farfield ${ARGN})
+  foreach(component fgtd farfield rbf ${ARGN})
     call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --component ${component} --prefix ${SCRATCH}/first)
   endforeach()
   file(RENAME ${SCRATCH}/first ${SCRATCH}/prefix)
@@ -92,7 +92,7 @@ elseif(MODE STREQUAL "refuse")
 elseif(MODE STREQUAL "library")
   install_libraries(library)
   configure_and_build(${SOURCE}/examples -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
-  foreach(example gauss_transform coulomb_forces observed_run)
+  foreach(example gauss_transform coulomb_forces radial_basis observed_run)
     call(${SCRATCH}/build/${example})
     string(APPEND all "${said}")
   endforeach()

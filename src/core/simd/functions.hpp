@@ -54,20 +54,22 @@ CORE_INLINE Pack rsqrt(Pack x) {
   return y * (h * p) + y;
 }
 
-/// The same by square root and division, which occupy other parts of the processor.
-CORE_INLINE Pack divided_rsqrt(Pack x) {
+CORE_INLINE Pack root(Pack x) {
 #if CORE_LANES == 8 && defined(__AVX512F__)
-  const Pack root = reinterpret_cast<Pack>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(x)));
+  return reinterpret_cast<Pack>(_mm512_maskz_sqrt_pd(0xff, reinterpret_cast<__m512d>(x)));
 #elif CORE_LANES == 4 && defined(__AVX2__)
-  const Pack root = reinterpret_cast<Pack>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(x)));
+  return reinterpret_cast<Pack>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(x)));
 #elif CORE_LANES == 2 && defined(__SSE2__)
-  const Pack root = reinterpret_cast<Pack>(_mm_sqrt_pd(reinterpret_cast<__m128d>(x)));
+  return reinterpret_cast<Pack>(_mm_sqrt_pd(reinterpret_cast<__m128d>(x)));
 #else
-  Pack root;
-  for (std::size_t i = 0; i < lanes; ++i) root[i] = __builtin_sqrt(x[i]);
+  Pack y;
+  for (std::size_t i = 0; i < lanes; ++i) y[i] = __builtin_sqrt(x[i]);
+  return y;
 #endif
-  return 1.0 / root;
 }
+
+/// The same as rsqrt by square root and division, which occupy other parts of the processor.
+CORE_INLINE Pack divided_rsqrt(Pack x) { return 1.0 / root(x); }
 
 // Two exponentials, right to about one unit in the last place. They round differently: fgtd takes the first, farfield the
 // second, and their results stay the same to the last bit from version to version.

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <farfield/farfield.hpp>
 #include <fgtd/fgtd.hpp>
+#include <rbf/rbf.hpp>
 #include <sstream>
 
 namespace {
@@ -68,6 +69,21 @@ void check_a_charged_sphere() {
   }
 }
 
+// Two centres of every kernel, by both methods.
+void check_kernels() {
+  rbf::Points<1> centres(1, 2), target(1, 1);
+  centres << 0, 1;
+  target << 0.25;
+  for (const rbf::Kernel kernel : rbf::kernels())
+    for (const rbf::Method method : rbf::methods()) {
+      const rbf::Function function{kernel, rbf::takes_shape(kernel) ? 0.5 : 0};
+      const rbf::Plan<1> plan(function, centres, Eigen::MatrixXd::Ones(2, 1), {.tolerance = 1e-7, .method = method});
+      // 2e-7: the tolerance times two weights of 1
+      expect(rbf::to_string(kernel).c_str(), plan.evaluate(target)(0, 0),
+             rbf::value(function, 0.25) + rbf::value(function, 0.75), 2e-7 * rbf::largest_value(function, 1));
+    }
+}
+
 }  // namespace
 
 int main() {
@@ -77,6 +93,7 @@ int main() {
   check_one_gaussian<4>();
   check_a_lattice();
   check_a_charged_sphere();
+  check_kernels();
   try {
     fgtd::Plan<1>(fgtd::Points<1>::Zero(1, 1), Eigen::MatrixXd::Ones(1, 1), -1.0);
     std::puts("a negative sigma was taken");
