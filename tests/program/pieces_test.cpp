@@ -152,7 +152,7 @@ TEST(DensityInPieces, NeedsBoundedMemory) {
   EXPECT_GT(memory, 5e8);
 }
 
-// ctest -C nightly -L ranks-long: a gigabyte is written.
+// ctest -L ranks-long: a gigabyte is written.
 TEST(DensityInPieces, DISABLED_OfAGridOfFourTimesTheMemoryIsWritten) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "sanitized";
