@@ -1,7 +1,7 @@
 # Reads the include lines of src/ and include/ and fails if one points up the module order, or at a header that another module
 # keeps to itself:
 #   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
-#     -> (particle, read, field, blockmatrix, farfield, rbf) -> fgtd -> core -> base
+#     -> (particle, read, blockmatrix) -> (field, farfield, rbf) -> (expression, fgtd) -> core -> base
 #   cli -> mpi -> base, and mpi alone includes <mpi.h>
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 

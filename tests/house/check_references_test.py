@@ -67,6 +67,9 @@ FAULTS = [
     (SOURCE, "", "// method.md, equations 4 and 4c\n", "docs/method.md has no equation 4c"),
     ("docs/testing.md", "`house.clang`", "`house.klang`", "has no test house.klang"),
     ("tests/CMakeLists.txt", "", "# see tools/nothing\n", "there is no tools/nothing"),
+    ("docs/decisions/0001-modules-and-libraries.md", "# 0001: ", "# ", "does not begin with \"# 0001: \""),
+    ("docs/changes/0096-particles-in-pieces.md", "# 0096: ", "# 0090: ", "does not begin with \"# 0096: \""),
+    ("CONTRIBUTING.md", "`remesh_kernel.cpp`", "`remesh_kernels.cpp`", "no folder has a remesh_kernels.cpp"),
     ("README.md", "| [decay](cases/decay.toml)", "| [decay](cases/swirl.toml)", "0 rows of cases/decay.toml"),
 ]
 # Many at a time, as reading the tree takes a while, but of those that replace something one a file.
