@@ -140,8 +140,8 @@ void formulas(const Printed& printed, std::vector<Claim>& claims) {
   const double even = std::ceil(p * p * sources / (sources - boxes * p * p));
   claims.push_back(
       {printed.section("break_even"), "break-even",
-       "with p = 8, n = 2, d = 2 the transform pays for 10 000 sources from so many evaluations on: p^d N / (N - "
-       "(2n+1)^d p^d)",
+       "least number of evaluations for which the transform of 10 000 sources pays, with p = 8, n = 2, d = 2: p^d N / "
+       "(N - (2n+1)^d p^d)",
        printed.text("break_even"), even, even == printed("break_even"), "by arithmetic"});
   for (const auto& [name, terms, nu] :
        {std::tuple{"factor_of_the_bound_p8_nu2", 8, 2}, {"factor_of_the_bound_p9_nu3", 9, 3}}) {
@@ -244,7 +244,7 @@ void rotating_cone(const Printed& printed, const ClaimsOptions& options, std::ve
   const auto particles = static_cast<double>(cone.particles_above(1e-15));
   claims.push_back(
       {section, "particles",
-       fmt::format("so many particles have alpha_j not 0 on the lattice of {} x {}. Computed are those above 1e-15",
+       fmt::format("number of particles on the lattice of {} x {} with alpha_j not 0. Computed are those above 1e-15",
                    per_axis, per_axis),
        printed.text("particles_with_weight"), particles, particles == printed("particles_with_weight"),
        fmt::format("{} are not 0. The particles between lie at the rim of the cone", cone.particles_above(0))});
@@ -253,7 +253,7 @@ void rotating_cone(const Printed& printed, const ClaimsOptions& options, std::ve
   const double exact = 1 / (r * std::sqrt(2.0) * overlap * cone.spacing()), boxes = std::floor(exact);
   claims.push_back(
       {section, "boxes an axis",
-       fmt::format("so many boxes an axis for r = {:g}, c = {:g}: 1/(r sqrt(2) c h), rounded down", r, overlap),
+       fmt::format("number of boxes an axis for r = {:g}, c = {:g}: 1/(r sqrt(2) c h), rounded down", r, overlap),
        printed.text("boxes_an_axis"), boxes, boxes == printed("boxes_an_axis"),
        fmt::format("that is for a cube of side 1. The domain has side 2, so it has {:.0f} boxes of this r",
                    std::ceil(2 * exact))});
