@@ -22,6 +22,7 @@ struct LatticeBox {
   std::size_t number(std::size_t i, std::size_t j, std::size_t l) const {
     return i - first[0] + points[0] * (j - first[1] + points[1] * (l - first[2]));
   }
+  /// The same indices.
   bool operator==(const LatticeBox&) const = default;
 };
 
@@ -35,8 +36,10 @@ class LatticePieces {
  public:
   /// One piece.
   LatticePieces() = default;
+  /// Pieces of at most `most_points` points.
   LatticePieces(const Lattice& lattice, double most_points);
 
+  /// Number of pieces.
   std::size_t count() const { return std::size_t{1} << (halvings_[0] + halvings_[1] + halvings_[2]); }
   /// An axis is cut into 2^halvings parts; part c begins with the point floor(c points / 2^halvings).
   const std::array<int, max_dimension>& halvings() const { return halvings_; }
