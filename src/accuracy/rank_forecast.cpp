@@ -13,6 +13,7 @@
 #include "accuracy/trial.hpp"
 #include "base/counted.hpp"
 #include "base/size_text.hpp"
+#include "effect/catalogue.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "particle/cutoff.hpp"
 #include "particle/placing.hpp"
@@ -125,7 +126,7 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
   RankForecast result;
   result.ranks = ranks;
   result.whole = trial.whole;
-  result.refused = why_not_shared(spec, *trial.scene.velocity);
+  result.refused = why_not_shared(*trial.scene.velocity);
   // Blobs as wide as those of the case, whose sample has wider ones.
   const Cutoff blob = make_cutoff(spec.particles.cutoff, spec.domain.dimension,
                                   spec.particles.overlap * trial.lattice.spacing, spec.particles.cutoff_arguments);
@@ -139,7 +140,7 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
     tile.sources *= each;
     work.push_back(work_of(tile));
   }
-  const bool one = work.size() == 1;
+  const bool one = work.size() == 1, interact = particles_interact(spec.effects) && ranks > 1;
   const std::vector<int> owner = one ? std::vector<int>{0} : share_tiles(work, ranks);
   const std::vector<Share> all = shares(trial, tiles, owner, work, ranks);
 
@@ -151,11 +152,16 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
   const double bytes = 8.0 * (spec.domain.dimension + 2);  // of a particle: its place, weight and id
   const bool in_pieces = known.particles_at_most > spec.output.piece_particles;
   const Case bare = without_outputs(spec, in_pieces);
+  double particles = 0;
+  for (const Share& share : all) particles += share.particles;
   const double gathered = static_cast<double>(shown_grid(spec).size()) / static_cast<double>(grid.size());
   Extent extent{.lattice_points = static_cast<double>(known.lattice_points) / ranks};
   for (std::size_t r = 0; r < all.size(); ++r) {
     result.idle += all[r].tiles == 0;
     result.halo_bytes = std::max(result.halo_bytes, bytes * all[r].felt);
+    // All but one of as many particles as there are ranks are summed for elsewhere than they are.
+    const double summed = bytes * particles / ranks, home = 8.0 * spec.domain.dimension * all[r].particles;
+    if (interact) result.pair_bytes = std::max(result.pair_bytes, (summed + home) * (ranks - 1) / ranks);
     if (r == 0) continue;
     result.gathered_bytes += 8 * all[r].points * gathered;
     extent.particles = all[r].particles + all[r].felt, extent.grid_points = all[r].points;
@@ -179,6 +185,10 @@ std::string to_text(const RankForecast& r) {
   text += fmt::format("; with more than {} some are idle\n", r.most_ranks);
   text += fmt::format("           of a density a rank receives up to {} of particles, and rank 0 gathers {}\n",
                       base::size_text(r.halo_bytes), base::size_text(r.gathered_bytes));
+  if (r.pair_bytes > 0)
+    text += fmt::format(
+        "           all ranks sum the velocities that particles give each other, and receive up to {} each time\n",
+        base::size_text(r.pair_bytes));
   text += fmt::format("           memory of rank 0 {}", base::size_text(r.first_memory));
   if (r.ranks > 1) text += fmt::format(", of the largest other {}", base::size_text(r.other_memory));
   return text + fmt::format("; all of this is computed from {} at the start, not measured\n",
@@ -194,6 +204,7 @@ std::string to_json(const RankForecast& r) {
                                         {"balance", r.balance},
                                         {"received_bytes", r.halo_bytes},
                                         {"gathered_bytes", r.gathered_bytes},
+                                        {"pair_velocity_bytes", r.pair_bytes},
                                         {"memory_bytes_rank_0", r.first_memory},
                                         {"memory_bytes_largest_other", r.other_memory},
                                         {"particles_counted", r.whole}};

@@ -19,6 +19,9 @@ struct RankForecast {
   double balance = 1;          // predicted work of the busiest rank over the mean
   double halo_bytes = 0;       // that the rank which receives most gets of others' particles, for one density
   double gathered_bytes = 0;   // of one density, to rank 0
+  /// Of places, weights and velocities of particles that move each other, for one velocity, to the rank that gets most;
+  /// without what belongs to the border of its part.
+  double pair_bytes = 0;
   double first_memory = 0, other_memory = 0;  // of rank 0, and of the largest of the others, with the program
   bool whole = true;                          // from all particles; else from a sample
 };

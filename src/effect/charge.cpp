@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
+#include "base/exact_sum.hpp"
 #include "effect/catalogue.hpp"
+#include "effect/nodes.hpp"
 
 namespace gaussdrift {
 
@@ -18,14 +21,30 @@ std::string Charge::describe() const {
 }
 
 void Charge::begin(Particles& particles, double /*time*/) {
-  if (options_.own) own_ = options_.own(particles);
+  placed(particles);
   total_ = largest_rate_ = 0;
+  base::ExactSum total;
   // div E = 2 pi rho_q (2D), 4 pi rho_q (3D)
   const double rate = 2 * std::numbers::pi * (options_.dimension - 1) * std::abs(options_.mobility) / options_.cell;
   for (const double charge : charges_of(particles)) {
-    total_ += charge;
+    total.add(charge);
     largest_rate_ = std::max(largest_rate_, rate * std::abs(charge));
   }
+  if (options_.ranks) {
+    base::sum_over_ranks(*options_.ranks, std::span(&total, 1));
+    options_.ranks->max(std::span(&largest_rate_, 1));
+  }
+  total_ = total.value();
+}
+
+void Charge::placed(const Particles& particles) {
+  const auto charges_of_nodes = [&] {
+    if (options_.own) own_ = options_.own(particles);
+  };
+  if (options_.ranks)
+    options_.ranks->agree_on(charges_of_nodes);
+  else
+    charges_of_nodes();
 }
 
 double Charge::stable_step() const {
@@ -45,14 +64,14 @@ void Charge::add(double t, const Particles& particles, const PointsView& x, cons
   if (options_.dimension == 2) {
     // The field of a Gaussian charge is the velocity of a vortex blob turned by a quarter, times 2 pi.
     const double core = std::sqrt(options_.core_radius * options_.core_radius + options_.spreading * t);
-    const farfield::Points<2> turned = pairs_.vortices(x, charges, core);
+    const farfield::Points<2> turned = pairs_.vortices(x, particles.id, charges, core);
     const double factor = 2 * std::numbers::pi * options_.mobility;
     for (std::size_t j = 0; j < x.count; ++j) {
       u.axis[0][j] += factor * turned(1, static_cast<Eigen::Index>(j));
       u.axis[1][j] -= factor * turned(0, static_cast<Eigen::Index>(j));
     }
   } else {
-    const farfield::Points<3> field = pairs_.charges(x, charges);
+    const farfield::Points<3> field = pairs_.charges(x, particles.id, charges);
     for (std::size_t j = 0; j < x.count; ++j)
       for (int k = 0; k < 3; ++k) u.axis[k][j] += options_.mobility * field(k, static_cast<Eigen::Index>(j));
   }
@@ -77,12 +96,22 @@ std::unique_ptr<Effect> make_charge(const EffectSpec& effect, const EffectScene&
                           .cell = scene.cell(),
                           .tolerance = effect.number("tolerance"),
                           .dimension = scene.spec.domain.dimension,
-                          .threads = scene.threads};
+                          .threads = scene.threads,
+                          .ranks = &scene.ranks};
   if (scene.carried) {
-    // The density of charge times the volume of a particle, at the places of the particles.
-    options.own = [&density = *scene.carried, cell = options.cell](const Particles& particles) {
+    // The density of charge times the volume of a particle. Particles of other ranks may have come, so places are those
+    // of the nodes that they started on.
+    options.own = [&density = *scene.carried, nodes = Nodes(scene.seeding),
+                   cell = options.cell](const Particles& particles) {
+      Particles at_start;
+      at_start.dimension = particles.dimension;
+      at_start.alpha = particles.alpha;
+      for (const std::int64_t id : particles.id) {
+        const Vector place = nodes.position(nodes.index(id));
+        for (int k = 0; k < particles.dimension; ++k) at_start.position[k].push_back(place[k]);
+      }
       std::vector<double> charges(particles.size(), 0.0);
-      density.add(0, particles.view(), charges.data());
+      density.add(0, at_start.view(), charges.data());
       for (double& charge : charges) charge *= cell;
       return charges;
     };

@@ -23,11 +23,14 @@ class Charge : public Effect, private Drift {
     double tolerance = 1e-6;
     int dimension = 2;
     int threads = 0;
-    /// Charges of particles at the start, from their places; null: their weights, at all times.
+    base::Communicator* ranks = nullptr;  // that share the particles; null: all are here
+    /// Charges of particles at the start, from the nodes of the lattice that they started on; null: their weights, at all
+    /// times.
     std::function<std::vector<double>(const Particles&)> own{};
     std::string written{};  // the density of those, for people
   };
-  explicit Charge(Options options) : options_(std::move(options)), pairs_(options_.tolerance, options_.threads) {}
+  explicit Charge(Options options)
+      : options_(std::move(options)), pairs_(options_.tolerance, options_.threads, options_.ranks) {}
 
   std::string name() const override { return "charge"; }
   std::string describe() const override;
@@ -39,6 +42,8 @@ class Charge : public Effect, private Drift {
 
   void begin(Particles& particles, double time) override;
   const Drift* drift() const override { return this; }
+  bool talks_to_ranks() const override { return options_.ranks != nullptr; }
+  void placed(const Particles& particles) override;
   Numbers numbers() const override;
   /// Charges of their own follow from the particles at the start.
   void pass_state(base::StateBytes& bytes, const Particles& /*particles*/) override {

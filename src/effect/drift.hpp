@@ -11,7 +11,8 @@ class Drift {
  public:
   virtual ~Drift() = default;
   /// u[k][j] += the velocity of particle j if all stand at x at time t; weights and charges are those of `particles`.
-  /// Called from one thread at a time, with all particles. Throws NumericalError where a velocity exceeds all numbers.
+  /// Called from one thread at a time, with all particles. Ranks that share the particles call it together, each with its
+  /// own, and agree on errors. Throws NumericalError where a velocity exceeds all numbers.
   virtual void add(double t, const Particles& particles, const PointsView& x, const VectorsView& u) const = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
 
@@ -9,19 +11,11 @@ namespace gaussdrift {
 
 namespace {
 
-template <int d>
-farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const std::vector<double>& weights,
-                             const farfield::Options& options, std::unique_ptr<farfield::Plan<d>>& plan,
-                             farfield::Choice& choice) {
-  farfield::Points<d> points(d, static_cast<Eigen::Index>(x.count));
-  for (std::size_t j = 0; j < x.count; ++j)
-    for (int k = 0; k < d; ++k) points(k, static_cast<Eigen::Index>(j)) = x.axis[k][j];
+/// Throws the words of this program for an error of farfield. id_of(target): of a particle.
+template <class Work, class IdOf>
+void in_words_of_particles(const Work& work, const IdOf& id_of) {
   try {
-    auto next = std::make_unique<farfield::Plan<d>>(kernel, points, options);
-    plan = std::move(next);
-    choice = plan->choice();
-    return plan->evaluate(Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size())))
-        .field;
+    work();
   } catch (const farfield::MemoryLimitError& error) {
     throw InputError(
         fmt::format("the velocities that particles give each other would take {:.3g} GB of memory, and at most {:.3g} "
@@ -29,9 +23,9 @@ farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const
                     error.needed / 1e9, static_cast<double>(error.limit) / 1e9));
   } catch (const farfield::RangeError& error) {
     throw NumericalError(
-        fmt::format("the {} at particle {} (counted from 1) exceeds the range of double precision; its "
-                    "weight is too large, or it lies too close to another",
-                    error.quantity, error.target + 1));
+        fmt::format("the {} at particle {} exceeds the range of double precision; its weight is too large, or it lies "
+                    "too close to another",
+                    error.quantity, id_of(error.target)));
   } catch (const farfield::Error& error) {  // positions or weights that are not finite, points too close
     throw NumericalError(
         fmt::format("the velocities that particles give each other cannot be summed: {}",
@@ -41,17 +35,50 @@ farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const
 
 }  // namespace
 
-farfield::Points<2> PairVelocity::vortices(const PointsView& x, const std::vector<double>& weights, double core) const {
-  ++evaluations_;
-  return field_of<2>(farfield::Kernel::vortex_blob, x, weights,
-                     {.tolerance = tolerance_, .threads = threads_, .core_radius = core, .potential = false}, plane_,
-                     choice_);
+PairVelocity::PairVelocity(double tolerance, int threads, base::Communicator* ranks)
+    : tolerance_(tolerance), threads_(threads), ranks_(ranks && ranks->size() > 1 ? ranks : nullptr) {
+  if (ranks_) farfield_ranks_ = std::make_unique<FarfieldRanks>(*ranks_);
 }
 
-farfield::Points<3> PairVelocity::charges(const PointsView& x, const std::vector<double>& weights) const {
+template <int d>
+farfield::Points<d> PairVelocity::field_of(farfield::Kernel kernel, const PointsView& x,
+                                           const std::vector<std::int64_t>& ids, const std::vector<double>& weights,
+                                           const farfield::Options& options,
+                                           std::unique_ptr<farfield::Plan<d>>& plan) const {
   ++evaluations_;
-  return field_of<3>(farfield::Kernel::coulomb, x, weights,
-                     {.tolerance = tolerance_, .threads = threads_, .potential = false}, space_, choice_);
+  farfield::Points<d> points(d, static_cast<Eigen::Index>(x.count)), field;
+  for (std::size_t j = 0; j < x.count; ++j)
+    for (int k = 0; k < d; ++k) points(k, static_cast<Eigen::Index>(j)) = x.axis[k][j];
+  const Eigen::Map<const Eigen::VectorXd> charges(weights.data(), static_cast<Eigen::Index>(weights.size()));
+  const auto sum = [&] {
+    auto next = ranks_ ? std::make_unique<farfield::Plan<d>>(kernel, points, ids, options, *farfield_ranks_)
+                       : std::make_unique<farfield::Plan<d>>(kernel, points, options);
+    plan = std::move(next);
+    choice_ = plan->choice();
+    field = plan->evaluate(charges).field;
+  };
+  std::exception_ptr trouble;
+  try {
+    in_words_of_particles(
+        sum, [&](std::size_t target) { return ranks_ ? static_cast<std::int64_t>(target) : ids.at(target); });
+  } catch (const Error&) {  // of all ranks together; anything else is of this rank alone
+    if (!ranks_) throw;
+    trouble = std::current_exception();
+  }
+  if (ranks_) ranks_->agree(trouble);
+  return field;
+}
+
+farfield::Points<2> PairVelocity::vortices(const PointsView& x, const std::vector<std::int64_t>& ids,
+                                           const std::vector<double>& weights, double core) const {
+  return field_of<2>(farfield::Kernel::vortex_blob, x, ids, weights,
+                     {.tolerance = tolerance_, .threads = threads_, .core_radius = core, .potential = false}, plane_);
+}
+
+farfield::Points<3> PairVelocity::charges(const PointsView& x, const std::vector<std::int64_t>& ids,
+                                          const std::vector<double>& weights) const {
+  return field_of<3>(farfield::Kernel::coulomb, x, ids, weights,
+                     {.tolerance = tolerance_, .threads = threads_, .potential = false}, space_);
 }
 
 }  // namespace gaussdrift

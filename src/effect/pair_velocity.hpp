@@ -2,25 +2,47 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <string>
+#include <span>
+#include <utility>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "base/state_bytes.hpp"
 #include "farfield/farfield.hpp"
+#include "gaussdrift/particles.hpp"
 #include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
 
+/// The ranks of a run as farfield wants them.
+class FarfieldRanks : public farfield::Ranks {
+ public:
+  explicit FarfieldRanks(base::Communicator& ranks) : ranks_(ranks) {}
+  int rank() const override { return ranks_.rank(); }
+  int size() const override { return ranks_.size(); }
+  std::vector<Bytes> exchange(std::vector<Bytes> out) override { return ranks_.exchange(std::move(out)); }
+  void sum(std::span<std::int64_t> numbers) override { ranks_.sum(numbers); }
+  void max(std::span<double> numbers) override { ranks_.max(numbers); }
+
+ private:
+  base::Communicator& ranks_;
+};
+
 class PairVelocity {
  public:
-  /// threads: 0 for all. tolerance: as the promise of farfield has it.
-  PairVelocity(double tolerance, int threads) : tolerance_(tolerance), threads_(threads) {}
+  /// threads: 0 for all. tolerance: as the promise of farfield has it. ranks: that share the particles; null: all are
+  /// here. All of them call the functions together, and agree on errors.
+  PairVelocity(double tolerance, int threads, base::Communicator* ranks = nullptr);
 
-  /// Velocity of vortex blobs of core radius `core` and circulations `weights`: 2 x particles.
-  farfield::Points<2> vortices(const PointsView& x, const std::vector<double>& weights, double core) const;
+  /// Velocity at x of vortex blobs of core radius `core` and circulations `weights`: 2 x particles. On several ranks sums
+  /// have the order of ids.
+  farfield::Points<2> vortices(const PointsView& x, const std::vector<std::int64_t>& ids,
+                               const std::vector<double>& weights, double core) const;
   /// Field of point charges: 3 x particles.
-  farfield::Points<3> charges(const PointsView& x, const std::vector<double>& weights) const;
+  farfield::Points<3> charges(const PointsView& x, const std::vector<std::int64_t>& ids,
+                              const std::vector<double>& weights) const;
 
   /// Measured: what a plan and its evaluation hold a particle.
   static double bytes_of_particle(int dimension) { return dimension == 3 ? 300 : 200; }
@@ -32,8 +54,15 @@ class PairVelocity {
   const farfield::Choice& last_choice() const { return choice_; }
 
  private:
+  template <int d>
+  farfield::Points<d> field_of(farfield::Kernel kernel, const PointsView& x, const std::vector<std::int64_t>& ids,
+                               const std::vector<double>& weights, const farfield::Options& options,
+                               std::unique_ptr<farfield::Plan<d>>& plan) const;
+
   double tolerance_;
   int threads_;
+  base::Communicator* ranks_;  // null: one rank
+  std::unique_ptr<FarfieldRanks> farfield_ranks_;
   // The plan of the last evaluation. It is kept because plans share their tables as long as one of them lives.
   mutable std::unique_ptr<farfield::Plan<2>> plane_;
   mutable std::unique_ptr<farfield::Plan<3>> space_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "effect/catalogue.hpp"
 #include "particle/cutoff.hpp"
@@ -21,6 +22,7 @@ void Vortex::begin(Particles& particles, double /*time*/) {
   largest_vorticity_ = 0;
   for (const double alpha : particles.alpha)
     largest_vorticity_ = std::max(largest_vorticity_, std::abs(alpha) / options_.cell);
+  if (options_.ranks) options_.ranks->max(std::span(&largest_vorticity_, 1));
 }
 
 double Vortex::stable_step() const {
@@ -29,7 +31,7 @@ double Vortex::stable_step() const {
 
 void Vortex::add(double t, const Particles& particles, const PointsView& x, const VectorsView& u) const {
   const double core = std::sqrt(options_.core_radius * options_.core_radius + options_.spreading * t);
-  const farfield::Points<2> velocity = pairs_.vortices(x, particles.alpha, core);
+  const farfield::Points<2> velocity = pairs_.vortices(x, particles.id, particles.alpha, core);
   for (std::size_t j = 0; j < x.count; ++j)
     for (int k = 0; k < 2; ++k) u.axis[k][j] += velocity(k, static_cast<Eigen::Index>(j));
 }
@@ -60,7 +62,8 @@ std::unique_ptr<Effect> make_vortex(const EffectSpec& effect, const EffectScene&
                                                   .spreading = scene.spreading,
                                                   .cell = scene.cell(),
                                                   .tolerance = effect.number("tolerance"),
-                                                  .threads = scene.threads});
+                                                  .threads = scene.threads,
+                                                  .ranks = &scene.ranks});
 }
 
 }  // namespace

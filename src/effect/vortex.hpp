@@ -17,8 +17,10 @@ class Vortex : public Effect, private Drift {
     double cell = 1;         // area of a particle at the start
     double tolerance = 1e-6;
     int threads = 0;
+    base::Communicator* ranks = nullptr;  // that share the particles; null: all are here
   };
-  explicit Vortex(const Options& options) : options_(options), pairs_(options.tolerance, options.threads) {}
+  explicit Vortex(const Options& options)
+      : options_(options), pairs_(options.tolerance, options.threads, options.ranks) {}
 
   std::string name() const override { return "vortex"; }
   std::string describe() const override;
@@ -29,6 +31,7 @@ class Vortex : public Effect, private Drift {
 
   void begin(Particles& particles, double time) override;
   const Drift* drift() const override { return this; }
+  bool talks_to_ranks() const override { return options_.ranks != nullptr; }
   Numbers numbers() const override;
   void pass_state(base::StateBytes& bytes, const Particles& /*particles*/) override {
     bytes(largest_vorticity_);

@@ -120,10 +120,14 @@ Engine<d>::Engine(Kernel kernel, const Eigen::Ref<const Points<d>>& points, std:
   const std::size_t count = static_cast<std::size_t>(points.cols());
   together([&] {
     check_options(kernel, options, d);
-    check_points("point", points.data(), d, count, stride<d>(points), options.threads);
     if (numbers.size() != count)
       throw InvalidArgument("farfield: there are " + std::to_string(numbers.size()) + " numbers for " +
                             std::to_string(count) + " points; there must be one for every point");
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t l = 0; l < d; ++l)
+        if (const double x = points.data()[j * stride<d>(points) + l]; !std::isfinite(x))
+          throw InvalidArgument("farfield: coordinate " + std::to_string(l) + " of the point with the number " +
+                                std::to_string(numbers[j]) + " is " + text(x) + "; coordinates must be finite");
   });
   Box box;
   box.include<d>(points);

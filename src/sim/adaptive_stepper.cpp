@@ -36,10 +36,11 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
                                                   std::vector<std::vector<double>>& results) {
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
   const std::size_t blocks = results.size(), block_length = drifts_.empty() ? usual_block : particles.size();
+  base::Communicator* const together = drifts_.empty() ? nullptr : &ranks_;  // who talks within a step
   std::vector<Largest> largest(blocks);
   const base::Pieces pieces(
       blocks, static_cast<double>(particles.size()) * static_cast<double>(tableau_.stages) * value_seconds(velocity_));
-  base::parallel_for(pieces, options_.threads, [&](std::size_t b) {
+  const auto attempt_block = [&](std::size_t b) {
     const std::size_t begin = b * block_length, length = std::min(block_length, particles.size() - begin);
     std::vector<double>& state = results[b];
     state.resize(length * rows);
@@ -55,9 +56,12 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
       if (drifts_.empty())
         velocity_.add(t, points, vectors);
       else
-        drift_seconds_ += add_flow_and_drifts(velocity_, drifts_, t, particles, points, vectors, options_.threads);
-      for (std::size_t q = 0; q < integrals_.size(); ++q)
-        integrals_[q]->add_rate(t, points, u + (dimension + q) * length);
+        drift_seconds_ +=
+            add_flow_and_drifts(velocity_, drifts_, t, particles, points, vectors, options_.threads, &ranks_);
+      agree_on(together, [&] {
+        for (std::size_t q = 0; q < integrals_.size(); ++q)
+          integrals_[q]->add_rate(t, points, u + (dimension + q) * length);
+      });
     };
     time::step(tableau_, time, step, rate, state.data(), work);
     for (std::size_t i = 0; i < state.size(); ++i) {
@@ -71,7 +75,11 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
           begin + i % length};
       if (!std::isfinite(largest[b].error)) return;
     }
-  });
+  };
+  if (drifts_.empty())
+    base::parallel_for(pieces, options_.threads, attempt_block);
+  else
+    attempt_block(0);
   Largest worst;
   for (const Largest& block : largest)
     if (block.error > worst.error) worst = block;
@@ -84,7 +92,7 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
   if (proposal_ <= 0) proposal_ = std::min(most, end - time);
   // Particles that move each other are one block.
   const std::size_t block_length = drifts_.empty() ? usual_block : std::max<std::size_t>(1, particles.size());
-  std::vector<std::vector<double>> results((particles.size() + block_length - 1) / block_length);
+  std::vector<std::vector<double>> results(drifts_.empty() ? (particles.size() + block_length - 1) / block_length : 1);
   for (;;) {
     const double left = end - time;
     double step = std::min(proposal_, most);
@@ -94,7 +102,7 @@ double AdaptiveStepper::advance(Particles& particles, double time, double end, s
     else if (step > left / 2)
       step = left / 2;  // two equal steps rather than a long one and a crumb
     Largest worst;
-    ranks_.agree_on([&] { worst = attempt(particles, time, step, results); });
+    agree_on(drifts_.empty() ? &ranks_ : nullptr, [&] { worst = attempt(particles, time, step, results); });
     double error = worst.error;  // of any particle
     ranks_.max(std::span(&error, 1));
     const double factor = factor_for(error, tableau_.time_order);

@@ -55,7 +55,7 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
       tableau_(time::find_tableau(spec.time.method)),
       case_(spec),
       scene_(scene),
-      stepper_(*scene.velocity, tableau_, threads, integrals_of(integrating_), drifts_),
+      stepper_(*scene.velocity, tableau_, threads, integrals_of(integrating_), drifts_, &ranks),
       threads_(base::resolve_threads(threads)) {
   if (!time::is_adaptive(tableau_)) return;
   AdaptiveStepper::Options options{spec.time.tolerance, 0, spec.time.step, threads};
@@ -289,7 +289,9 @@ bool Carrier::has_steps_until(double now) const {
 
 void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                          std::size_t steps_before, StageTimes& stages) const {
-  ranks_.agree_on([&] { take_own_steps(particles, interval, first, count, steps_before, stages); });
+  // Drifts talk to other ranks at every stage, and agree on errors there.
+  agree_on(drifts_.empty() ? &ranks_ : nullptr,
+           [&] { take_own_steps(particles, interval, first, count, steps_before, stages); });
 }
 
 void Carrier::take_own_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,

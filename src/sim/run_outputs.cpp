@@ -113,8 +113,14 @@ std::vector<double> Simulation::Parts::velocity_at_particles(double time, bool w
   std::vector<double> columns(count * dimension, 0.0), velocity;
   VectorsView u{particles_.dimension, count, {}};
   for (std::size_t k = 0; k < dimension; ++k) u.axis[k] = columns.data() + k * count;
-  add_flow_and_drifts(*scene_.velocity, carrier_.drifts(), time, particles_, particles_.view(), u, threads_);
-  check_velocity(*scene_.velocity, particles_, u, time, steps_before_);
+  const auto add = [&](base::Communicator* ranks) {
+    add_flow_and_drifts(*scene_.velocity, carrier_.drifts(), time, particles_, particles_.view(), u, threads_, ranks);
+  };
+  if (carrier_.drifts().empty())
+    ranks_.agree_on([&] { add(nullptr); });
+  else
+    add(&ranks_);
+  ranks_.agree_on([&] { check_velocity(*scene_.velocity, particles_, u, time, steps_before_); });
   if (!wanted) return velocity;
   velocity.resize(count * dimension);
   for (std::size_t j = 0; j < count; ++j)
@@ -260,7 +266,7 @@ void Simulation::Parts::show_frame(double time) {
 
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
   std::vector<double> velocity;
-  ranks_.agree_on([&] { velocity = velocity_at_particles(time, velocity_wanted); });
+  velocity = velocity_at_particles(time, velocity_wanted);
 
   if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
   if (velocity_wanted)

@@ -1,10 +1,7 @@
 #include "sim/sharing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "effect/catalogue.hpp"
 #include "field/velocity/value_seconds.hpp"
 #include "sim/landings.hpp"
 #include "time/schedule.hpp"
@@ -12,11 +9,7 @@
 
 namespace gaussdrift {
 
-std::string why_not_shared(const Case& spec, const VelocityField& velocity) {
-  for (const auto& [effect, values] : effects_of(spec.effects)) {
-    if (effect->traits.particles_interact)
-      return fmt::format("[effects.{}] needs all particles in one process", values.name);
-  }
+std::string why_not_shared(const VelocityField& velocity) {
   return velocity.evaluates_in_blocks() ? "" : "this velocity is evaluated at all particles at once";
 }
 

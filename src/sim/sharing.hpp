@@ -11,7 +11,7 @@
 namespace gaussdrift {
 
 /// What keeps ranks from sharing a case, for the user; empty: nothing.
-std::string why_not_shared(const Case& spec, const VelocityField& velocity);
+std::string why_not_shared(const VelocityField& velocity);
 
 /// Seconds that a tile takes from the landing at `from` to the next one, and for the density at `from`. Roughly, but
 /// tools/bench/bench_tiles shows how evenly ranks are loaded by it.

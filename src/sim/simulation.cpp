@@ -73,7 +73,7 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
       landings_(landings(case_)),
       pieces_(scene_.evaluation, case_.evaluate.piece_points) {
   if (ranks_.size() == 1) return;
-  if (const std::string why = why_not_shared(case_, *scene_.velocity); !why.empty())
+  if (const std::string why = why_not_shared(*scene_.velocity); !why.empty())
     throw InputError(
         fmt::format("{}, so that {} ranks cannot share this case; start it on one rank", why, ranks_.size()));
 }
@@ -110,7 +110,7 @@ void Simulation::Parts::make_ready() {
   beyond_at_start_ = part_beyond(scene_.density->mass(), heavy, mass_at_start_);
   const Particles sample = place_.sample(particles_, sampled_particles);
   carrier_.begin(particles_, sample);
-  ranks_.agree_on([&] { velocity_at_particles(0, false); });
+  velocity_at_particles(0, false);
   check_density_seconds();
   plan_reference();
   stage_ = Stage::prepared;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -99,16 +100,18 @@ void check_velocity(const VelocityField& field, const Particles& particles, cons
 }
 
 double add_flow_and_drifts(const VelocityField& velocity, const std::vector<const Drift*>& drifts, double t,
-                           const Particles& particles, const PointsView& x, const VectorsView& u, int threads) {
+                           const Particles& particles, const PointsView& x, const VectorsView& u, int threads,
+                           base::Communicator* ranks) {
   const std::size_t longest = velocity.evaluates_in_blocks() ? block_length : std::max<std::size_t>(1, x.count);
   const base::Pieces pieces((x.count + longest - 1) / longest, static_cast<double>(x.count) * value_seconds(velocity));
-  base::parallel_for(pieces, threads, [&](std::size_t b) {
+  const auto add_flow = [&](std::size_t b) {
     const std::size_t begin = b * longest, length = std::min(longest, x.count - begin);
     PointsView some{x.dimension, length, {}};
     VectorsView there{x.dimension, length, {}};
     for (int k = 0; k < x.dimension; ++k) some.axis[k] = x.axis[k] + begin, there.axis[k] = u.axis[k] + begin;
     velocity.add(t, some, there);
-  });
+  };
+  agree_on(drifts.empty() ? nullptr : ranks, [&] { base::parallel_for(pieces, threads, add_flow); });
   if (drifts.empty()) return 0;
   const base::Stopwatch watch;
   for (const Drift* drift : drifts) drift->add(t, particles, x, u);
@@ -120,7 +123,8 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
   const bool together = !velocity_.evaluates_in_blocks() || !drifts_.empty();
   const std::size_t longest = together ? std::max<std::size_t>(1, particles.size()) : block_length;
-  const std::size_t blocks = (particles.size() + longest - 1) / longest;
+  // Particles that move each other are one block, also on a rank that has none of them.
+  const std::size_t blocks = drifts_.empty() ? (particles.size() + longest - 1) / longest : 1;
   std::vector<std::vector<double>> results(blocks);
   std::vector<double> seconds(integrals_.empty() ? 0 : blocks, 0.0);
   double drift_seconds = 0;  // with drifts there is one block
@@ -128,8 +132,13 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
     return row < dimension ? particles.position[row].data() : particles.path[row - dimension].data();
   };
 
+  const auto lost_on_any_rank = [&](bool lost) {
+    std::int64_t any = lost;
+    if (ranks_) ranks_->max(std::span(&any, 1));
+    return any != 0;
+  };
   const double rates = static_cast<double>(particles.size() * count) * static_cast<double>(tableau_.stages);
-  base::parallel_for({blocks, rates * value_seconds(velocity_)}, threads_, [&](std::size_t b) {
+  const auto carry = [&](std::size_t b) {
     const std::size_t begin = b * longest, length = std::min(longest, particles.size() - begin);
     Block block{particles.dimension, length, std::vector<double>(length * rows)};
     const auto load = [&] {
@@ -142,12 +151,14 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
         velocity_.add(t, block.points(x), block.vectors(u));
       } else {
         drift_seconds +=
-            add_flow_and_drifts(velocity_, drifts_, t, particles, block.points(x), block.vectors(u), threads_);
+            add_flow_and_drifts(velocity_, drifts_, t, particles, block.points(x), block.vectors(u), threads_, ranks_);
       }
       if (integrals_.empty()) return;
       const base::Stopwatch watch;
-      for (std::size_t q = 0; q < integrals_.size(); ++q)
-        integrals_[q]->add_rate(t, block.points(x), u + (dimension + q) * length);
+      agree_on(ranks_, [&] {
+        for (std::size_t q = 0; q < integrals_.size(); ++q)
+          integrals_[q]->add_rate(t, block.points(x), u + (dimension + q) * length);
+      });
       seconds[b] += watch.seconds();
     };
     load();
@@ -156,27 +167,32 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
 
     // A value that is not finite stays so. One look after many steps is enough, and only a failure is traced step by
     // step.
-    if (!all_finite(block.state)) {
+    if (lost_on_any_rank(!all_finite(block.state))) {
       load();
       std::size_t i = first;
+      const auto check = [&](double t, const double* x, double* u, const double* values) {
+        agree_on(ranks_, [&] {
+          const std::int64_t* const ids = particles.id.data() + begin;
+          check_block(velocity_, block.points(x), block.vectors(u), ids, t, steps_before + i + 1);
+          for (std::size_t q = 0; q < integrals_.size(); ++q)
+            check_rates(*integrals_[q], block.points(x), values + q * length, ids, t, steps_before + i + 1);
+        });
+      };
       const auto traced_rate = [&](double t, const double* x, double* u) {
         rate(t, x, u);
-        check_block(velocity_, block.points(x), block.vectors(u), particles.id.data() + begin, t, steps_before + i + 1);
-        for (std::size_t q = 0; q < integrals_.size(); ++q)
-          check_rates(*integrals_[q], block.points(x), u + (dimension + q) * length, particles.id.data() + begin, t,
-                      steps_before + i + 1);
+        check(t, x, u, u + dimension * length);
       };
       for (; i < first + count; ++i) {
         time::step(tableau_, interval.start(i), interval.length(i), traced_rate, block.state.data(), work);
-        check_block(velocity_, block.points(block.state.data()), block.vectors(block.state.data()),
-                    particles.id.data() + begin, interval.start(i + 1), steps_before + i + 1);
-        for (std::size_t q = 0; q < integrals_.size(); ++q)
-          check_rates(*integrals_[q], block.points(block.state.data()), block.state.data() + (dimension + q) * length,
-                      particles.id.data() + begin, interval.start(i + 1), steps_before + i + 1);
+        check(interval.start(i + 1), block.state.data(), block.state.data(), block.state.data() + dimension * length);
       }
     }
     results[b] = std::move(block.state);
-  });
+  };
+  if (drifts_.empty())
+    base::parallel_for({blocks, rates * value_seconds(velocity_)}, threads_, carry);
+  else
+    carry(0);
 
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t begin = b * longest, length = std::min(longest, particles.size() - begin);

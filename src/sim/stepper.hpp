@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/communicator.hpp"
 #include "effect/drift.hpp"
 #include "effect/path_integral.hpp"
 #include "field/velocity/velocity.hpp"
@@ -19,9 +20,20 @@ void check_velocity(const VelocityField& field, const Particles& particles, cons
                     std::size_t step);
 
 /// The velocity of the flow and of all drifts, for all particles at once. The flow uses several threads, and blocks if
-/// the field allows them. Returns the seconds of the drifts.
+/// the field allows them. Returns the seconds of the drifts. With drifts all ranks call it together, and agree on errors;
+/// null: there are no others.
 double add_flow_and_drifts(const VelocityField& velocity, const std::vector<const Drift*>& drifts, double t,
-                           const Particles& particles, const PointsView& x, const VectorsView& u, int threads);
+                           const Particles& particles, const PointsView& x, const VectorsView& u, int threads,
+                           base::Communicator* ranks = nullptr);
+
+/// Does what must not communicate, and agrees on how it went where there are ranks.
+template <class Work>
+void agree_on(base::Communicator* ranks, const Work& work) {
+  if (ranks)
+    ranks->agree_on(work);
+  else
+    work();
+}
 
 /// Seconds of one advance() beside those of the flow.
 struct StepperSeconds {
@@ -34,19 +46,22 @@ struct StepperSeconds {
 /// of a particle does not depend on the blocks or the number of threads.
 class Stepper {
  public:
-  /// The field, the integrals and the drifts must outlive the stepper. threads: 0 for all.
+  /// The field, the integrals, the drifts and the ranks must outlive the stepper. threads: 0 for all. ranks: that share
+  /// the particles, if there are drifts; null: none.
   Stepper(const VelocityField& velocity, const time::Tableau& tableau, int threads,
-          std::vector<const PathIntegral*> integrals = {}, std::vector<const Drift*> drifts = {})
+          std::vector<const PathIntegral*> integrals = {}, std::vector<const Drift*> drifts = {},
+          base::Communicator* ranks = nullptr)
       : velocity_(velocity),
         tableau_(tableau),
         threads_(threads),
         integrals_(std::move(integrals)),
-        drifts_(std::move(drifts)) {}
+        drifts_(std::move(drifts)),
+        ranks_(drifts_.empty() ? nullptr : ranks) {}
 
   /// Takes steps first .. first + count - 1 of the interval. `steps_before` steps were taken before the interval;
   /// messages count from there. Throws NumericalError naming step, time, particle and place where the field or a
   /// position is not finite. The particles then stay as they were. particles.path has an array for each integral, which
-  /// is added to.
+  /// is added to. With drifts all ranks call it together, and agree on errors.
   StepperSeconds advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                          std::size_t steps_before) const;
 
@@ -56,6 +71,7 @@ class Stepper {
   int threads_;
   std::vector<const PathIntegral*> integrals_;
   std::vector<const Drift*> drifts_;
+  base::Communicator* ranks_;
 };
 
 }  // namespace gaussdrift

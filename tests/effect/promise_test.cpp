@@ -68,9 +68,9 @@ class Adversary {
     }
     farfield::Points<d> found;
     if constexpr (d == 2)
-      found = sums_.vortices(view, weights, core);
+      found = sums_.vortices(view, {}, weights, core);
     else
-      found = sums_.charges(view, weights);
+      found = sums_.charges(view, {}, weights);
     const auto exact = naive::sum<d>(d == 2 ? farfield::Kernel::vortex_blob : farfield::Kernel::coulomb, points.col(0),
                                      points, Eigen::VectorXd::Ones(1), core);
     double largest = 0;

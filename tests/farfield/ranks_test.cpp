@@ -198,7 +198,7 @@ void expect_thrown_by_all(const std::string& words, const Spoil& spoil) {
 TEST(FarfieldRanks, ThrowTogether) {
   using Weights = Eigen::VectorXd;
   expect_thrown_by_all<farfield::InvalidArgument>(
-      "point 5", [](Share<3>& own, Weights&, Options&) { own.points(1, 5) = std::nan(""); });
+      "of the point with the number -", [](Share<3>& own, Weights&, Options&) { own.points(1, 5) = std::nan(""); });
   expect_thrown_by_all<farfield::InvalidArgument>("charge 7",
                                                   [](Share<3>&, Weights& charges, Options&) { charges[7] = HUGE_VAL; });
   expect_thrown_by_all<farfield::InvalidArgument>("two points have the number 17",
