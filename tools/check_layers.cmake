@@ -69,7 +69,7 @@ set(public_write atomic_file checkpoint folder_lock output_files provenance resu
 set(public_render chart panel picture picture_series styles)
 set(public_input data_files effect_rules examples explain foreign_keys markdown points_table same_past)
 set(public_blockmatrix block_matrix)
-set(public_accuracy accuracy_table budget footprint forecast memory_limits rank_forecast target would_run)
+set(public_accuracy accuracy_table budget footprint forecast memory_limits rank_forecast ranks_memory target would_run)
 set(public_report page)
 set(public_study study)
 set(public_reproduce claims cone coulomb fgtd figures logkernel)

@@ -37,11 +37,6 @@ constexpr double budget_of_particle = 550, most_of_budget = 5e7;
 
 bool in_space(const Case& spec) { return spec.domain.dimension == 3; }
 
-/// At one stage of a run.
-RunMemory operator+(const RunMemory& a, const RunMemory& b) {
-  return {a.particles + b.particles, a.grid + b.grid, a.pictures + b.pictures};
-}
-
 /// What a kind of file takes while it is made: its share that grows with the particles, and the other.
 RunMemory memory_of_file(const write::FileKind& kind, const Extent& extent) {
   Extent without = extent;
@@ -57,18 +52,6 @@ bool changes_particles(const Case& spec) {
     return traits.adds_particles.of(one.second, spec.domain.dimension) ||
            traits.replaces_particles.of(one.second, spec.domain.dimension);
   });
-}
-
-/// The particles at most: those that effects add are found by steps of a part of them.
-double particles_at_most(const Case& spec, Trial& trial) {
-  if (!changes_particles(spec)) return trial.carried;
-  const double seeded = static_cast<double>(trial.particles.size()), each = trial.carried / seeded;
-  Particles particles = trial.particles;
-  Carrier carrier(trial.spec, trial.scene, 1);
-  carrier.begin(particles);
-  const double at_start =
-      with_halo(trial.carried, static_cast<double>(particles.size()) - seeded, each, spec.domain.dimension);
-  return carrier.replaces_particles() && spec.time.end > 0 ? at_start * grow(spec, trial).most : at_start;
 }
 
 /// What files hold: pieces of a density show layers that others have, too, and of exact densities formulas alone.
@@ -107,6 +90,21 @@ double kept_for_pictures(const Case& spec, double grid_points) {
 }
 
 }  // namespace
+
+RunMemory operator+(const RunMemory& a, const RunMemory& b) {
+  return {a.particles + b.particles, a.grid + b.grid, a.pictures + b.pictures};
+}
+
+double particles_at_most(const Case& spec, Trial& trial) {
+  if (!changes_particles(spec)) return trial.carried;
+  const double seeded = static_cast<double>(trial.particles.size()), each = trial.carried / seeded;
+  Particles particles = trial.particles;
+  Carrier carrier(trial.spec, trial.scene, 1);
+  carrier.begin(particles);
+  const double at_start =
+      with_halo(trial.carried, static_cast<double>(particles.size()) - seeded, each, spec.domain.dimension);
+  return carrier.replaces_particles() && spec.time.end > 0 ? at_start * grow(spec, trial).most : at_start;
+}
 
 double disk_of_run(const Case& spec, const Extent& all, double seconds) {
   const Extent extent = in_files(spec, all);

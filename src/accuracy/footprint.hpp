@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "accuracy/trial.hpp"
 #include "gaussdrift/case.hpp"
 #include "write/output_files.hpp"
 
@@ -21,6 +22,12 @@ struct RunMemory {
 /// Measured over the cases and sizes of tests/program/footprint_test.cpp: with the program right within a factor of 1.3
 /// for what is above 20 MB.
 RunMemory memory_of_run(const Case& spec, const Extent& extent);
+
+/// At one stage of a run, or on several ranks.
+RunMemory operator+(const RunMemory& a, const RunMemory& b);
+
+/// The particles at most: those that effects add are found by steps of a part of them.
+double particles_at_most(const Case& spec, Trial& trial);
 
 /// "3.9 GB for 2.65e+08 particles, 80 MB for the program". program: bytes that it takes itself.
 std::string what_memory_is_for(const RunMemory& run, double program, const Extent& extent);

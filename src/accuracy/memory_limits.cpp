@@ -120,8 +120,8 @@ std::vector<MemoryLimit> memory_limits(double asked) {
     limits.push_back(
         {"the machine has",
          (static_cast<double>(machine.totalram) + static_cast<double>(machine.totalswap)) * machine.mem_unit, held});
-  limits.push_back({"the limit of address space (ulimit -v) allows", limit_of(RLIMIT_AS), mapped.addresses});
-  limits.push_back({"the limit of data (ulimit -d) allows", limit_of(RLIMIT_DATA), mapped.data});
+  limits.push_back({"the limit of address space (ulimit -v) allows", limit_of(RLIMIT_AS), mapped.addresses, true});
+  limits.push_back({"the limit of data (ulimit -d) allows", limit_of(RLIMIT_DATA), mapped.data, true});
   limits.push_back({"--memory allows", asked, held});
   return limits;
 }

@@ -14,6 +14,7 @@ struct MemoryLimit {
   std::string who;          // "the machine has", "--memory allows": a size follows
   double bytes = no_limit;  // that the process may take
   double taken = 0;         // of them, so far
+  bool of_process = false;  // else other processes take from it, too
 
   double left() const { return bytes - taken; }
 };

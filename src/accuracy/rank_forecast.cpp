@@ -121,7 +121,7 @@ std::size_t most_useful_ranks(const std::vector<double>& work) {
   return ranks;
 }
 
-RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) {
+RankForecast forecast_ranks(const Case& spec, double particles_at_most, double program, int ranks) {
   const Trial trial = make_trial(spec, trial_particles, 1);
   RankForecast result;
   result.ranks = ranks;
@@ -150,12 +150,14 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
   for (const Share& share : all) most = std::max(most, share.work), sum += share.work;
   result.balance = sum > 0 ? most * ranks / sum : 1;
   const double bytes = 8.0 * (spec.domain.dimension + 2);  // of a particle: its place, weight and id
-  const bool in_pieces = known.particles_at_most > spec.output.piece_particles;
+  const bool in_pieces = particles_at_most > spec.output.piece_particles;
   const Case bare = without_outputs(spec, in_pieces);
   double particles = 0;
   for (const Share& share : all) particles += share.particles;
   const double gathered = static_cast<double>(shown_grid(spec).size()) / static_cast<double>(grid.size());
-  Extent extent{.lattice_points = static_cast<double>(known.lattice_points) / ranks};
+  const double grows = trial.carried > 0 ? particles_at_most / trial.carried : 1;  // by effects
+  Extent extent{.lattice_points = static_cast<double>(trial.lattice.size()) / ranks};
+  result.memory.resize(all.size());
   for (std::size_t r = 0; r < all.size(); ++r) {
     result.idle += all[r].tiles == 0;
     result.halo_bytes = std::max(result.halo_bytes, bytes * all[r].felt);
@@ -164,14 +166,16 @@ RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks) 
     if (interact) result.pair_bytes = std::max(result.pair_bytes, (summed + home) * (ranks - 1) / ranks);
     if (r == 0) continue;
     result.gathered_bytes += 8 * all[r].points * gathered;
-    extent.particles = all[r].particles + all[r].felt, extent.grid_points = all[r].points;
-    result.other_memory = std::max(result.other_memory, memory_of_run(bare, extent).all() + known.program_bytes);
+    extent.particles = grows * (all[r].particles + all[r].felt), extent.grid_points = all[r].points;
+    result.memory[r] = memory_of_run(bare, extent);
+    result.other_memory = std::max(result.other_memory, result.memory[r].all() + program);
   }
   extent.particles =
-      first_needs_all_particles(spec, in_pieces) ? known.particles_at_most : all[0].particles + all[0].felt;
-  extent.grid_points = static_cast<double>(known.grid_points);
+      first_needs_all_particles(spec, in_pieces) ? particles_at_most : grows * (all[0].particles + all[0].felt);
+  extent.grid_points = static_cast<double>(grid.size());
   extent.compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none;
-  result.first_memory = memory_of_run(spec, extent).all() + known.program_bytes;
+  result.memory[0] = memory_of_run(spec, extent);
+  result.first_memory = result.memory[0].all() + program;
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/forecast.hpp"
+#include "accuracy/footprint.hpp"
 #include "gaussdrift/case.hpp"
 
 namespace gaussdrift::accuracy {
@@ -23,11 +23,13 @@ struct RankForecast {
   /// without what belongs to the border of its part.
   double pair_bytes = 0;
   double first_memory = 0, other_memory = 0;  // of rank 0, and of the largest of the others, with the program
+  std::vector<RunMemory> memory;              // of each rank, without the program
   bool whole = true;                          // from all particles; else from a sample
 };
 
-/// `known`: the forecast of the same case. Takes as much memory as a trial does, and a second at most.
-RankForecast forecast_ranks(const Case& spec, const Forecast& known, int ranks);
+/// particles_at_most: of all ranks. program: bytes that the program takes itself. Takes as much memory as a trial does,
+/// and a second at most.
+RankForecast forecast_ranks(const Case& spec, double particles_at_most, double program, int ranks);
 
 /// The largest number of ranks up to which every rank gets a tile of this work.
 std::size_t most_useful_ranks(const std::vector<double>& work);

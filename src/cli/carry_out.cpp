@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "accuracy/footprint.hpp"
+#include "accuracy/ranks_memory.hpp"
 #include "base/counted.hpp"
 #include "base/has_one.hpp"
 #include "base/json_file.hpp"
@@ -137,10 +138,8 @@ class Run {
   bool simulate() {
     const base::Stopwatch preparing;
     std::optional<Simulation> made;
-    ranks_.agree_on([&] {
-      if (ranks_.size() == 1) refuse_what_does_not_fit(spec_, task_.threads, task_.most_memory);
-      made.emplace(spec_, task_.threads, ranks_);
-    });
+    accuracy::refuse_what_does_not_fit(spec_, task_.threads, task_.most_memory, ranks_);
+    ranks_.agree_on([&] { made.emplace(spec_, task_.threads, ranks_); });
     Simulation& simulation = *made;
     simulation.prepare();  // what cannot begin must not cost an earlier run
     // A signal before has ended the program at once: there was nothing to save.

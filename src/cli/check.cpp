@@ -47,7 +47,7 @@ ExitCode check(const CheckOptions& given) {
     forecast = accuracy::forecast(spec, options.threads, doing, memory);
     if (given.ranks > 0) {
       doing("sharing the work among ranks");
-      ranks = accuracy::forecast_ranks(spec, forecast, given.ranks);
+      ranks = accuracy::forecast_ranks(spec, forecast.particles_at_most, forecast.program_bytes, given.ranks);
     }
   }
   say("{}", options.json ? json_of(spec, forecast, ranks)
