@@ -16,12 +16,12 @@
 namespace gaussdrift {
 namespace {
 
-/// Some 250 MB for three million particles in 16 tiles and more; nothing of a run is gathered on rank 0.
+/// Three million particles in 16 tiles and more. No rank gathers them.
 Case large_case() {
   return parse_case(case_text({.density = shape_of("wendland", "0, 0", "0.9"),
                                .particles = "per_axis = 2200",
                                .evaluate = "per_axis = 400",
-                               .output = "times = [0]\nimages = []\nreport = false\ncheckpoint = 0"}),
+                               .output = "times = [0]\nimages = []\nvtk = []\nreport = \"none\"\ncheckpoint = 0"}),
                     "scene.toml", {"accuracy.budget=\"none\"", "evaluate.tile_particles=100000"})
       .spec;
 }
