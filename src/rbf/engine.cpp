@@ -27,7 +27,7 @@ constexpr double near_point_seconds = 60e-9;  // sorting a centre or target
 constexpr double near_pair_factor = 1.3;      // in pairs of `direct`
 // The near field takes as long as so many Gauss transforms, by dimension. Gaussians that are narrower than its radius
 // follow each other by factors of about exp(1.4) in t, and begin where the integral's end is about 30 times beyond.
-constexpr double near_transforms[] = {2, 2, 0};
+constexpr double near_transforms[] = {2, 4, 0};
 constexpr double step_of_narrow = 1.4, end_beyond_narrow = 30;
 
 // Parts of the tolerance: most is left to the Gauss transforms.
