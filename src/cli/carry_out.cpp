@@ -19,6 +19,7 @@
 #include "base/printable.hpp"
 #include "base/process_stopwatch.hpp"
 #include "base/seam.hpp"
+#include "base/shell_word.hpp"
 #include "base/size_text.hpp"
 #include "base/stopwatch.hpp"
 #include "cli/checkpoint_keeper.hpp"
@@ -80,7 +81,8 @@ std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed
   const bool pictures = !spec.output.images.empty(), later = pictures && pictures_come_later;
   std::string without;
   if (later)
-    without += fmt::format("page   without pictures for now: gaussdrift report {} draws them\n", folder.string());
+    without += fmt::format("page   without pictures for now: gaussdrift report {} draws them\n",
+                           base::shell_word(folder.string()));
   try {
     const report::ReportFiles page = report::write_report(folder, pictures && !later);
     for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
@@ -89,10 +91,10 @@ std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed
     for (const std::string& why : page.failed)
       owed.miss(fmt::format("{}: {}; gaussdrift report {} makes it later",
                             there ? "the page about this run is not complete" : "there is no page about this run", why,
-                            folder.string()));
+                            base::shell_word(folder.string())));
   } catch (const std::exception& error) {  // what was computed stands in the other files, and its checks count
     owed.miss(fmt::format("there is no page about this run: {}; gaussdrift report {} makes it later", error.what(),
-                          folder.string()));
+                          base::shell_word(folder.string())));
   }
   return without;
 }
@@ -389,7 +391,9 @@ class Run {
     }
   }
 
-  std::string how_to_go_on() const { return fmt::format("resume with: gaussdrift resume {}", folder_.string()); }
+  std::string how_to_go_on() const {
+    return fmt::format("resume with: gaussdrift resume {}", base::shell_word(folder_.string()));
+  }
 
   std::string stopped_text() const {
     return fmt::format(
@@ -402,7 +406,8 @@ class Run {
     if (keeper_->written() == 0 || !complete()) return "";
     return fmt::format("state  {} took {:.2g} s; the last has {} ({}/{}): gaussdrift resume --until T goes on\n",
                        base::counted(keeper_->written(), "checkpoint"), keeper_->seconds(),
-                       base::size_text(keeper_->last().bytes), folder_.string(), write::checkpoints_folder);
+                       base::size_text(keeper_->last().bytes), base::printable(folder_.string()),
+                       write::checkpoints_folder);
   }
 
   std::string shares_text() const {

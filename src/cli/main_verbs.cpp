@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/shell_word.hpp"
 #include "cli/ending.hpp"
 #include "cli/launcher.hpp"
 #include "cli/rank_threads.hpp"
@@ -24,18 +25,9 @@ namespace gaussdrift::cli {
 
 namespace {
 
-/// The command line in a form that a shell reads again: words with unusual characters stand in single quotes.
-std::string quoted(const std::string& word) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_@%+=:,./-";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
-
 std::string typed(int argc, char** argv) {
   std::string command;
-  for (int i = 0; i < argc; ++i) command += (i ? " " : "") + quoted(argv[i]);
+  for (int i = 0; i < argc; ++i) command += (i ? " " : "") + base::shell_word(argv[i]);
   return command;
 }
 

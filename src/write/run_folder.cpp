@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -136,23 +137,23 @@ void remove_run(const fs::path& folder, const OwnFiles& files) {
   OwnFiles({status_name}).remove_from(folder);
 }
 
-/// Of a run, at the top of its folder; what else is there is not looked at.
+/// Folders of a run, also of one that is kept in earlier/, and folders in them: what is written or moved there must not
+/// go elsewhere. A link in place of a file is replaced itself. What else is in the folder is not looked at.
 void check_links(const fs::path& folder) {
-  std::vector<std::string> folders{"images", "state", earlier_name};
-  for (const FileKind& kind : output_files()) folders.emplace_back(kind.about.name);
   std::error_code ignored;
-  const auto check = [&](const std::string& name) {
+  const std::function<void(const fs::path&, int)> check = [&](const fs::path& name, int inner) {
     if (fs::is_symlink(fs::symlink_status(folder / name, ignored)))
-      refuse(folder, fmt::format("{} in it is a link, and links are not followed; remove the link", name));
+      refuse(folder, fmt::format("{} in it is a link, and links are not followed; remove the link", name.string()));
+    if (inner == 0 || !fs::is_directory(folder / name, ignored)) return;
+    std::error_code problem;
+    for (auto entry = fs::directory_iterator(folder / name, problem); !problem && entry != fs::directory_iterator();
+         entry.increment(problem))
+      if (entry->is_directory(ignored)) check(name / entry->path().filename(), inner - 1);  // or a link to one
   };
-  for (const std::string& name : folders) check(name);
-  for (const FileKind& kind : output_files()) {  // folders of pieces
-    const std::string name(kind.about.name);
-    for (auto entry = fs::directory_iterator(folder / name, ignored); !ignored && entry != fs::directory_iterator();
-         entry.increment(ignored))
-      if (entry->is_directory(ignored)) check(name + "/" + entry->path().filename().string());
-    ignored.clear();
-  }
+  std::vector<std::string> folders{"images", checkpoints_folder};
+  for (const FileKind& kind : output_files()) folders.emplace_back(kind.about.name);
+  for (const std::string& name : folders) check(name, 1);
+  check(earlier_name, 2);
 }
 
 std::string view_script(const Case& spec) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/shell_word.hpp"
+
 namespace gaussdrift::base {
 namespace {
 
@@ -42,6 +44,16 @@ TEST(Printable, ShortensBetweenCharacters) {
   EXPECT_EQ(shortened(std::string(100, '\x80'), 5).size(),
             2u + 3u);  // no character at all: at most 3 bytes are looked back
   EXPECT_EQ(in_quotes("root:x:0:0:root:/root:/bin/bash"), "\"root:x:0:0:root:/root:/b...\"");
+}
+
+// A line of the program may be pasted into a shell.
+TEST(ShellWord, IsReadAgainByAShellAndSafeToPrint) {
+  EXPECT_EQ(shell_word("output/cone_2"), "output/cone_2");
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("a b; touch c"), "'a b; touch c'");
+  EXPECT_EQ(shell_word("it's $(id)"), "'it'\\''s $(id)'");
+  EXPECT_EQ(shell_word("k\x1b[31mX'"), "$'k\\x1b[31mX\\''");
+  EXPECT_EQ(printable(shell_word("a\nb\x7f\xff")), shell_word("a\nb\x7f\xff"));
 }
 
 }  // namespace

@@ -194,6 +194,25 @@ TEST(RunFolder, FollowsNoLinks) {
   EXPECT_EQ(state_in(folder / "r"), "complete");
 }
 
+TEST(RunFolder, FollowsNoLinksFurtherInside) {
+  for (const char* place : {"state/0", "state/1", "state/pictures", "density/density_0000", "earlier/density",
+                            "earlier/state", "earlier/state/0"}) {
+    const ScratchFolder folder;
+    write_text(folder / "precious/density_0000.vti", "mine");
+    run_in(folder / "r", "old", false, 1, true);
+    fs::create_directories((folder / "r" / place).parent_path());
+    fs::remove_all(folder / "r" / place);
+    fs::create_directory_symlink(folder / "precious", folder / "r" / place);
+    for (const RunFolderOptions& options : {RunFolderOptions{.force = true}, RunFolderOptions{.go_on = true}}) {
+      const auto text = message_of<FileError>([&] { RunFolder(folder / "r", some_case(1), options); });
+      EXPECT_NE(text.find(std::string(place) + " in it is a link, and links are not followed"), std::string::npos)
+          << place << ": " << text;
+    }
+    EXPECT_EQ(read_file(folder / "precious/density_0000.vti"), "mine");
+    EXPECT_EQ(state_in(folder / "r"), "complete");
+  }
+}
+
 TEST(RunFolder, ReplacesNoFileThatIsNotOnTheListOfTheEarlierRun) {
   const ScratchFolder folder;
   run_in(folder / "r", "old", false, 1, true);
