@@ -1,6 +1,7 @@
 #include "accuracy/forecast.hpp"
 
 #include <fmt/format.h>
+#include <fgtd/fgtd.hpp>
 
 #include <algorithm>
 #include <array>
@@ -121,14 +122,15 @@ void try_density(const Case& spec, const Trial& trial, int threads, Forecast& re
   options.threads = 1;  // the density is the same for any
   const auto n = static_cast<double>(trial.particles.size());
   Lattice grid = trial.grid;
-  const bool pairs = spec.evaluate.method == "direct";
+  const std::string all_pairs = to_string(fgtd::Method::direct);
+  const bool pairs = spec.evaluate.method == all_pairs;
   for (std::size_t k = 0; pairs && n * static_cast<double>(grid.size()) > most_pairs; k = (k + 1) % max_dimension)
     grid.points[k] = (grid.points[k] + 1) / 2;  // of the same spacing: pairs cost the same wherever they are
   const auto all = static_cast<double>(result.particles), points = static_cast<double>(result.grid_points),
              m = static_cast<double>(grid.size());
   // A method that cannot serve gives way to all pairs; `auto` has others.
   const auto times_by = [&](const std::string& asked, const std::string& done_by) {
-    return asked != "auto" && done_by == "direct" ? all * points / (n * m) : (all + points) / (n + m);
+    return asked != "auto" && done_by == all_pairs ? all * points / (n * m) : (all + points) / (n + m);
   };
   double times = times_by(spec.evaluate.method, spec.evaluate.method);
   double predicted = 0;  // seconds of a sum that is too slow to be tried

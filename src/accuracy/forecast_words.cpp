@@ -6,6 +6,7 @@
 #include "accuracy/grouped.hpp"
 #include "base/counted.hpp"
 #include "base/size_text.hpp"
+#include "effect/catalogue.hpp"
 #include "reference/reference.hpp"
 #include "sim/outside.hpp"
 
@@ -39,6 +40,7 @@ std::string head_text(const Case& spec, const Forecast& r) {
 }
 
 std::string particles_text(const Case& spec, const Forecast& r) {
+  const std::string_view besides = carried_besides(spec.effects);
   std::string text;
   text += fmt::format("velocity   {}\n", r.velocity);
   for (const std::string& warning : r.step_warnings) text += fmt::format("           {}\n", warning);
@@ -46,13 +48,13 @@ std::string particles_text(const Case& spec, const Forecast& r) {
   text +=
       fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}\n",
                   grouped(r.lattice_points), r.spacing, spec.particles.overlap, r.core_radius, spec.particles.cutoff,
-                  r.whole ? "" : "about ", grouped(r.particles), r.seeding.carried.size() > 1 ? " or charge" : "");
+                  r.whole ? "" : "about ", grouped(r.particles), besides.empty() ? "" : fmt::format(" or {}", besides));
   if (r.seeding.left_out > 0)
     text += fmt::format(
         "           {} with less than {:g} of the largest weight are left out: {:.1e} of the mass{} "
         "(particles.threshold)\n",
         grouped(r.seeding.left_out), spec.particles.threshold, r.seeding.carried.front().part(),
-        r.seeding.carried.size() > 1 ? fmt::format(", {:.1e} of the charge", r.seeding.carried.back().part()) : "");
+        besides.empty() ? "" : fmt::format(", {:.1e} of the {}", r.seeding.carried.back().part(), besides));
   if (const std::string beyond = about_beyond(r.beyond_at_start); !beyond.empty())
     text += fmt::format("           {}\n", beyond);
   return text;

@@ -36,7 +36,7 @@ struct RenderOptions {
 
 void declare(OptionList& options, RenderOptions& given) {
   options.add("folder", given.folder, "DIR", "folder of a run, or a .vti or .pvti").required();
-  options.add("--style", given.style, "NAME", "surface, contour, heatmap; slices, projection, isosurface; error");
+  options.add("--style", given.style, "NAME", fmt::format("{}", fmt::join(render::style_names(), ", ")));
   options.add("--field", given.field, "NAME", "rho (the default), rho_exact or error");
   options.add("--times", given.times, "T,...", "only these output times").separated_by(',');
   options.add("--out", given.out, "DIR", "folder for the pictures; images/ of the run by default");

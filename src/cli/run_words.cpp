@@ -6,6 +6,7 @@
 
 #include "base/counted.hpp"
 #include "base/stopwatch.hpp"
+#include "effect/catalogue.hpp"
 #include "sim/checks.hpp"
 #include "write/output_files.hpp"
 #include "write/series_table.hpp"
@@ -57,7 +58,8 @@ std::string seconds_text(const RunSummary& summary) {
 
 std::string left_out_text(const Case& spec, const SeedReport& seeding) {
   std::string parts = fmt::format("{:.1e} of the mass", seeding.carried.front().part());
-  if (seeding.carried.size() > 1) parts += fmt::format(", {:.1e} of the charge", seeding.carried.back().part());
+  if (const std::string_view besides = carried_besides(spec.effects); !besides.empty())
+    parts += fmt::format(", {:.1e} of the {}", seeding.carried.back().part(), besides);
   return fmt::format("left out {} lattice points with less than {:g} of the largest weight: {} (particles.threshold)\n",
                      seeding.left_out, spec.particles.threshold, parts);
 }

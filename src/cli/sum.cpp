@@ -131,7 +131,7 @@ void check_options(const SumOptions& options) {
     if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
       throw CommandLineError(
           fmt::format("--tolerance {}: must lie in [{}, 1)", tolerance_of(options), fgtd::smallest_tolerance));
-    if (by_hand(options) && options.method != "auto" && options.method != "hermite")
+    if (by_hand(options) && options.method != "auto" && options.method != to_string(fgtd::Method::hermite))
       throw CommandLineError(fmt::format("--r, --p and --n belong to the method hermite, not to {}", options.method));
   } else {
     throw CommandLineError(fmt::format("--kernel: there is no \"{}\"; there are gauss, coulomb, log", options.kernel));

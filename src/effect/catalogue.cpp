@@ -93,7 +93,27 @@ std::string beyond_budgets(const EffectsSpec& named, int dimension) {
   for (const auto& [effect, spec] : present)
     if (reason.empty() && effect->decay_rate.empty())
       reason = "what [effects." + spec.name + "] does is not known to it";
-  return reason.empty() ? "" : reason + "; a budget covers transport and reaction";
+  return reason.empty() ? "" : reason + "; a budget covers " + known_to_budgets();
+}
+
+std::string known_to_budgets() {
+  std::string words = "transport";
+  for (const NamedEffect& effect : effects())
+    if (!effect.decay_rate.empty()) words += fmt::format(" and {}", effect.about.name);
+  return words;
+}
+
+std::string_view carried_besides(const EffectsSpec& named) {
+  for (const auto& [effect, spec] : effects_of(named))
+    if (!effect->carried.empty() && spec.has(effect->carried)) return effect->carried_name;
+  return {};
+}
+
+std::string largest_of_carried() {
+  std::string words;
+  for (const NamedEffect& effect : effects())
+    if (!effect.carried.empty()) words += fmt::format(", and of the largest {}", effect.carried_name);
+  return words;
 }
 
 const NamedEffect* overlap_restorer() {

@@ -99,6 +99,8 @@ struct NamedEffect {
   std::string_view decay_rate = {};
   /// The key with a density that particles carry besides rho_0; particles start where either is.
   std::string_view carried = {};
+  /// What that is called: "charge".
+  std::string_view carried_name = {};
   /// Words of other programs that ask for it, and what is possible in their place.
   std::vector<std::pair<std::string_view, std::string_view>> elsewhere = {};
   /// What is wrong with it in a case whose domain, particles and times have been read.
@@ -145,6 +147,14 @@ double spreading(const EffectsSpec& named);
 /// Why the errors of a case with these effects are not predicted: the causes that a budget knows are those of transport
 /// and of weights that decay along their paths. Empty: they are.
 std::string beyond_budgets(const EffectsSpec& named, int dimension);
+
+/// "transport and reaction": what budgets, exact densities and --accuracy know.
+std::string known_to_budgets();
+
+/// What particles carry besides their mass: "charge"; empty: nothing.
+std::string_view carried_besides(const EffectsSpec& named);
+/// ", and of the largest charge": of all that effects may let them carry.
+std::string largest_of_carried();
 
 /// The first effect that puts lost overlap right; null if there is none.
 const NamedEffect* overlap_restorer();

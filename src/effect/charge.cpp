@@ -163,6 +163,7 @@ NamedEffect charge() {
                                   .remedy = "leave out one of them, or effects.charge.density",
                                   .holds = has_density}},
       .carried = "density",
+      .carried_name = "charge",
       .memory = [](const EffectSpec&,
                    int dimension) { return EffectMemory{.step = PairVelocity::bytes_of_particle(dimension)}; },
       .make = make_charge};

@@ -208,7 +208,7 @@ std::vector<Explanation> meanings_of(std::string_view word) {
   std::vector<Explanation> found;
   if (bare == "effects") found.push_back(about_effects());
   for (const Table& table : tables())
-    if (table.name == bare) found.push_back(about(table));
+    if (table.name == bare || table.name == fmt::format("effects.{}", bare)) found.push_back(about(table));
   if (bare != word) return found;  // [particles] is nothing else
   const std::string symbol = plain_symbol(word);
   for (const Key& key : keys())

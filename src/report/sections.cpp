@@ -188,16 +188,18 @@ std::string particles(const json& summary) {
   std::string text =
       fmt::format("<h2>Particles</h2><p>{} on a lattice of {} points, {} apart.", number(count.at("carried"), "{:.0f}"),
                   number(get(count, "lattice_points"), "{:.0f}"), number(get(count, "spacing"), "{:.4g}"));
+  std::string besides;  // "charge_left_out": what particles carry besides their mass
+  constexpr std::string_view ending = "_left_out";
+  for (const auto& [name, value] : count.items())
+    if (name.ends_with(ending) && name != "mass_left_out")
+      besides += fmt::format(" and {} of the {}", number(value, "{:.1e}"), name.substr(0, name.size() - ending.size()));
   if (!is_zero(left_out))
     text += fmt::format(
         " {} points with less than {} of the largest weight have none (particles.threshold): with them {} of the "
         "mass{} "
         "is left out.",
         number(left_out, "{:.0f}"), number(get(count, "threshold"), "{:g}"),
-        number(get(count, "mass_left_out"), "{:.1e}"),
-        count.contains("charge_left_out")
-            ? fmt::format(" and {} of the charge", number(count.at("charge_left_out"), "{:.1e}"))
-            : "");
+        number(get(count, "mass_left_out"), "{:.1e}"), besides);
   return text + "</p>\n";
 }
 

@@ -53,7 +53,7 @@ class BlobSum {
     double scale = 0;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight
   };
   static std::vector<WidthGroup> group_by_width(const Cutoff& cutoff);
-  bool by_hand() const { return options_.method == "hermite" && options_.hermite; }
+  bool by_hand() const { return options_.method == to_string(fgtd::Method::hermite) && options_.hermite; }
   // Bound (3.5) of the error of the sum with parameters by hand.
   double bound_by_hand() const;
   fgtd::Options options_for(const WidthGroup& group, const fgtd::TensorGrid& grid) const;

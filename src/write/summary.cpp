@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "effect/catalogue.hpp"
 #include "reference/reference.hpp"
 #include "sim/checks.hpp"
 
@@ -21,7 +22,8 @@ json particles_of(const Case& spec, const RunSummary& summary) {
                  {"left_out", summary.seeding.left_out},
                  {"threshold", spec.particles.threshold},
                  {"mass_left_out", summary.seeding.carried.front().part()}};
-  if (summary.seeding.carried.size() > 1) particles["charge_left_out"] = summary.seeding.carried.back().part();
+  if (const std::string_view besides = carried_besides(spec.effects); !besides.empty())
+    particles[fmt::format("{}_left_out", besides)] = summary.seeding.carried.back().part();
   if (summary.beyond_at_start > 0) particles["mass_outside_at_start"] = summary.beyond_at_start;
   particles["spacing"] = summary.spacing;
   particles["core_radius"] = summary.core_radius;

@@ -16,6 +16,7 @@
 #include "case_text.hpp"
 #include "effect/catalogue.hpp"
 #include "effect/remesh_kernel.hpp"
+#include "fgtd/fgtd.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
@@ -24,6 +25,7 @@
 #include "input/markdown.hpp"
 #include "message_of.hpp"
 #include "particle/cutoff.hpp"
+#include "render/styles.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift {
@@ -91,6 +93,7 @@ TEST(Toy, EffectIsAddedThroughItsCatalogueAlone) {
   const base::Added<NamedEffect> toy(fading());
 
   EXPECT_TRUE(has(explained("effects.fading"), "weights fade"));
+  EXPECT_TRUE(has(explained("fading"), "weights fade"));
   EXPECT_TRUE(has(explained("strength"), "how fast"));
   EXPECT_TRUE(has(explained("times"), "`twice` is fast"));
   EXPECT_TRUE(has(input::schema_json(), "\"fading\""));
@@ -241,9 +244,24 @@ TEST(Catalogues, AreTheOnlyPlaceOfTheirNames) {
   for (const auto& more :
        {base::names_of(effects()), base::names_of(remesh_kernels()), base::names_of(time::tableaux())})
     names.insert(names.end(), more.begin(), more.end());
-  const std::vector<std::string> own{"src/effect/", "src/particle/cutoffs.cpp", "src/time/tableau.cpp",
-                                     "src/reproduce/cone.cpp",       // as the paper has it
-                                     "src/input/column_names.cpp"};  // words of tables, such as "charge"
+  std::vector<std::string> methods;
+  for (const fgtd::Method method : fgtd::methods())
+    if (method != fgtd::Method::automatic) methods.push_back(to_string(method));  // "auto" is a word of many keys
+  names.insert(names.end(), methods.begin(), methods.end());
+  for (const render::Style& style : render::styles())
+    if (style.about.name != "error") names.push_back(style.about.name);  // the error is an array and a column, too
+  const std::vector<std::string> own{"src/effect/",
+                                     "src/particle/cutoffs.cpp",
+                                     "src/time/tableau.cpp",
+                                     "src/fgtd/",
+                                     "src/render/",
+                                     "src/farfield/",
+                                     "src/rbf/",                    // have methods of their own with these names
+                                     "src/reproduce/",              // as the papers have it
+                                     "src/input/column_names.cpp",  // words of tables, such as "charge"
+                                     "src/input/foreign_keys.cpp",  // words of other programs, such as "cells"
+                                     "src/read/stored_grid.cpp",    // values at cells
+                                     "src/write/checkpoint.cpp"};   // members of its manifest
   const std::filesystem::path root = SOURCE_DIR;
   int seen = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "src")) {

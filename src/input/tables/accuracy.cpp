@@ -42,7 +42,7 @@ void read_accuracy(Reader& in, Case& spec) {
   if (const Entry* written = in.find("accuracy", "target"); written && !without.empty())
     in.diagnostics.error(written->value.place,
                          fmt::format("no settings can be chosen for a target with [effects.{}]", without),
-                         "the error is predicted for transport and reaction; leave out accuracy.target");
+                         fmt::format("the error is predicted for {}; leave out accuracy.target", known_to_budgets()));
 }
 
 void write_accuracy(Writer& out, const AccuracySpec& accuracy) {

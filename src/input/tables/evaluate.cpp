@@ -25,6 +25,9 @@ std::vector<std::string_view> summation_methods() {
 }  // namespace
 
 Section evaluate_section() {
+  std::string methods = "algorithm that sums the Gauss transform";
+  for (const fgtd::Method method : fgtd::methods())
+    methods += fmt::format(". `{}`: {}", to_string(method), meaning(method));
   return {
       Table{.name = "evaluate", .required = false, .meaning = "the lattice on which the density is summed for output"},
       {{.name = "per_axis",
@@ -45,11 +48,7 @@ Section evaluate_section() {
         .fallback = "1e-08",
         .range = {1e-14, 1, false, true},
         .meaning = "error allowed in the Gauss transform, relative to the largest density at that output"},
-       {.name = "method",
-        .type = Type::choice,
-        .fallback = "auto",
-        .choices = summation_methods(),
-        .meaning = "algorithm that sums the Gauss transform. `auto` takes the cheapest"},
+       {.name = "method", .type = Type::choice, .fallback = "auto", .choices = summation_methods(), .meaning = methods},
        {.name = "r",
         .type = Type::number,
         .fallback = "0.5",
@@ -149,7 +148,7 @@ void read_by_hand(Reader& in, EvaluateSpec& evaluate) {
   for (const char* key : {"r", "p", "n"})
     if (const Entry* entry = in.find("evaluate", key); entry && !given) given = entry;
   if (!given) return;
-  if (evaluate.method != "hermite") {
+  if (evaluate.method != to_string(fgtd::Method::hermite)) {
     in.diagnostics.error(
         given->place, fmt::format("evaluate.r, p and n go with method = \"hermite\", not with \"{}\"", evaluate.method),
         "write method = \"hermite\", or leave them out: a tolerance is enough");

@@ -45,16 +45,15 @@ Section particles_section() {
        .meaning = with_choices("shape of the blob. A higher order blurs less", cutoffs())}};
   for (const NamedCutoff& cutoff : cutoffs())
     for (const NamedParameter& parameter : cutoff.parameters) keys.push_back(key_of(parameter));
-  keys.push_back(
-      {.name = "threshold",
-       .type = Type::number,
-       .fallback = "1e-12",
-       .range = {0, 0.01},
-       .meaning = fmt::format(
-           "lattice points that carry less than this part of the largest weight, and of the largest charge, get no "
-           "particle. The run says how many they are and how much they would carry. With {}, which can raise small "
-           "weights, the default is 0: every point that carries anything gets a particle",
-           tables_that_grow_weights())});
+  keys.push_back({.name = "threshold",
+                  .type = Type::number,
+                  .fallback = "1e-12",
+                  .range = {0, 0.01},
+                  .meaning = fmt::format(
+                      "lattice points that carry less than this part of the largest weight{}, get no particle. The run "
+                      "says how many they are and how much they would carry. With {}, which can raise small "
+                      "weights, the default is 0: every point that carries anything gets a particle",
+                      largest_of_carried(), tables_that_grow_weights())});
   return {Table{.name = "particles",
                 .required = true,
                 .meaning =

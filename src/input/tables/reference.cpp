@@ -5,6 +5,7 @@
 
 #include "effect/catalogue.hpp"
 #include "input/tables/tables.hpp"
+#include "render/styles.hpp"
 
 namespace gaussdrift::input {
 
@@ -37,6 +38,16 @@ Section reference_section() {
             "where velocity or reaction are not smooth (data on a grid, `abs`, ...). If 16 points are too many, "
             "the error is not measured, unless a check or a target needs it"}}};
 }
+
+namespace {
+
+bool shows_error(std::string_view style) {
+  const auto& all = render::styles();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const render::Style& one) { return one.about.name == style && one.about.shows_error; });
+}
+
+}  // namespace
 
 using Kind = Value::Kind;
 
@@ -74,11 +85,12 @@ void read_reference(Reader& in, Case& spec) {
   if (points && none) in.diagnostics.error(points->place, "\"points\" has no meaning where reference.kind is \"none\"");
   if (!images || (!none && !points)) return;
   for (const Value& item : images->value.items)
-    if (item.kind == Kind::text && item.text == "error")
+    if (item.kind == Kind::text && shows_error(item.text))
       in.diagnostics.error(
           item.place,
-          none ? "the picture \"error\" needs an exact density, but reference.kind is \"none\""
-               : "the picture \"error\" needs the whole grid, but reference.points takes a sample",
+          fmt::format("the picture \"{}\" needs {}", item.text,
+                      none ? "an exact density, but reference.kind is \"none\""
+                           : "the whole grid, but reference.points takes a sample"),
           none ? "leave out reference.kind, or the picture" : "leave out reference.points, or the picture");
 }
 
