@@ -182,7 +182,7 @@ std::vector<const Element*> coordinates_of(const FileBytes& file, const Element&
   return coordinates;
 }
 
-void read_image_attributes(const FileBytes& file, const Element& grid, Description& result) {
+void read_image_attributes(const FileBytes& file, const Element& grid, GridDescription& result) {
   if (const auto origin = attribute<double, 3>(file, grid, "Origin", "three numbers")) result.origin = *origin;
   if (const auto spacing = attribute<double, 3>(file, grid, "Spacing", "three numbers")) result.spacing = *spacing;
   for (const auto& [name, rounding] :
@@ -217,7 +217,7 @@ std::array<std::size_t, 3> lengths(const Extent& piece, const Extent& whole, boo
   return result;
 }
 
-bool Description::covered(bool cells) const {
+bool GridDescription::covered(bool cells) const {
   if (pieces.size() == 1) return pieces[0].extent == extent;
   const auto all = lengths(extent, extent, cells);
   std::vector<bool> is_covered(all[0] * all[1] * all[2]);
@@ -228,7 +228,7 @@ bool Description::covered(bool cells) const {
   return std::find(is_covered.begin(), is_covered.end(), false) == is_covered.end();
 }
 
-bool Description::overlaps() const {
+bool GridDescription::overlaps() const {
   const auto all = lengths(extent, extent, true);
   std::vector<bool> is_taken(all[0] * all[1] * all[2]);
   bool found = false;
@@ -242,8 +242,8 @@ bool Description::overlaps() const {
   return found;
 }
 
-Description describe_grid(const FileBytes& file, const Element& grid, bool image) {
-  Description result;
+GridDescription describe_grid(const FileBytes& file, const Element& grid, bool image) {
+  GridDescription result;
   result.extent = extent_of(file, grid, "WholeExtent");
   std::vector<const Element*> pieces;
   for (const Element& child : grid.children)

@@ -30,11 +30,11 @@ void for_rows(const Extent& piece, const Extent& whole, bool cells, const Work& 
 
 struct Piece {
   Extent extent{};
-  std::vector<const Element*> arrays;       // as Description::arrays
+  std::vector<const Element*> arrays;       // as GridDescription::arrays
   std::vector<const Element*> coordinates;  // of a rectilinear grid, x, y, z
 };
 
-struct Description {
+struct GridDescription {
   Extent extent{};
   std::vector<Piece> pieces;
   std::vector<ArrayInfo> arrays;                     // of all pieces, masks too
@@ -50,6 +50,6 @@ struct Description {
 };
 
 /// `image`: of image data, which has its coordinates in attributes. Points at `grid`. Throws GridFileError.
-Description describe_grid(const FileBytes& file, const Element& grid, bool image);
+GridDescription describe_grid(const FileBytes& file, const Element& grid, bool image);
 
 }  // namespace gaussdrift::read

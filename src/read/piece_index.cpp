@@ -95,7 +95,7 @@ void check_pieces(const FileBytes& bytes, const PieceIndex& index) {
                         "write the file again with all of its pieces");
 }
 
-Lattice lattice_of(const FileBytes& bytes, const Element& grid, const Description& about) {
+Lattice lattice_of(const FileBytes& bytes, const Element& grid, const GridDescription& about) {
   Lattice lattice;
   lattice.dimension = about.extent[4] == about.extent[5] ? 2 : 3;
   double points = 1;
@@ -131,7 +131,7 @@ PieceIndex read_piece_index(const std::filesystem::path& file) {
         fmt::format("{} is not a file of the kind that its name says: .pvti has <VTKFile "
                     "type=\"PImageData\"> and a <PImageData> inside",
                     bytes.name()));
-  const Description about = describe_grid(bytes, *grid, true);
+  const GridDescription about = describe_grid(bytes, *grid, true);
   PieceIndex index;
   index.lattice = lattice_of(bytes, *grid, about);
   for (const Element& child : grid->children) {

@@ -32,7 +32,7 @@ struct StoredGrid::Parts {
   FileBytes file;
   XmlFile xml;
   BinaryForm form;
-  Description description;
+  GridDescription description;
   std::array<std::size_t, 3> points{};
   std::vector<ArrayInfo> arrays;
   std::vector<ArrayValues> values;
@@ -121,7 +121,7 @@ struct StoredGrid::Parts {
   }
 
   void read_axes() {
-    const Description& about = description;
+    const GridDescription& about = description;
     for (std::size_t k = 0; k < 3; ++k) {
       const int first = about.extent[2 * k];
       if (about.pieces[0].coordinates.empty()) {
@@ -208,7 +208,7 @@ struct StoredGrid::Parts {
 
 StoredGrid::StoredGrid(const std::filesystem::path& file) : parts_(std::make_unique<Parts>(file)) {
   parts_->describe(file);
-  const Description& about = parts_->description;
+  const GridDescription& about = parts_->description;
   double count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     parts_->points[k] = static_cast<std::size_t>(about.extent[2 * k + 1] - about.extent[2 * k]) + 1;
@@ -234,7 +234,7 @@ double StoredGrid::time() const { return parts_->time; }
 
 void StoredGrid::load(const std::vector<ArrayInfo>& wanted) {
   Parts& parts = *parts_;
-  const Description& about = parts.description;
+  const GridDescription& about = parts.description;
   double points = 1;
   for (const std::size_t length : parts.points) points *= static_cast<double>(length);
   double numbers = 0;

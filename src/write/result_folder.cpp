@@ -23,25 +23,25 @@ namespace {
 constexpr const char* status_name = "status.json";
 constexpr const char* earlier_name = "earlier";
 
-struct Told {
+struct FolderStatus {
   std::string kind;
   bool has_result = false, is_set_aside = false;
   OwnFiles files;
 };
 
 /// What status.json says. The folder may be a stranger's: what has another type than it should is as if it were not there.
-std::optional<Told> told_in(const fs::path& folder) {
+std::optional<FolderStatus> status_in(const fs::path& folder) {
   const auto there =
       base::json_if_there(folder / status_name, base::most_json_of_names, "choose another folder with --out");
   if (!there) return {};
   const json& all = *there;
   try {
-    Told told{.kind = all.at("kind").get<std::string>(),
-              .has_result = all.value("has_result", true),
-              .is_set_aside = all.value("set_aside", false),
-              .files = {}};
-    for (const json& name : all.at("files")) told.files.add(name.get<std::string>());
-    return told;
+    FolderStatus status{.kind = all.at("kind").get<std::string>(),
+                        .has_result = all.value("has_result", true),
+                        .is_set_aside = all.value("set_aside", false),
+                        .files = {}};
+    for (const json& name : all.at("files")) status.files.add(name.get<std::string>());
+    return status;
   } catch (const json::exception&) {
     return {};
   }
@@ -74,10 +74,11 @@ ResultFolder::ResultFolder(fs::path folder, std::string kind, Earlier earlier, c
   std::error_code problem;
   if (fs::is_symlink(fs::symlink_status(folder_ / earlier_name, problem)))
     refuse(folder_, "earlier in it is a link, and links are not followed");
-  const auto told = told_in(folder_), aside = told_in(folder_ / earlier_name);
-  if (told && told->kind != kind_) refuse(folder_, fmt::format("it holds results of another kind ({})", told->kind));
-  if (!told && fs::exists(folder_ / "run.toml")) refuse(folder_, "it holds a run");
-  earlier_ = told ? told->files : without_list;
+  const auto status = status_in(folder_), aside = status_in(folder_ / earlier_name);
+  if (status && status->kind != kind_)
+    refuse(folder_, fmt::format("it holds results of another kind ({})", status->kind));
+  if (!status && fs::exists(folder_ / "run.toml")) refuse(folder_, "it holds a run");
+  earlier_ = status ? status->files : without_list;
   aside_ = aside && aside->kind == kind_ && aside->is_set_aside;
   if (earlier == Earlier::join) {
     own_ = earlier_;
@@ -89,11 +90,11 @@ ResultFolder::ResultFolder(fs::path folder, std::string kind, Earlier earlier, c
         fmt::format("{} holds an earlier {}, or what is left of one; --force replaces it, --out DIR writes "
                     "elsewhere",
                     folder_.string(), kind_));
-  replaces_ = there || (told && told->is_set_aside);
-  if (!aside_ && !(told && told->is_set_aside) && fs::exists(folder_ / earlier_name) && replaces_ &&
+  replaces_ = there || (status && status->is_set_aside);
+  if (!aside_ && !(status && status->is_set_aside) && fs::exists(folder_ / earlier_name) && replaces_ &&
       !fs::is_empty(folder_ / earlier_name, problem))
     refuse(folder_, "earlier in it is not of a " + kind_ + ", and the earlier one would be kept there; move it away");
-  if (replaces_ && aside_ && told && !told->has_result) {  // died before its first result: the one before is kept
+  if (replaces_ && aside_ && status && !status->has_result) {  // died before its first result: the one before is kept
     remove_results(folder_, earlier_);
     earlier_ = {}, replaces_ = false;
   }
@@ -109,7 +110,7 @@ ResultFolder::~ResultFolder() {
 void ResultFolder::set_aside() {
   const fs::path aside = folder_ / earlier_name;
   if (aside_)
-    if (const auto before = told_in(aside)) remove_results(aside, before->files);
+    if (const auto before = status_in(aside)) remove_results(aside, before->files);
   write_status(folder_, {{"kind", kind_}, {"set_aside", true}, {"files", earlier_.names()}});
   std::error_code problem;
   fs::create_directory(aside, problem);
@@ -147,7 +148,7 @@ void ResultFolder::has_result() {
   tell("running");
   if (!aside_) return;
   const fs::path aside = folder_ / earlier_name;
-  if (const auto before = told_in(aside)) remove_results(aside, before->files);
+  if (const auto before = status_in(aside)) remove_results(aside, before->files);
   std::error_code not_empty;  // a user's file in it stays
   fs::remove(aside, not_empty);
   aside_ = false;
