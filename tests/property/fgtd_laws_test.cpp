@@ -251,7 +251,8 @@ TEST(Choice, TellsParametersInTheWordsOfTheMethod) {
     EXPECT_NE(line.find(words), std::string::npos) << line;
   };
   expect(fgtd::Method::direct, {}, "bound 0, about ");
-  expect(fgtd::Method::hermite, {"box_scale", "box_side", "expansion_order", "neighbours", "boxes", "cost"}, " occupied boxes");
+  expect(fgtd::Method::hermite, {"box_scale", "box_side", "expansion_order", "neighbours", "boxes", "cost"},
+         " occupied boxes");
   expect(fgtd::Method::cells, {"side", "within_reach", "occupied"}, ", cells of side ");
   expect(fgtd::Method::outer_product, {"side", "within_reach", "occupied"}, ", cells of side ");
   expect(fgtd::Method::chebyshev, {"box_side", "nodes", "neighbours", "boxes"}, " nodes an axis, ");
