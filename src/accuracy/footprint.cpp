@@ -106,17 +106,36 @@ double particles_at_most(const Case& spec, Trial& trial) {
   return carrier.replaces_particles() && spec.time.end > 0 ? at_start * grow(spec, trial).most : at_start;
 }
 
+namespace {
+
+bool keeps_checkpoints(const Case& spec, double seconds) {
+  return spec.output.checkpoint ? *spec.output.checkpoint > 0 : seconds >= write::long_run;
+}
+
+// Densities of a run without density files, for pictures that are drawn again.
+double densities_for_pictures(const Case& spec, const Extent& extent) {
+  if (spec.output.images.empty() || base::has_one(spec.output.files, &OutputFile::shows_density)) return 0;
+  return static_cast<double>(spec.output.times.size()) * kept_for_pictures(spec, extent.grid_points) *
+         (extent.compared_everywhere ? 2 : 1);
+}
+
+}  // namespace
+
+double most_disk_of_run(const Case& spec, const Extent& all, double seconds) {
+  const double for_pictures = keeps_checkpoints(spec, seconds) ? 0 : densities_for_pictures(spec, in_files(spec, all));
+  return disk_of_run(spec, all, seconds) + for_pictures;
+}
+
 double disk_of_run(const Case& spec, const Extent& all, double seconds) {
   const Extent extent = in_files(spec, all);
   const auto frames = static_cast<double>(spec.output.times.size());
   double bytes = 1e4 + 250 * frames;
   for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
-  if (!spec.output.images.empty() && !base::has_one(spec.output.files, &OutputFile::shows_density))
-    bytes += frames * kept_for_pictures(spec, extent.grid_points) * (extent.compared_everywhere ? 2 : 1);
   for (const OutputFile& file : spec.output.files) bytes += frames * write::find_output_file(file.name).bytes(extent);
   if (spec.output.report) bytes += 5e4 + (spec.output.images.empty() ? 0 : 5e5);  // the page and its picture
-  const bool checkpoints = spec.output.checkpoint ? *spec.output.checkpoint > 0 : seconds >= write::long_run;
-  if (checkpoints) bytes += 2 * extent.particles * bytes_of_particle(spec, memory_of_effects(spec));
+  if (keeps_checkpoints(spec, seconds))
+    bytes +=
+        2 * extent.particles * bytes_of_particle(spec, memory_of_effects(spec)) + densities_for_pictures(spec, extent);
   return bytes;
 }
 

@@ -36,5 +36,7 @@ std::string how_to_lower(const RunMemory& run, double program);
 
 /// Bytes of all files of a run that takes about `seconds`, at most: with two checkpoints, where it writes some.
 double disk_of_run(const Case& spec, const Extent& extent, double seconds);
+/// The most that it takes while it runs: densities for pictures may be kept until the end.
+double most_disk_of_run(const Case& spec, const Extent& extent, double seconds);
 
 }  // namespace gaussdrift::accuracy

@@ -115,11 +115,11 @@ std::string provenance_of(const RunTask& task) {
 
 /// Bytes that the run will write.
 double disk_of(const Case& spec, const Simulation& simulation, int threads) {
-  return accuracy::disk_of_run(spec,
-                               {.particles = static_cast<double>(simulation.particle_count()),
-                                .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
-                                .compared_everywhere = simulation.compares_everywhere()},
-                               simulation.rough_seconds() / base::resolve_threads(threads));
+  return accuracy::most_disk_of_run(spec,
+                                    {.particles = static_cast<double>(simulation.particle_count()),
+                                     .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
+                                     .compared_everywhere = simulation.compares_everywhere()},
+                                    simulation.rough_seconds() / base::resolve_threads(threads));
 }
 
 class Run {
