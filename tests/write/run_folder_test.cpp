@@ -194,6 +194,18 @@ TEST(RunFolder, FollowsNoLinks) {
   EXPECT_EQ(state_in(folder / "r"), "complete");
 }
 
+TEST(RunFolder, LeavesWhatOthersHavePutBesideItsCheckpoints) {
+  const ScratchFolder folder;
+  run_in(folder / "r", "old", false, 1, true);
+  write_text(folder / "r/state/1/run.raw", "its own");
+  write_text(folder / "r/state/notes.txt", "mine");
+  write_text(folder / "r/state/9/x", "mine");
+  run_in(folder / "r", "new", true, 1, true);
+  EXPECT_FALSE(fs::exists(folder / "r/state/1/run.raw"));
+  EXPECT_EQ(read_file(folder / "r/state/notes.txt"), "mine");
+  EXPECT_EQ(read_file(folder / "r/state/9/x"), "mine");
+}
+
 TEST(RunFolder, FollowsNoLinksFurtherInside) {
   for (const char* place : {"state/0", "state/1", "state/pictures", "density/density_0000", "earlier/density",
                             "earlier/state", "earlier/state/0"}) {
