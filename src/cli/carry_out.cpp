@@ -13,7 +13,6 @@
 #include "accuracy/footprint.hpp"
 #include "accuracy/ranks_memory.hpp"
 #include "base/counted.hpp"
-#include "base/has_one.hpp"
 #include "base/json_file.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
@@ -27,6 +26,8 @@
 #include "cli/look_back.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
+#include "cli/run_observers.hpp"
+#include "cli/run_page.hpp"
 #include "cli/run_words.hpp"
 #include "cli/stop_request.hpp"
 #include "cli/terminal.hpp"
@@ -34,16 +35,11 @@
 #include "gaussdrift/read_case.hpp"
 #include "input/data_files.hpp"
 #include "input/same_past.hpp"
-#include "render/picture.hpp"
-#include "render/picture_series.hpp"
 #include "render/styles.hpp"
-#include "report/page.hpp"
 #include "sim/scene.hpp"
 #include "write/atomic_file.hpp"
-#include "write/output_files.hpp"
 #include "write/provenance.hpp"
 #include "write/run_folder.hpp"
-#include "write/series_table.hpp"
 #include "write/summary.hpp"
 
 namespace gaussdrift::cli {
@@ -51,53 +47,6 @@ namespace gaussdrift::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// `later`: lines of warning for the end of the run.
-void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder, std::vector<std::string>& later) {
-  simulation.observe(
-      write::series_table(folder, spec.domain.dimension, spec.reference.kind != ReferenceSpec::Kind::none));
-  for (const OutputFile& file : spec.output.files)
-    simulation.observe(write::file_series(write::find_output_file(file.name), folder));
-  if (const auto& images = spec.output.images; !images.empty()) {
-    if (const std::string reason = render::unavailable_reason(); !reason.empty())
-      note("warning: no pictures are drawn: {}\n", reason);
-    else
-      simulation.observe(render::picture_series(
-          folder, images, spec.title.empty() ? spec.name : spec.title,
-          {.warn = [&](const std::string& line) { later.push_back(line); },
-           .run_writes_densities = base::has_one(spec.output.files, &OutputFile::shows_density)}));
-  }
-}
-
-/// On the ranks but the first: each writes the pieces that it has.
-void observe_pieces(Simulation& simulation, const Case& spec, const fs::path& folder) {
-  for (const OutputFile& file : spec.output.files)
-    if (const write::FileKind& kind = write::find_output_file(file.name); kind.index)
-      simulation.observe(write::file_series(kind, folder));
-}
-
-/// Lines for the end of the run: what the page does without.
-std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed, bool pictures_come_later = false) {
-  const bool pictures = !spec.output.images.empty(), later = pictures && pictures_come_later;
-  std::string without;
-  if (later)
-    without += fmt::format("page   without pictures for now: gaussdrift report {} draws them\n",
-                           base::shell_word(folder.string()));
-  try {
-    const report::ReportFiles page = report::write_report(folder, pictures && !later);
-    for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
-    const bool there =
-        std::find(page.written.begin(), page.written.end(), folder / "report.html") != page.written.end();
-    for (const std::string& why : page.failed)
-      owed.miss(fmt::format("{}: {}; gaussdrift report {} makes it later",
-                            there ? "the page about this run is not complete" : "there is no page about this run", why,
-                            base::shell_word(folder.string())));
-  } catch (const std::exception& error) {  // what was computed stands in the other files, and its checks count
-    owed.miss(fmt::format("there is no page about this run: {}; gaussdrift report {} makes it later", error.what(),
-                          base::shell_word(folder.string())));
-  }
-  return without;
-}
 
 /// Data files are named as seen from the run's folder.
 std::vector<write::DataFile> data_of(const Case& spec, const fs::path& folder) {

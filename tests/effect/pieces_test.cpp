@@ -12,6 +12,7 @@
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
 #include "ranks_of_threads.hpp"
+#include "same_numbers.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -42,13 +43,6 @@ struct Seen {
   std::size_t pieces = 0, every = 0;
   Lattice lattice;
 };
-
-// Values that can be compared: those that are not known are equal, too.
-std::vector<double> comparable(std::vector<double> values) {
-  for (double& value : values)
-    if (std::isnan(value)) value = -1e300;
-  return values;
-}
 
 class Watch : public Observer {
  public:
@@ -107,20 +101,6 @@ std::vector<double> put_together(const Seen& seen, int output) {
         }
   }
   return whole;
-}
-
-void expect_same(const FrameNumbers& m, const FrameNumbers& n) {
-  EXPECT_EQ(m.mass, n.mass);
-  EXPECT_EQ(m.minimum, n.minimum);
-  EXPECT_EQ(m.maximum, n.maximum);
-  EXPECT_EQ(m.transform_error, n.transform_error);
-  EXPECT_EQ(m.transform_tolerance, n.transform_tolerance);
-  EXPECT_EQ(m.compared, n.compared);
-  EXPECT_EQ(m.untraced, n.untraced);
-  ASSERT_EQ(m.error.has_value(), n.error.has_value());
-  if (!m.error) return;
-  const ErrorNorms &a = *m.error, &b = *n.error;
-  EXPECT_EQ(comparable({a.l1, a.l2, a.linf}), comparable({b.l1, b.l2, b.linf}));
 }
 
 class Pieces : public testing::TestWithParam<Kind> {};

@@ -8,6 +8,7 @@
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
 #include "ranks_of_threads.hpp"
+#include "same_numbers.hpp"
 #include "same_particles.hpp"
 
 namespace gaussdrift {
@@ -54,24 +55,7 @@ void expect_same(const std::vector<Seen>& a, const std::vector<Seen>& b) {
     EXPECT_EQ(a[i].exact, b[i].exact);
     EXPECT_EQ(a[i].velocity, b[i].velocity);
     expect_same(a[i].particles, b[i].particles);
-    const FrameNumbers &m = a[i].numbers, &n = b[i].numbers;
-    EXPECT_EQ(m.mass, n.mass);
-    EXPECT_EQ(m.minimum, n.minimum);
-    EXPECT_EQ(m.maximum, n.maximum);
-    EXPECT_EQ(m.centroid, n.centroid);
-    EXPECT_EQ(m.transform_error, n.transform_error);
-    EXPECT_EQ(m.transform_tolerance, n.transform_tolerance);
-    EXPECT_EQ(m.stretch, n.stretch);
-    EXPECT_EQ(m.weight, n.weight);
-    EXPECT_EQ(m.outside, n.outside);
-    ASSERT_EQ(m.error.has_value(), n.error.has_value());
-    if (m.error) {
-      EXPECT_EQ(m.error->l1, n.error->l1);
-      EXPECT_EQ(m.error->l2, n.error->l2);
-      EXPECT_EQ(m.error->linf, n.error->linf);
-    }
-    EXPECT_EQ(m.compared, n.compared);
-    EXPECT_EQ(m.untraced, n.untraced);
+    expect_same(a[i].numbers, b[i].numbers);
   }
 }
 

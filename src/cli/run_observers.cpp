@@ -1,0 +1,36 @@
+#include "cli/run_observers.hpp"
+
+#include "base/has_one.hpp"
+#include "cli/terminal.hpp"
+#include "render/picture.hpp"
+#include "render/picture_series.hpp"
+#include "write/output_files.hpp"
+#include "write/series_table.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder, std::vector<std::string>& later) {
+  simulation.observe(
+      write::series_table(folder, spec.domain.dimension, spec.reference.kind != ReferenceSpec::Kind::none));
+  for (const OutputFile& file : spec.output.files)
+    simulation.observe(write::file_series(write::find_output_file(file.name), folder));
+  if (const auto& images = spec.output.images; !images.empty()) {
+    if (const std::string reason = render::unavailable_reason(); !reason.empty())
+      note("warning: no pictures are drawn: {}\n", reason);
+    else
+      simulation.observe(render::picture_series(
+          folder, images, spec.title.empty() ? spec.name : spec.title,
+          {.warn = [&](const std::string& line) { later.push_back(line); },
+           .run_writes_densities = base::has_one(spec.output.files, &OutputFile::shows_density)}));
+  }
+}
+
+void observe_pieces(Simulation& simulation, const Case& spec, const fs::path& folder) {
+  for (const OutputFile& file : spec.output.files)
+    if (const write::FileKind& kind = write::find_output_file(file.name); kind.index)
+      simulation.observe(write::file_series(kind, folder));
+}
+
+}  // namespace gaussdrift::cli

@@ -1,0 +1,36 @@
+#include "cli/run_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/shell_word.hpp"
+#include "report/page.hpp"
+
+namespace gaussdrift::cli {
+
+namespace fs = std::filesystem;
+
+std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed, bool pictures_come_later) {
+  const bool pictures = !spec.output.images.empty(), later = pictures && pictures_come_later;
+  std::string without;
+  if (later)
+    without += fmt::format("page   without pictures for now: gaussdrift report {} draws them\n",
+                           base::shell_word(folder.string()));
+  try {
+    const report::ReportFiles page = report::write_report(folder, pictures && !later);
+    for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
+    const bool there =
+        std::find(page.written.begin(), page.written.end(), folder / "report.html") != page.written.end();
+    for (const std::string& why : page.failed)
+      owed.miss(fmt::format("{}: {}; gaussdrift report {} makes it later",
+                            there ? "the page about this run is not complete" : "there is no page about this run", why,
+                            base::shell_word(folder.string())));
+  } catch (const std::exception& error) {  // what was computed stands in the other files, and its checks count
+    owed.miss(fmt::format("there is no page about this run: {}; gaussdrift report {} makes it later", error.what(),
+                          base::shell_word(folder.string())));
+  }
+  return without;
+}
+
+}  // namespace gaussdrift::cli
