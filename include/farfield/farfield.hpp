@@ -110,6 +110,9 @@ std::string to_string(Kernel kernel);
 /// The name as it is written in files: "auto", "direct", "tree", "symmetric".
 std::string to_string(Method method);
 
+/// How the method sums and when it is good, in one line.
+std::string meaning(Method method);
+
 /// What a Plan is asked for. The defaults are valid.
 struct Options {
   double tolerance = 1e-6;                          ///< see Plan; smallest_tolerance <= tolerance < 1

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "farfield/catalogue.hpp"
+
 namespace farfield::detail {
 
 void check_options(Kernel kernel, const Options& options, int dimension) {
@@ -17,8 +19,11 @@ void check_options(Kernel kernel, const Options& options, int dimension) {
     refuse("Options::core_radius = " + text(options.core_radius) + ", must be 0 for every kernel but vortex-blob");
   if (!(options.tolerance > 0) || !(options.tolerance < 1))
     refuse("Options::tolerance = " + text(options.tolerance) + ", must lie in (0, 1)");
-  const bool approximates = options.method == Method::tree || options.method == Method::symmetric;
-  if (approximates && options.tolerance < smallest_tolerance)
+  const MethodEntry* const entry = find_entry(options.method);
+  if (!entry && options.method != Method::automatic)
+    refuse("Options::method = " + std::to_string(static_cast<int>(options.method)) +
+           " is no method; farfield::methods() lists them");
+  if (entry && entry->replaces_clusters && options.tolerance < smallest_tolerance)
     throw ToleranceError("farfield: Options::tolerance = " + text(options.tolerance) + " cannot be promised by " +
                          to_string(options.method) + ", must be at least " + text(smallest_tolerance) +
                          "; leave the method to auto or direct");

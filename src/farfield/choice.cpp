@@ -1,7 +1,7 @@
-// Names of kernels and methods, and what was chosen as one line.
+// Names of kernels, and what was chosen as one line.
 #include <ostream>
 
-#include "farfield/farfield.hpp"
+#include "farfield/catalogue.hpp"
 
 namespace farfield {
 
@@ -15,8 +15,6 @@ struct Named {
 
 constexpr Named<Kernel> kernel_names[] = {
     {Kernel::coulomb, "coulomb"}, {Kernel::log, "log"}, {Kernel::vortex_blob, "vortex-blob"}};
-constexpr Named<Method> method_names[] = {
-    {Method::automatic, "auto"}, {Method::direct, "direct"}, {Method::tree, "tree"}, {Method::symmetric, "symmetric"}};
 
 template <class Value, std::size_t count>
 std::vector<Value> values_of(const Named<Value> (&list)[count]) {
@@ -39,19 +37,13 @@ const std::vector<Kernel>& kernels() {
   return all;
 }
 
-const std::vector<Method>& methods() {
-  static const std::vector<Method> all = values_of(method_names);
-  return all;
-}
-
 std::string to_string(Kernel kernel) { return name_in(kernel_names, kernel); }
-
-std::string to_string(Method method) { return name_in(method_names, method); }
 
 std::ostream& operator<<(std::ostream& out, const Choice& choice) {
   out << to_string(choice.kernel) << " by " << to_string(choice.method) << ": " << choice.sources << " sources, "
       << choice.targets << " targets, tolerance " << choice.tolerance;
-  if (choice.method != Method::direct)
+  const detail::MethodEntry* const method = detail::find_entry(choice.method);
+  if (method && method->replaces_clusters)
     out << ", bound " << choice.bound << ", degree up to " << choice.degree << ", " << choice.clusters
         << " clusters on " << choice.levels << (choice.levels == 1 ? " level" : " levels") << ", at most "
         << choice.leaf_size << " points in a leaf";

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "farfield/catalogue.hpp"
 #include "farfield/check.hpp"
 #include "farfield/cost.hpp"
-#include "farfield/tree/clustered.hpp"
 
 namespace farfield::detail {
 namespace {
@@ -36,21 +35,25 @@ double clusters_bytes(double points, std::size_t leaf_size) {
   return points * (2 * (8.0 * d + 4) + 1) + 2 * points / static_cast<double>(leaf_size) * 1.2 * sizeof(Cluster);
 }
 
-/// The method asked for, or the faster of both, with its best leaf size and seconds.
+/// A method that replaces clusters, with its best leaf size and seconds.
+struct Found {
+  const MethodEntry* method = nullptr;
+  Prediction prediction;
+};
+
+/// The method asked for, or the fastest of all; the last in the catalogue of those that are equally fast.
 template <int d>
-Prediction choose_method(const Tree<d>& tree, std::size_t fine_leaf_size, const Costs<d>& costs, const Site<d>& site,
-                         Method asked, Method& chosen) {
+Found choose_method(const Tree<d>& tree, std::size_t fine_leaf_size, const Costs<d>& costs, const Site<d>& site,
+                    Method asked) {
   const std::vector<LevelShare> levels = site.levels(tree);
   const auto sum = [&](std::vector<std::int64_t>& numbers) { site.sum(numbers); };
-  std::optional<Prediction> prediction;
-  for (const Method method : {Method::symmetric, Method::tree}) {
-    if (asked != Method::automatic && asked != method) continue;
-    const Prediction found = predict<d>(tree, fine_leaf_size, costs, method == Method::symmetric, levels, sum);
-    if (prediction && prediction->seconds <= found.seconds) continue;
-    prediction = found;
-    chosen = method;
+  Found best;
+  for (const MethodEntry& method : catalogue()) {
+    if (!method.replaces_clusters || (asked != Method::automatic && asked != method.method)) continue;
+    const Prediction found = predict<d>(tree, fine_leaf_size, costs, method.couples_clusters, levels, sum);
+    if (!best.method || found.seconds <= best.prediction.seconds) best = {&method, found};
   }
-  return *prediction;
+  return best;
 }
 
 /// The work for targets that are counted here, and by the clusters of all ranks.
@@ -71,10 +74,10 @@ Work count_work(const Partition& partition, const Tree<d>& tree, const Site<d>& 
 
 /// Prepares the sum over the clusters of `tree`, of leaves of choice.leaf_size; `bytes` are those of tree and points.
 template <int d>
-std::unique_ptr<Summation> make_clustered(const Options& options, Tree<d> tree, const Degrees<d>& degrees,
-                                          const Costs<d>& costs, Precisions precisions, double bytes, Site<d>& site,
-                                          Choice& choice) {
-  const bool couple = choice.method == Method::symmetric;
+std::unique_ptr<Summation> make_clustered(const MethodEntry& method, const Options& options, Tree<d> tree,
+                                          const Degrees<d>& degrees, const Costs<d>& costs, Precisions precisions,
+                                          double bytes, Site<d>& site, Choice& choice) {
+  const bool couple = method.couples_clusters;
   const std::vector<LevelShare> levels = site.levels(tree);
   choice.degree = degrees.highest;
   choice.clusters = 0;
@@ -96,7 +99,7 @@ std::unique_ptr<Summation> make_clustered(const Options& options, Tree<d> tree, 
                                                  .threads = options.threads});
   const Work work = count_work<d>(partition, tree, site, levels, costs.nodes(), choice.work);
   return site.clustered(
-      {std::move(tree), std::move(partition), std::move(operators), precisions, options.threads, work}, couple);
+      {std::move(tree), std::move(partition), std::move(operators), precisions, options.threads, work}, method);
 }
 
 }  // namespace
@@ -142,17 +145,18 @@ std::unique_ptr<Summation> choose_summation(const Problem& problem, const Option
   site.together([&] { check_memory("the tree", tree_bytes, options.memory_limit); });
   Tree<d> tree = site.tree(fine_leaf_size, smallest_side(problem, options.tolerance));
 
-  const Prediction prediction = choose_method<d>(tree, fine_leaf_size, costs, site, options.method, choice.method);
+  const auto [method, prediction] = choose_method<d>(tree, fine_leaf_size, costs, site, options.method);
   if (any && direct_seconds < prediction.seconds) return direct();
 
   if (options.leaf_size == 0) tree.prune(prediction.leaf_size);
+  choice.method = method->method;
   choice.seconds = prediction.seconds;
   check_seconds(choice.method, choice.seconds, options.most_seconds);
   choice.bound =
       std::max(std::max(degrees.error, degrees.one_sided_error + rounded) + core_share(problem) * options.tolerance,
                error_of(precisions.points));
   choice.leaf_size = options.leaf_size > 0 ? options.leaf_size : prediction.leaf_size;
-  return make_clustered<d>(options, std::move(tree), degrees, costs, precisions, tree_bytes, site, choice);
+  return make_clustered<d>(*method, options, std::move(tree), degrees, costs, precisions, tree_bytes, site, choice);
 }
 
 template std::unique_ptr<Summation> choose_summation<2>(const Problem&, const Options&, Site<2>&, Choice&);

@@ -30,9 +30,8 @@ std::vector<LevelShare> Site<d>::levels(const Tree<d>& tree) const {
 }
 
 template <int d>
-std::unique_ptr<Summation> Site<d>::clustered(typename Clustered<d>::Parts parts, bool couple) {
-  if (couple) return std::make_unique<SymmetricMethod<d>>(problem_, std::move(parts));
-  return std::make_unique<TreeMethod<d>>(problem_, std::move(parts));
+std::unique_ptr<Summation> Site<d>::clustered(typename Clustered<d>::Parts parts, const MethodEntry& method) {
+  return std::get<MakeClustered<d>>(method.make)(problem_, std::move(parts));
 }
 
 template class Site<2>;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "farfield/catalogue.hpp"
 #include "farfield/cost.hpp"
-#include "farfield/tree/clustered.hpp"
 
 namespace farfield::detail {
 
@@ -26,8 +26,8 @@ class Site {
   virtual std::unique_ptr<Summation> direct();
   virtual Tree<d> tree(std::size_t leaf_size, double smallest_side);
   virtual std::vector<LevelShare> levels(const Tree<d>& tree) const;
-  /// Sums over the clusters of a tree that was made here.
-  virtual std::unique_ptr<Summation> clustered(typename Clustered<d>::Parts parts, bool couple);
+  /// Sums by a method that replaces clusters, those of a tree that was made here.
+  virtual std::unique_ptr<Summation> clustered(typename Clustered<d>::Parts parts, const MethodEntry& method);
 
   /// Does work that may throw an Error, which is then thrown on all ranks.
   virtual void together(const std::function<void()>& work) const { work(); }

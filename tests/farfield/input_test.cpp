@@ -78,6 +78,11 @@ TEST(FarfieldInput, SumsBeyondTheRangeOfDouble) {
                                        "the field at target 0 exceeds the range");
 }
 
+TEST(FarfieldInput, NumbersThatAreNoMethod) {
+  expect_refused<farfield::InvalidArgument>([] { plan3({.method = static_cast<Method>(9)}); },
+                                            "Options::method = 9 is no method; farfield::methods() lists them");
+}
+
 TEST(FarfieldInput, MoreMemoryThanAllowed) {
   const auto many = naive::cube<3>(20000, 1);
   for (const Method method : farfield::methods())

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.hpp"
+#include "farfield/catalogue.hpp"
 #include "farfield/cost.hpp"
 
 namespace farfield::detail {
@@ -35,6 +36,12 @@ void Direct::evaluate(const Buffer<double>& charges, Sums& sums, Seconds& second
     fastest_kernels().pairs(job);
   });
   seconds.leaves = laps.lap();
+}
+
+MethodEntry direct_method() {
+  return {.method = Method::direct,
+          .name = "direct",
+          .meaning = "every pair of a source and a target; for few points, and for the highest accuracy"};
 }
 
 }  // namespace farfield::detail

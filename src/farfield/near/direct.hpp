@@ -5,6 +5,9 @@
 
 namespace farfield::detail {
 
+struct MethodEntry;  // farfield/catalogue.hpp
+MethodEntry direct_method();
+
 class Direct : public Summation {
  public:
   static constexpr std::size_t piece = 128;  // targets; a source serves all of them while it is in the cache

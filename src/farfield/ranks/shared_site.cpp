@@ -68,7 +68,7 @@ std::vector<LevelShare> SharedSite<d>::levels(const Tree<d>& tree) const {
 }
 
 template <int d>
-std::unique_ptr<Summation> SharedSite<d>::clustered(typename Clustered<d>::Parts parts, bool couple) {
+std::unique_ptr<Summation> SharedSite<d>::clustered(typename Clustered<d>::Parts parts, const MethodEntry& method) {
   auto halo = std::make_shared<Halo<d>>(channel_, coarse_, std::move(own_), parts.tree, parts.partition, received_);
   if (parts.operators) {
     Received evaluation;
@@ -82,7 +82,7 @@ std::unique_ptr<Summation> SharedSite<d>::clustered(typename Clustered<d>::Parts
   }
   const bool potential = this->problem_.potential;
   received_.points += homes_->received(channel_.rank(), potential);
-  return std::make_unique<SharedSum<d>>(channel_, std::move(homes_), Site<d>::clustered(std::move(parts), couple),
+  return std::make_unique<SharedSum<d>>(channel_, std::move(homes_), Site<d>::clustered(std::move(parts), method),
                                         potential);
 }
 

@@ -24,7 +24,7 @@ class SharedSite : public Site<d> {
   std::unique_ptr<Summation> direct() override;
   Tree<d> tree(std::size_t leaf_size, double smallest_side) override;
   std::vector<LevelShare> levels(const Tree<d>& tree) const override;
-  std::unique_ptr<Summation> clustered(typename Clustered<d>::Parts parts, bool couple) override;
+  std::unique_ptr<Summation> clustered(typename Clustered<d>::Parts parts, const MethodEntry& method) override;
   void together(const std::function<void()>& work) const override { channel_.together(work); }
   void sum(std::vector<std::int64_t>& numbers) const override { channel_.sum(numbers); }
 

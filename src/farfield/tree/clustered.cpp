@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "farfield/catalogue.hpp"
 #include "farfield/cost.hpp"
 
 namespace farfield::detail {
@@ -194,6 +195,34 @@ void SymmetricMethod<d>::add_from_points(const Buffer<double>& charges, PerClust
     for (std::size_t k = 0; k < fitted.size(); ++k)
       coefficients[i * functions + this->operators_->place(k)] += fitted[k];
   });
+}
+
+namespace {
+
+template <template <int> class Method, int d>
+std::unique_ptr<Summation> make(const Problem& problem, typename Clustered<d>::Parts parts) {
+  return std::make_unique<Method<d>>(problem, std::move(parts));
+}
+
+}  // namespace
+
+MethodEntry tree_method() {
+  return {.method = Method::tree,
+          .name = "tree",
+          .meaning =
+              "clusters of sources are replaced by substitute charges, which act on every target; for few targets, "
+              "or few points with a tolerance of six digits",
+          .replaces_clusters = true,
+          .make = {make<TreeMethod, 2>, make<TreeMethod, 3>}};
+}
+
+MethodEntry symmetric_method() {
+  return {.method = Method::symmetric,
+          .name = "symmetric",
+          .meaning = "clusters of targets are replaced as well, in linear time; for many sources and many targets",
+          .replaces_clusters = true,
+          .couples_clusters = true,
+          .make = {make<SymmetricMethod, 2>, make<SymmetricMethod, 3>}};
 }
 
 template class Clustered<2>;

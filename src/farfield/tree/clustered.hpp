@@ -12,6 +12,10 @@
 
 namespace farfield::detail {
 
+struct MethodEntry;  // farfield/catalogue.hpp
+MethodEntry tree_method();
+MethodEntry symmetric_method();
+
 template <int d>
 class Clustered : public Summation {
  public:
