@@ -65,7 +65,7 @@ void write_guide(const std::filesystem::path& file) {
 /// The answer to the word if it is known from other programs; else the word that was probably meant.
 std::string not_known(const std::string& word) {
   const std::string text =
-      fmt::format("{} is no key, table, field, shape, function or symbol", base::in_quotes(word, 60));
+      fmt::format("{} is no key, table, field, shape, function, method or symbol", base::in_quotes(word, 60));
   if (const input::ForeignKey* foreign = input::find_foreign_key(word))
     return fmt::format("{}; {}", text, foreign->answer);
   if (const auto instead = expression::instead_of_function(word); !instead.empty())

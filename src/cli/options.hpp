@@ -1,5 +1,4 @@
-// The options of a verb, as the verb declares them. The parser behind them, CLI11, is included by few files: its header
-// costs the compiler five seconds in each.
+// The options of a verb, as the verb declares them. They are defined in command_line.cpp.
 #pragma once
 
 #include <string>
@@ -33,7 +32,7 @@ class OptionList {
  public:
   explicit OptionList(CLI::App& verb) : verb_(verb) {}
   /// `name` is "--out", or "folder" for a word without dashes. The value is put into `value`, a text, a path, a number
-  /// or a list of them (options.cpp names the types). `type` is what --help calls the value: DIR.
+  /// or a list of them (command_line.cpp names the types). `type` is what --help calls the value: DIR.
   template <class Value>
   Option add(const std::string& name, Value& value, const std::string& type, const std::string& meaning);
   Option flag(const std::string& name, bool& value, const std::string& meaning);

@@ -65,7 +65,8 @@ void declare(OptionList& options, SumOptions& given) {
   const Option tolerance = options.add("--tolerance", given.tolerance, "X",
                                        "error of every term (docs/fgtd.md, docs/farfield.md); 1e-6 by default");
   options.add("--method", given.method, "NAME",
-              "auto (the default), or a method of the library. A wrong name is answered with the list");
+              "auto (the default), or a method of the library. A wrong name is answered with the list, and gaussdrift "
+              "explain NAME tells what one does");
   options
       .add("--r", given.r, "R",
            "by hand: boxes of the method hermite have the side r sqrt(2/sigma); 0.5 by default. The error is bounded "

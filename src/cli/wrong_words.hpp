@@ -2,18 +2,27 @@
 #pragma once
 
 #include <string>
-
-namespace CLI {
-class App;
-class ParseError;
-}  // namespace CLI
+#include <vector>
 
 namespace gaussdrift::cli {
 
+struct VerbWords {
+  std::string name;
+  std::vector<std::string> options;  // "--out"
+};
+
 /// The answer to an unknown verb: the one that was probably meant.
-std::string unknown_verb(const CLI::App& app, const std::string& word);
+std::string unknown_verb(const std::vector<VerbWords>& verbs, const std::string& word);
+
+/// What the parser did not understand.
+struct Unread {
+  std::string message;                  // of the parser
+  std::string verb = {};                // that it has found; empty: none
+  std::vector<std::string> extra = {};  // words that it could not place
+  bool too_many = false;                // they are all that is wrong
+};
 
 /// The answer to options that the verb does not have and to needless words; else the parser's message.
-std::string explained(const CLI::App& app, const CLI::ParseError& error);
+std::string explained(const std::vector<VerbWords>& verbs, const Unread& words);
 
 }  // namespace gaussdrift::cli

@@ -11,6 +11,7 @@
 #include "field/density/shapes.hpp"
 #include "field/named/named_fields.hpp"
 #include "input/effect_rules.hpp"
+#include "input/pair_methods.hpp"
 #include "input/registry.hpp"
 #include "input/thesis_symbols.hpp"
 #include "render/styles.hpp"
@@ -144,6 +145,13 @@ Explanation about(const ThesisSymbol& symbol) {
   return result;
 }
 
+Explanation about(const PairMethod& method) {
+  return {"method",
+          fmt::format("gaussdrift sum --method {}", method.name),
+          method.meaning,
+          {{"sums", "pairs of points: charges, logarithms, and particles that move each other"}}};
+}
+
 Explanation about_effects() {
   Explanation result{"tables", "[effects.*]", "what happens beside transport. Which effects go together:", {}};
   for (const std::string& effect : effect_names()) add(result.facts, effect, goes_with(effect));
@@ -172,6 +180,7 @@ std::vector<std::string> known_words() {
   for (const ThesisSymbol& known : thesis_symbols())
     if (known.symbol.size() > 2) words.emplace_back(known.symbol);  // one letter is near to any other
   for (const FunctionInfo& function : expression_functions()) words.emplace_back(function.name);
+  for (const PairMethod& method : pair_methods()) words.push_back(method.name);
   return words;
 }
 
@@ -232,6 +241,8 @@ std::vector<Explanation> meanings_of(std::string_view word) {
     if (chooses(key, word) && !(key.table == "velocity" && key.name == "field") &&
         !(key.table == "density" && key.name == "shape"))
       found.push_back(about(key));
+  for (const PairMethod& method : pair_methods())
+    if (method.name == word) found.push_back(about(method));
   return found;
 }
 

@@ -16,7 +16,7 @@ struct Fact {
 
 /// One thing that a word means.
 struct Explanation {
-  std::string kind;   // "key", "table", "field", "shape", "function", "quantity"
+  std::string kind;   // "key", "table", "field", "shape", "function", "method", "quantity"
   std::string name;   // "particles.per_axis"
   std::string title;  // one line: its meaning
   std::vector<Fact> facts;

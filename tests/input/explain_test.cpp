@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "farfield/farfield.hpp"
 #include "input/registry.hpp"
 #include "input/thesis_symbols.hpp"
 
@@ -87,6 +88,15 @@ TEST(Explain, TellsTablesFieldsShapesFunctionsAndValues) {
   for (const auto& [word, part] : words) {
     const std::string told = to_text(explain(word));
     EXPECT_NE(told.find(part), std::string::npos) << word << ":\n" << told;
+  }
+}
+
+TEST(Explain, TellsTheMethodsOfSumsOverPairs) {
+  for (const farfield::Method method : farfield::methods()) {
+    if (method == farfield::Method::automatic) continue;
+    const std::string told = to_text(explain(to_string(method)));
+    EXPECT_NE(told.find("gaussdrift sum --method " + to_string(method) + "\n  " + meaning(method)), std::string::npos)
+        << told;
   }
 }
 
