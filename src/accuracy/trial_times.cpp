@@ -82,8 +82,8 @@ std::size_t particles_for_steps(const Case& spec, const Scene& scene, std::size_
   }
   const double stages = time::find_tableau(spec.time.method).stages;
   const double rates = stages * scene.velocity->cost();  // of one particle, in a step
-  const double reaction = scene.decay_rate ? stages * scene.decay_rate->cost() : 0;
-  double each = rates + reaction;
+  const double decay = scene.decay_rate ? stages * scene.decay_rate->cost() : 0;
+  double each = rates + decay;
   for (const auto& [effect, written] : effects_of(spec.effects))
     if (effect->work) each += effect->work(written, spec);
   return static_cast<std::size_t>(std::clamp(work_of_steps / each, 20.0, 1e9));

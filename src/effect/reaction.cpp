@@ -1,13 +1,42 @@
-#include "effect/reaction.hpp"
-
+// Reaction, d_t rho + div(rho u) + u0 rho = 0: along the path of a particle alpha' = -u0(X, t) alpha, so that
+// alpha(t) = alpha(0) exp(-integral of u0). The integral is a quadrature over the stages of the path and the
+// exponential is taken of the sum: a weight keeps its sign and cannot overshoot, however large u0. docs/method.md,
+// section 8.1.
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <string>
+#include <string_view>
 
 #include "effect/catalogue.hpp"
+#include "effect/effect.hpp"
+#include "field/scalar.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
+namespace {
+
+class Reaction : public Effect, private PathIntegral {
+ public:
+  /// The rate u0 must outlive the effect.
+  explicit Reaction(const ScalarField& rate) : rate_(rate) {}
+
+  std::string name() const override { return "reaction"; }
+  std::string describe() const override { return "reaction alpha' = -(" + rate_.describe() + ") alpha"; }
+  Changes changes() const override { return {.weight = true}; }
+  std::string conserves() const override { return "the sign of every weight"; }
+
+  const PathIntegral* path_integral() const override { return this; }
+  /// Throws NumericalError where a weight is too large for a number.
+  void settle(Particles& particles, const double* integral, double time) override;
+
+ private:
+  void add_rate(double t, const PointsView& x, double* rate) const override { rate_.add(t, x, rate); }
+  std::string quantity() const override { return "the rate of [effects.reaction]"; }
+
+  const ScalarField& rate_;
+};
 
 void Reaction::settle(Particles& particles, const double* integral, double time) {
   for (std::size_t j = 0; j < particles.size(); ++j) {
@@ -27,8 +56,6 @@ void Reaction::settle(Particles& particles, const double* integral, double time)
     particles.alpha[j] = after;
   }
 }
-
-namespace {
 
 constexpr std::string_view nothing_enters =
     "all mass is there at the start, in [density]; [effects.reaction] lets it decay, or grow with a negative rate";

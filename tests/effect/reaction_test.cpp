@@ -1,10 +1,13 @@
 // Reaction against closed forms: weights follow exp(-integral of u0) along the path.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "scene.hpp"
 #include "sim/carrier.hpp"
 #include "sim/scene.hpp"
@@ -107,6 +110,21 @@ TEST(Reaction, GivesTheSameBitsForAnyThreadsAndFrames) {
 }
 
 // --- what is not named is not there ------------------------------------------------------------------------------
+
+TEST(Reaction, OfItsCaseStaysNearTheExactDensity) {
+  const Case spec = read_case(SOURCE_DIR "/cases/decay.toml", {"particles.per_axis=150", "evaluate.per_axis=61"}).spec;
+  Simulation simulation(spec);
+  const RunSummary summary = simulation.run();
+  double worst = 0, mass = summary.frames.front().second.mass;
+  for (const auto& [time, frame] : summary.frames) {
+    ASSERT_TRUE(frame.error.has_value());
+    EXPECT_LE(frame.mass, mass);
+    mass = frame.mass;
+    worst = std::max(worst, frame.error->l1);
+  }
+  EXPECT_LE(worst, 0.004);  // smoothing of the cone's tip and edge: measured, and rounded up by about a tenth
+  EXPECT_GE(worst, 0.002) << "the bound is too wide to notice anything";
+}
 
 TEST(Effects, AreConstructedOnlyIfTheCaseNamesThem) {
   const Case transport_alone = scene_of({});

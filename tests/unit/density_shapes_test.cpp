@@ -1,6 +1,6 @@
 #include "field/density/box_density.hpp"
 #include "field/density/radial_density.hpp"
-#include "field/density/slotted_disk.hpp"
+#include "field/density/shapes.hpp"
 #include "field/density/sum_density.hpp"
 #include "field/density/written_density.hpp"
 
@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 
 namespace gaussdrift {
@@ -118,50 +119,65 @@ TEST_P(EveryProfile, FadesAsSmoothlyAsItSays) {
 
 INSTANTIATE_TEST_SUITE_P(, EveryProfile, ::testing::ValuesIn(every_profile));
 
+std::unique_ptr<InitialDensity> slotted_disk(int dimension, const Vector& center, double width, double length,
+                                             double height) {
+  return find_named_shape("slotted_disk")
+      .make(dimension, {{"center", {center[0], center[1], center[2]}},
+                        {"radius", {15}},
+                        {"slot_width", {width}},
+                        {"slot_length", {length}},
+                        {"height", {height}}});
+}
+
+bool slot_fits(double radius, double width, double length) {
+  const Arguments arguments{{"radius", {radius}}, {"slot_width", {width}}, {"slot_length", {length}}};
+  return find_named_shape("slotted_disk").about.problem(2, arguments).empty();
+}
+
 TEST(SlottedDisk, IsTheDiskOfZalesakWithoutItsSlot) {
-  const SlottedDisk disk(2, {50, 75, 0}, 15, 5, 25, 1);
-  EXPECT_EQ(at(disk, 50, 86), 1) << "the bridge above the slot, which ends at y = 85";
-  EXPECT_EQ(at(disk, 50, 84.9), 0);
-  EXPECT_EQ(at(disk, 50, 61), 0) << "the slot is open below";
-  EXPECT_EQ(at(disk, 52.4, 70), 0);
-  EXPECT_EQ(at(disk, 52.6, 70), 1);
-  EXPECT_EQ(at(disk, 64.9, 75), 1);
-  EXPECT_EQ(at(disk, 65.1, 75), 0);
+  const auto disk = slotted_disk(2, {50, 75, 0}, 5, 25, 1);
+  EXPECT_EQ(at(*disk, 50, 86), 1) << "the bridge above the slot, which ends at y = 85";
+  EXPECT_EQ(at(*disk, 50, 84.9), 0);
+  EXPECT_EQ(at(*disk, 50, 61), 0) << "the slot is open below";
+  EXPECT_EQ(at(*disk, 52.4, 70), 0);
+  EXPECT_EQ(at(*disk, 52.6, 70), 1);
+  EXPECT_EQ(at(*disk, 64.9, 75), 1);
+  EXPECT_EQ(at(*disk, 65.1, 75), 0);
 }
 
 TEST(SlottedDisk, HasTheMassOfItsArea) {
   for (const auto& [width, length] : {std::pair{5., 25.}, {8., 12.}, {2., 29.}}) {
-    const SlottedDisk disk(2, {}, 15, width, length, 2);
+    const auto disk = slotted_disk(2, {}, width, length, 2);
     // Columns of the disk, less what the slot takes of those within half its width. The circle's ends are like roots.
     const double whole = 2 * 225 * std::numbers::pi;
     const double slot =
         2 * 2 * integral([cut = length](double x) { return cut - 15 + std::sqrt(225 - x * x); }, width / 2, 64);
-    EXPECT_NEAR(disk.mass().value(), whole - slot, 7e-13) << "three roundings of 1400";
+    EXPECT_NEAR(disk->mass().value(), whole - slot, 7e-13) << "three roundings of 1400";
     // And by counting lattice points, which is right to about the perimeter times the spacing.
     double area = 0;
     const double h = 0.05;
     for (double x = -15 + h / 2; x < 15; x += h)
-      for (double y = -15 + h / 2; y < 15; y += h) area += h * h * at(disk, x, y);
-    EXPECT_NEAR(disk.mass().value(), area, 2 * 0.045 * h * 150)
+      for (double y = -15 + h / 2; y < 15; y += h) area += h * h * at(*disk, x, y);
+    EXPECT_NEAR(disk->mass().value(), area, 2 * 0.045 * h * 150)
         << "perimeter times spacing times 0.045; measured 0.014";
   }
 }
 
 TEST(SlottedDisk, InSpaceIsABallWithASlotThroughIt) {
-  const SlottedDisk ball(3, {}, 15, 5, 25, 1);
-  EXPECT_EQ(at(ball, 0, 0, 14), 0);
-  EXPECT_EQ(at(ball, 3, 0, 14), 1);
-  EXPECT_EQ(at(ball, 3, 0, 15), 0);
-  EXPECT_EQ(at(ball, 0, 11, 0), 1);
-  EXPECT_FALSE(ball.mass().has_value());
+  const auto ball = slotted_disk(3, {}, 5, 25, 1);
+  EXPECT_EQ(at(*ball, 0, 0, 14), 0);
+  EXPECT_EQ(at(*ball, 3, 0, 14), 1);
+  EXPECT_EQ(at(*ball, 3, 0, 15), 0);
+  EXPECT_EQ(at(*ball, 0, 11, 0), 1);
+  EXPECT_FALSE(ball->mass().has_value());
 }
 
 TEST(SlottedDisk, KnowsWhichSlotsFit) {
-  EXPECT_TRUE(SlottedDisk::fits(15, 5, 25));
-  EXPECT_FALSE(SlottedDisk::fits(15, 5, 30)) << "cuts the disk in two";
-  EXPECT_FALSE(SlottedDisk::fits(15, 40, 15)) << "wider than the disk";
-  EXPECT_FALSE(SlottedDisk::fits(15, 20, 1)) << "its corners are below the circle";
-  EXPECT_FALSE(SlottedDisk::fits(15, 0, 25));
+  EXPECT_TRUE(slot_fits(15, 5, 25));
+  EXPECT_FALSE(slot_fits(15, 5, 30)) << "cuts the disk in two";
+  EXPECT_FALSE(slot_fits(15, 40, 15)) << "wider than the disk";
+  EXPECT_FALSE(slot_fits(15, 20, 1)) << "its corners are below the circle";
+  EXPECT_FALSE(slot_fits(15, 0, 25));
 }
 
 TEST(BoxDensity, IsItsHeightInsideAndHasItsVolume) {

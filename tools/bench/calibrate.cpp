@@ -1,4 +1,5 @@
-// Fits the constants of src/fgtd/cost.hpp to this machine and prints that header with the new numbers.
+// Fits the constants of cost, src/fgtd/cost.hpp and those of the methods, to this machine and prints these headers with the
+// new numbers.
 //
 // Every method is timed over a sweep of workloads (sweep_points.hpp). A prediction p_i depends smoothly on the
 // constants c_k, so that with e_ik = d ln p_i / d ln c_k, by differences, the steps x_k = ln(c_k new / c_k) minimise
@@ -6,7 +7,7 @@
 // Constants on which no measured time depends stay as they are. A few rounds, because other constants mean other
 // parameters. Run it alone on the machine; processor time is what counts.
 //
-//   calibrate [points = 120] [rounds = 3] > cost.hpp
+//   calibrate [points = 120] [rounds = 3] > costs.txt
 #include <Eigen/Dense>
 #include <cstdio>
 #include <cstdlib>
@@ -92,9 +93,10 @@ std::string text(double value) {
   return buffer;
 }
 
-/// The header with the present values in place of the numbers.
-void print_header() {
-  std::ifstream file(COST_HEADER);
+/// A header with the present values in place of the numbers.
+void print_header(const std::string& header) {
+  std::ifstream file(SOURCES + header);
+  std::cout << "---- src/" << header << "\n";
   const std::regex line_of_constant(R"((constexpr double ([a-z_0-9]+)(\[\d\])? = )[^;]*;(.*))");
   for (std::string line; std::getline(file, line);) {
     std::smatch parts;
@@ -128,6 +130,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "round %d: %zu timings, measured and predicted a factor of %.2f apart\n", round + 1,
                  rows.excess.size(), std::exp(deviation));
   }
-  print_header();
+  std::istringstream headers(COST_HEADERS);
+  for (std::string header; std::getline(headers, header, ';');) print_header(header);
   return 0;
 }

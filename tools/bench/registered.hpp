@@ -1,5 +1,5 @@
-// The constants of src/fgtd/cost.hpp as variables that can be found by name: tools/bench/CMakeLists.txt rewrites that
-// header for calibrate so that every constant registers itself here.
+// The constants of cost (src/fgtd/cost.hpp and those of the methods) as variables that can be found by name:
+// tools/bench/CMakeLists.txt rewrites these headers for calibrate so that every constant registers itself here.
 #pragma once
 
 #include <cstddef>

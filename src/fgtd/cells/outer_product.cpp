@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "base/parallel.hpp"
+#include "fgtd/cells/cost.hpp"
 #include "fgtd/cells/job.hpp"
 #include "fgtd/cells/sum.hpp"
-#include "fgtd/cost.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {

@@ -8,10 +8,10 @@
 
 #include "fgtd/bounds.hpp"
 #include "fgtd/catalogue.hpp"
+#include "fgtd/cells/cost.hpp"
 #include "fgtd/cells/job.hpp"
 #include "fgtd/cells/sum.hpp"
 #include "fgtd/check.hpp"
-#include "fgtd/cost.hpp"
 
 namespace fgtd::detail {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "fgtd/cells/cost.hpp"
 #include "fgtd/cells/job.hpp"
-#include "fgtd/cost.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {

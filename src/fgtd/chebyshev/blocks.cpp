@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
+#include "fgtd/chebyshev/cost.hpp"
 #include "fgtd/chebyshev/jobs.hpp"
-#include "fgtd/cost.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {

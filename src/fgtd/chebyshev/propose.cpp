@@ -7,10 +7,10 @@
 
 #include "fgtd/bounds.hpp"
 #include "fgtd/catalogue.hpp"
+#include "fgtd/chebyshev/cost.hpp"
 #include "fgtd/chebyshev/error.hpp"
 #include "fgtd/chebyshev/sum.hpp"
 #include "fgtd/check.hpp"
-#include "fgtd/cost.hpp"
 
 namespace fgtd::detail {
 namespace {

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "base/parallel.hpp"
+#include "fgtd/chebyshev/cost.hpp"
 #include "fgtd/chebyshev/jobs.hpp"
 #include "fgtd/chebyshev/matrices.hpp"
 #include "fgtd/chebyshev/translation.hpp"
-#include "fgtd/cost.hpp"
 #include "fgtd/kernels/kernels.hpp"
 
 namespace fgtd::detail {

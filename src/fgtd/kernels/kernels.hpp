@@ -135,21 +135,27 @@ struct MomentsJob;
 struct InterpolateJob;
 struct ChainJob;
 
+// Every kernel and its job.
+#define FGTD_KERNELS(KERNEL)             \
+  KERNEL(direct, DirectJob)              \
+  KERNEL(product, ProductJob)            \
+  KERNEL(expansion, ExpansionJob)        \
+  KERNEL(table, TableJob)                \
+  KERNEL(spread, SpreadJob)              \
+  KERNEL(cells, CellsJob)                \
+  KERNEL(outer_product, OuterProductJob) \
+  KERNEL(locate, LocateJob)              \
+  KERNEL(sort_block, SortBlockJob)       \
+  KERNEL(moments, MomentsJob)            \
+  KERNEL(interpolate, InterpolateJob)    \
+  KERNEL(chain, ChainJob)
+
 struct Kernels {
   const char* name;
   std::size_t lanes;  // doubles in a vector
-  void (*direct)(const DirectJob&);
-  void (*product)(const ProductJob&);
-  void (*expansion)(const ExpansionJob&);
-  void (*table)(const TableJob&);
-  void (*spread)(const SpreadJob&);
-  void (*cells)(const CellsJob&);
-  void (*outer_product)(const OuterProductJob&);
-  void (*locate)(const LocateJob&);
-  void (*sort_block)(const SortBlockJob&);
-  void (*moments)(const MomentsJob&);
-  void (*interpolate)(const InterpolateJob&);
-  void (*chain)(const ChainJob&);
+#define FGTD_KERNEL(kernel, Job) void (*kernel)(const Job&);
+  FGTD_KERNELS(FGTD_KERNEL)
+#undef FGTD_KERNEL
 };
 
 /// Those of the fastest instruction set that this processor runs.

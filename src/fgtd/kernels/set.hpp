@@ -8,18 +8,9 @@ namespace fgtd::detail::CORE_ISA {
 
 using namespace gaussdrift::core::CORE_ISA;
 
-void direct(const DirectJob& job);
-void product(const ProductJob& job);
-void expansion(const ExpansionJob& job);
-void table(const TableJob& job);
-void spread(const SpreadJob& job);
-void cells(const CellsJob& job);
-void outer_product(const OuterProductJob& job);
-void locate(const LocateJob& job);
-void sort_block(const SortBlockJob& job);
-void moments(const MomentsJob& job);
-void interpolate(const InterpolateJob& job);
-void chain(const ChainJob& job);
+#define FGTD_KERNEL(kernel, Job) void kernel(const Job& job);
+FGTD_KERNELS(FGTD_KERNEL)
+#undef FGTD_KERNEL
 
 extern const Kernels kernels;
 

@@ -98,6 +98,7 @@ class Filter {
   double seconds() const;
   void find_suffixes();
   void find_factors();
+  AxisMatrix group_targets(const Brick<d>& brick, std::size_t axis) const;
   AxisMatrix make_matrix(const Brick<d>& brick, std::size_t axis) const;
   std::pair<std::int64_t, std::int64_t> band(std::size_t axis, std::size_t i) const;
   double entry(int a, std::size_t axis, std::size_t i, std::int64_t k) const;
@@ -193,14 +194,14 @@ double Filter<d>::entry(int a, std::size_t axis, std::size_t i, std::int64_t k) 
   return job_.filter.filter(a, job_.frame.from_node(targets_.coordinate[axis][i], k) * std::sqrt(job_.sigma));
 }
 
+/// A matrix without entries: neighbouring targets with the nodes that any of them needs.
 template <int d>
-AxisMatrix Filter<d>::make_matrix(const Brick<d>& brick, std::size_t axis) const {
+AxisMatrix Filter<d>::group_targets(const Brick<d>& brick, std::size_t axis) const {
   AxisMatrix matrix;
   const std::size_t count = targets_.size(axis);
   const std::int64_t first = brick.first[axis], last = first + static_cast<std::int64_t>(brick.nodes[axis]) - 1;
   const std::size_t largest = axis == 0 ? inner_group : outer_group;
   const std::int64_t width = 2 * static_cast<std::int64_t>(std::ceil(job_.filter.reach() / job_.filter.spacing())) + 1;
-  std::size_t numbers = 0;
   matrix.begin = matrix.end = 0;
   for (std::size_t i = 0; i < count; ++i) {
     auto [low, high] = band(axis, i);
@@ -228,6 +229,13 @@ AxisMatrix Filter<d>::make_matrix(const Brick<d>& brick, std::size_t axis) const
     matrix.group_of.push_back(matrix.groups.size());
     matrix.groups.push_back({i, 1, from, to - from, 0});
   }
+  return matrix;
+}
+
+template <int d>
+AxisMatrix Filter<d>::make_matrix(const Brick<d>& brick, std::size_t axis) const {
+  AxisMatrix matrix = group_targets(brick, axis);
+  std::size_t numbers = 0;
   for (Group& group : matrix.groups) {
     group.offset = numbers;
     numbers += group.depth * (axis == 0 ? padded(group.size) : group.size);
@@ -238,7 +246,7 @@ AxisMatrix Filter<d>::make_matrix(const Brick<d>& brick, std::size_t axis) const
       for (std::size_t i = 0; i < group.size; ++i)
         for (std::size_t k = 0; k < group.depth; ++k) {
           const double value =
-              factor * entry(a, axis, group.begin + i, first + static_cast<std::int64_t>(group.first + k));
+              factor * entry(a, axis, group.begin + i, brick.first[axis] + static_cast<std::int64_t>(group.first + k));
           entries[group.offset + (axis == 0 ? k * padded(group.size) + i : i * group.depth + k)] = value;
         }
   };

@@ -7,7 +7,7 @@
 
 #include "fgtd/catalogue.hpp"
 #include "fgtd/check.hpp"
-#include "fgtd/cost.hpp"
+#include "fgtd/spread/cost.hpp"
 #include "fgtd/spread/sum.hpp"
 
 namespace fgtd::detail {

@@ -19,10 +19,10 @@
 
 #include "base/parallel.hpp"
 #include "core/buffer.hpp"
-#include "fgtd/cost.hpp"
 #include "fgtd/fgtd.hpp"
 #include "fgtd/kernels/kernels.hpp"
 #include "fgtd/request.hpp"
+#include "fgtd/spread/cost.hpp"
 #include "fgtd/spread/filter.hpp"
 #include "fgtd/summation.hpp"
 

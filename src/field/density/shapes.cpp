@@ -5,9 +5,10 @@
 
 #include "field/density/box_density.hpp"
 #include "field/density/radial_density.hpp"
-#include "field/density/slotted_disk.hpp"
 
 namespace gaussdrift {
+
+NamedShape slotted_disk();  // in a file of its name
 
 namespace {
 
@@ -24,32 +25,6 @@ NamedShape radial(std::string_view name, RadialDensity::Profile profile, std::st
             return std::make_unique<RadialDensity>(profile, dimension, point(arguments, "center"),
                                                    number(arguments, "radius"), number(arguments, "height"));
           }};
-}
-
-NamedShape slotted_disk() {
-  return {
-      NamedFormula{
-          .name = "slotted_disk",
-          .meaning = "Zalesak's disk with a slot that opens downwards. In 3D it is a ball, and the slot runs through "
-                     "it along z",
-          .formula = "height for s < 1, but 0 in the slot |x - c_x| < slot_width / 2, y - c_y < slot_length - radius",
-          .parameters = {center,
-                         radius,
-                         {.name = "slot_width", .range = positive, .unit = "length", .meaning = "width of the slot"},
-                         {.name = "slot_length",
-                          .range = positive,
-                          .unit = "length",
-                          .meaning = "length of the slot, from the lowest point of the disk"},
-                         {.name = "height", .fallback = "1", .meaning = "density outside the slot"}},
-          .problem = [](int, const Arguments& a) -> std::string {
-            return SlottedDisk::fits(number(a, "radius"), number(a, "slot_width"), number(a, "slot_length"))
-                       ? ""
-                       : "the slot cuts the disk in two: its inner corners must lie inside the disk";
-          }},
-      [](int dimension, const Arguments& a) {
-        return std::make_unique<SlottedDisk>(dimension, point(a, "center"), number(a, "radius"),
-                                             number(a, "slot_width"), number(a, "slot_length"), number(a, "height"));
-      }};
 }
 
 NamedShape box() {

@@ -9,6 +9,22 @@
 
 namespace gaussdrift {
 
+// Each in a file of its name.
+namespace named {
+NamedField abc();
+NamedField burgers();
+NamedField deformation();
+NamedField doswell();
+NamedField double_gyre();
+NamedField lamb_oseen();
+NamedField rotation();
+NamedField shear();
+NamedField strain();
+NamedField swirl();
+NamedField taylor_green();
+NamedField translation();
+}  // namespace named
+
 const std::vector<NamedField>& named_fields() {
   static const std::vector<NamedField> list = {
       named::rotation(),   named::translation(), named::shear(),        named::strain(),

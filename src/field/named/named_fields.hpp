@@ -40,19 +40,4 @@ const NamedField& find_named_field(std::string_view name);
 /// The field in the domain, with defaults for what is not given. Throws as find_named_field and complete do.
 std::unique_ptr<VelocityField> make_named_field(std::string_view name, const Box& domain, const Arguments& given = {});
 
-namespace named {
-NamedField abc();
-NamedField burgers();
-NamedField deformation();
-NamedField doswell();
-NamedField double_gyre();
-NamedField lamb_oseen();
-NamedField rotation();
-NamedField shear();
-NamedField strain();
-NamedField swirl();
-NamedField taylor_green();
-NamedField translation();
-}  // namespace named
-
 }  // namespace gaussdrift

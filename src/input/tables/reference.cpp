@@ -35,7 +35,8 @@ Section reference_section() {
             "`rho_exact` and `error`. Without this key the whole grid is compared if a picture shows the error, "
             "or if there are density files and the comparison takes at most 15 % of the work of the run. "
             "Otherwise a sample is compared that takes that much, 16 to 4096 points. It has at most 256 points "
-            "where velocity or reaction are not smooth (data on a grid, `abs`, ...). If 16 points are too many, "
+            "where the velocity or a rate of decay is not smooth (data on a grid, `abs`, ...). If 16 points are too "
+            "many, "
             "the error is not measured, unless a check or a target needs it"}}};
 }
 
