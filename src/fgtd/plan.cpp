@@ -17,13 +17,26 @@ template <int d>
 Plan<d>& Plan<d>::operator=(Plan&&) noexcept = default;
 
 template <int d>
-Eigen::MatrixXd Plan<d>::evaluate(const Eigen::Ref<const Points<d>>& targets, const Derivative<d>& alpha) const {
-  return engine_->evaluate(targets, {{{alpha, 1.0}}});
+void Plan<d>::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
+  engine_->set_weights(weights);
 }
 
 template <int d>
-Eigen::MatrixXd Plan<d>::evaluate(const TensorGrid& grid, const Derivative<d>& alpha) const {
-  return engine_->evaluate(grid, {{{alpha, 1.0}}});
+const Choice& Plan<d>::choice() const {
+  return engine_->choice();
+}
+
+// At points, then on grids.
+
+template <int d>
+Eigen::MatrixXd Plan<d>::evaluate(const Eigen::Ref<const Points<d>>& targets, const Derivative<d>& alpha) const {
+  return evaluate_combination(targets, {{alpha, 1.0}});
+}
+
+template <int d>
+Eigen::MatrixXd Plan<d>::evaluate_combination(const Eigen::Ref<const Points<d>>& targets,
+                                              const Combination<d>& combination) const {
+  return evaluate_combinations(targets, {combination});
 }
 
 template <int d>
@@ -33,30 +46,19 @@ Eigen::MatrixXd Plan<d>::evaluate_combinations(const Eigen::Ref<const Points<d>>
 }
 
 template <int d>
-Eigen::MatrixXd Plan<d>::evaluate_combinations(const TensorGrid& grid,
-                                               const std::vector<Combination<d>>& combinations) const {
-  return engine_->evaluate(grid, combinations);
-}
-
-template <int d>
-Eigen::MatrixXd Plan<d>::evaluate_combination(const Eigen::Ref<const Points<d>>& targets,
-                                              const Combination<d>& combination) const {
-  return engine_->evaluate(targets, {combination});
+Eigen::MatrixXd Plan<d>::evaluate(const TensorGrid& grid, const Derivative<d>& alpha) const {
+  return evaluate_combination(grid, {{alpha, 1.0}});
 }
 
 template <int d>
 Eigen::MatrixXd Plan<d>::evaluate_combination(const TensorGrid& grid, const Combination<d>& combination) const {
-  return engine_->evaluate(grid, {combination});
+  return evaluate_combinations(grid, {combination});
 }
 
 template <int d>
-void Plan<d>::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
-  engine_->set_weights(weights);
-}
-
-template <int d>
-const Choice& Plan<d>::choice() const {
-  return engine_->choice();
+Eigen::MatrixXd Plan<d>::evaluate_combinations(const TensorGrid& grid,
+                                               const std::vector<Combination<d>>& combinations) const {
+  return engine_->evaluate(grid, combinations);
 }
 
 template class Plan<1>;
