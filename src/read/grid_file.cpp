@@ -243,6 +243,38 @@ GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string&
   return result;
 }
 
+namespace {
+
+/// Throws GridFileError if so many numbers at every point of so many such grids are more than is read.
+void check_size(const StoredGrid& grid, std::size_t components, std::size_t times, const std::filesystem::path& file) {
+  double numbers = double(components) * double(times);
+  for (const std::size_t length : grid.points()) numbers *= static_cast<double>(length);
+  if (numbers > most_numbers)
+    throw GridFileError(fmt::format("{} holds {:.3g} numbers at {} times; at most {:.3g} are read", name_of(file),
+                                    numbers, times, most_numbers),
+                        "leave times or points out");
+}
+
+/// What a grid holds in the order of the result, whose axes are known: the numbers of all points, and which are hidden.
+std::pair<std::vector<double>, std::vector<std::uint8_t>> in_order(const StoredGrid& grid, const Layout& layout,
+                                                                   bool on_cells, const GridData& result) {
+  std::vector<double> values(result.points() * result.components);
+  const std::vector<std::uint8_t>& mask = grid.hidden(on_cells);
+  std::vector<std::uint8_t> hides(mask.empty() ? 0 : result.points());
+  for (std::size_t p = 0; p < result.points(); ++p) {
+    const std::size_t source = layout.source(p, result.dimension);
+    double* at = values.data() + p * result.components;
+    for (const ArrayValues& array : grid.values()) {
+      const std::size_t count = grid.values().size() == 1 ? result.components : 1;
+      at = std::copy_n(array.numbers.data() + source * count, count, at);
+    }
+    if (!hides.empty()) hides[p] = mask[source];
+  }
+  return {std::move(values), std::move(hides)};
+}
+
+}  // namespace
+
 std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const GridRequest& request) {
   const bool is_series = file.extension() == ".pvd";
   const std::vector<SeriesEntry> entries = is_series ? read_series(file) : std::vector<SeriesEntry>{{file, 0, 0}};
@@ -262,12 +294,7 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
     const std::vector<ArrayInfo> arrays = chosen(grid, entry.file, request);
     std::size_t components = 0;
     for (const ArrayInfo& array : arrays) components += array.components;
-    double numbers = double(components) * double(entries.size());
-    for (const std::size_t length : grid.points()) numbers *= static_cast<double>(length);
-    if (numbers > most_numbers)
-      throw GridFileError(fmt::format("{} holds {:.3g} numbers at {} times; at most {:.3g} are read", name_of(file),
-                                      numbers, entries.size(), most_numbers),
-                          "leave times or points out");
+    check_size(grid, components, entries.size(), file);
     grid.load(arrays);
     const bool cells = arrays[0].on_cells;
     Layout layout = layout_of(grid, dimension, cells);
@@ -281,18 +308,7 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
       throw GridFileError(
           fmt::format("the grid of {} differs from that of {}", name_of(entry.file), name_of(entries.front().file)),
           "all times of a series share one grid");
-    std::vector<double> values(result->points() * components);
-    const std::vector<std::uint8_t>& mask = grid.hidden(cells);
-    std::vector<std::uint8_t> hides(mask.empty() ? 0 : result->points());
-    for (std::size_t p = 0; p < result->points(); ++p) {
-      const std::size_t source = layout.source(p, dimension);
-      double* at = values.data() + p * components;
-      for (const ArrayValues& array : grid.values()) {
-        const std::size_t count = arrays.size() == 1 ? components : 1;
-        at = std::copy_n(array.numbers.data() + source * count, count, at);
-      }
-      if (!hides.empty()) hides[p] = mask[source];
-    }
+    auto [values, hides] = in_order(grid, layout, cells, *result);
     for (const ArrayValues& array : grid.values())
       fills.insert(fills.end(), array.fill_values.begin(), array.fill_values.end());
     result->times.push_back(entry.time);

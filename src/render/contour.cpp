@@ -80,6 +80,33 @@ void draw_locator(Canvas& canvas, const Point& corner, double side, const Height
   canvas.frame(map, grey, 1);
 }
 
+/// Each contour line from above, and from the side as the stroke that it spans at its height.
+struct Curves {
+  std::vector<Polyline> from_above, from_side;
+};
+
+Curves curves(const std::vector<ContourLine>& contours, const Rectangle& window, const Rectangle& above,
+              const Rectangle& side, const Axis& upwards, const ColourRange& range, bool from_below) {
+  Curves drawn;
+  const auto seen = [&](double y) { return from_below ? 1 - y : y; };
+  for (const auto& [level, points] : contours) {
+    const Colour colour = viridis(level);
+    Polyline line{{}, colour};
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Point& p : points) {
+      line.points.push_back({above.x + above.width * (p.x - window.x) / window.width,
+                             above.y + above.height * seen((p.y - window.y) / window.height)});
+      low = std::min(low, p.x);
+      high = std::max(high, p.x);
+    }
+    drawn.from_above.push_back(std::move(line));
+    const double z = side.y + side.height * upwards.position(range.min + level * (range.max - range.min));
+    const auto x = [&](double at) { return side.x + side.width * (at - window.x) / window.width; };
+    drawn.from_side.push_back({{{x(low), z}, {x(high), z}}, colour});
+  }
+  return drawn;
+}
+
 void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options) {
   const Scale scale(canvas);
   const double left = scale(112), between = scale(130), right = scale(40), bottom = scale(206), top = scale(120);
@@ -97,27 +124,11 @@ void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, co
 
   const double margin = 0.05 * (range.max - range.min);
   const Axis upwards{options.quantity, range.min - margin, range.max + margin, 6};
-  std::vector<Polyline> from_above, from_side;
   // From below x still runs to the right, so y runs downwards.
   Axis across = x_axis(field, window, above.width, scale, options),
        aside = y_axis(field, window, above.height, scale, options);
   if (options.from_below) std::swap(aside.min, aside.max);
-  const auto seen = [&](double y) { return options.from_below ? 1 - y : y; };
-  for (const auto& [level, points] : contours) {
-    const Colour colour = viridis(level);
-    Polyline line{{}, colour};
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Point& p : points) {
-      line.points.push_back({above.x + above.width * (p.x - window.x) / window.width,
-                             above.y + above.height * seen((p.y - window.y) / window.height)});
-      low = std::min(low, p.x);
-      high = std::max(high, p.x);
-    }
-    from_above.push_back(std::move(line));
-    const double z = side.y + side.height * upwards.position(range.min + level * (range.max - range.min));
-    const auto x = [&](double at) { return side.x + side.width * (at - window.x) / window.width; };
-    from_side.push_back({{{x(low), z}, {x(high), z}}, colour});
-  }
+  const auto [from_above, from_side] = curves(contours, window, above, side, upwards, range, options.from_below);
   canvas.lines(from_above, scale(2.4));
   canvas.lines(outline(field, window, side, upwards, range), scale(1.5));
   canvas.lines(from_side, scale(3));

@@ -164,7 +164,7 @@ void formulas(const Printed& printed, std::vector<Claim>& claims) {
                     "it is of that order, but not below. Measured errors are far smaller (Table 4.7)"});
 }
 
-void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
+void boxes_left_out(const Printed& printed, std::vector<Claim>& claims) {
   const double r = printed("box_scale"), n = printed("neighbours_of_figures");
   const double bound = box_error(r, n), left = measured_box_error(r, static_cast<int>(n));
   claims.push_back(
@@ -174,7 +174,9 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
                    r, n),
        fmt::format("{:.3g}", bound), left, left <= bound && left > 0.999 * bound,
        fmt::format("no smaller bound is true. (3.5) promises exp(-r^2 n^2) = {:.2g}", std::sqrt(bound))});
+}
 
+void cheapest_parameters(const Printed& printed, std::vector<Claim>& claims) {
   const double error = printed("optimum_error");
   const auto p = static_cast<int>(printed("optimum_terms")), nu = static_cast<int>(printed("optimum_boxes"));
   const double cost = fgtd::hermite_cost(3, p, std::pow(nu, 3), 1, 1);
@@ -191,7 +193,10 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
                    "there and {:.2g} for p = {}, nu = {}. Neither is below {:g}. The cheapest parameters "
                    "below it are p = {}, nu = {} with {:g} terms. By time p = {}, nu = {} is faster (Table 3.5)",
                    same.p, same.nu, same.bound, promised, p, nu, error, below.p, below.nu, below.cost, p, nu)});
+}
 
+void neighbours_that_suffice(const Printed& printed, std::vector<Claim>& claims) {
+  const double r = printed("box_scale");
   const auto enough = [&](const char* neighbours, const char* wanted, const char* name) {
     const double taken = printed(neighbours), digits = -std::log10(printed(wanted));
     const double needed = neighbours_for(r, digits);
@@ -205,8 +210,11 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
   };
   enough("neighbours_of_tables", "error_of_tables", "n of the tables");
   enough("neighbours_of_figures", "error_of_figures", "n of the figures");
+}
 
-  // With weights 1/N, Q is 1 whatever N is.
+// With weights 1/N, Q is 1 whatever N is.
+void error_of_any_number(const Printed& printed, std::vector<Claim>& claims) {
+  const auto p = static_cast<int>(printed("optimum_terms")), nu = static_cast<int>(printed("optimum_boxes"));
   std::vector<double> errors;
   for (const std::size_t count : {std::size_t{1000}, std::size_t{8000}}) {
     const Problem<3> problem{halton_points<3>(count),
@@ -223,7 +231,9 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
                    p, nu),
        "constant", ratio, ratio > 1.0 / 3 && ratio < 3,
        fmt::format("the errors are {:.2g} and {:.2g}. The bound is the same for all N", errors[0], errors[1])});
+}
 
+void numbers_of_boxes(const Printed& printed, std::vector<Claim>& claims) {
   for (const auto& [name, d] : {std::pair{"boxes_for_32_in_the_plane", 2}, {"boxes_for_32_in_space", 3}}) {
     const double boxes = std::pow(32, d);
     claims.push_back({printed.section(name), fmt::format("boxes, d = {}", d),
@@ -232,15 +242,39 @@ void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
   }
 }
 
-void rotating_cone(const Printed& printed, const ClaimsOptions& options, std::vector<Claim>& claims) {
-  const auto per_axis = static_cast<int>(printed("particles_an_axis"));
-  const int points =
-      options.points_an_axis > 0 ? options.points_an_axis : static_cast<int>(printed("points_of_figures"));
-  const double overlap = printed("overlap"), r = printed("box_scale");
-  const auto p = static_cast<int>(printed("terms"));
-  const ConeDensity cone(per_axis, overlap, points, options.threads);
-  const std::string section = printed.section("particles_with_weight");
+void choice_of_parameters(const Printed& printed, std::vector<Claim>& claims) {
+  boxes_left_out(printed, claims);
+  cheapest_parameters(printed, claims);
+  neighbours_that_suffice(printed, claims);
+  error_of_any_number(printed, claims);
+  numbers_of_boxes(printed, claims);
+}
 
+/// The thesis's cone, and what it says of it in one section.
+struct RotatingCone {
+  RotatingCone(const Printed& values, const ClaimsOptions& options)
+      : printed(values),
+        per_axis(static_cast<int>(printed("particles_an_axis"))),
+        points(options.points_an_axis > 0 ? options.points_an_axis : static_cast<int>(printed("points_of_figures"))),
+        overlap(printed("overlap")),
+        r(printed("box_scale")),
+        p(static_cast<int>(printed("terms"))),
+        section(printed.section("particles_with_weight")),
+        cone(per_axis, overlap, points, options.threads) {}
+
+  void lattice(std::vector<Claim>& claims) const;
+  void tables(std::vector<Claim>& claims) const;
+  void figures(std::vector<Claim>& claims) const;
+
+  const Printed& printed;
+  const int per_axis, points;
+  const double overlap, r;
+  const int p;
+  const std::string section;
+  const ConeDensity cone;
+};
+
+void RotatingCone::lattice(std::vector<Claim>& claims) const {
   const auto particles = static_cast<double>(cone.particles_above(1e-15));
   claims.push_back(
       {section, "particles",
@@ -257,7 +291,9 @@ void rotating_cone(const Printed& printed, const ClaimsOptions& options, std::ve
        printed.text("boxes_an_axis"), boxes, boxes == printed("boxes_an_axis"),
        fmt::format("that is for a cube of side 1. The domain has side 2, so it has {:.0f} boxes of this r",
                    std::ceil(2 * exact))});
+}
 
+void RotatingCone::tables(std::vector<Claim>& claims) const {
   const auto wide = static_cast<int>(printed("neighbours_of_tables"));
   const double bound = fgtd::hermite_bound<2>(r, p, all_boxes, {}).value() + box_error(r, wide);
   claims.push_back(
@@ -266,22 +302,24 @@ void rotating_cone(const Printed& printed, const ClaimsOptions& options, std::ve
                    p, wide),
        printed.text("error_of_tables"), bound, bound < printed("error_of_tables"),
        "the series alone may err by that. It is of that order, but not below"});
-  const auto tables = cone.hermite(r, p, wide);
+  const auto measured = cone.hermite(r, p, wide);
   claims.push_back({section,
                     "measured so",
                     fmt::format("the same error, measured at t = 0 at {} x {} points, over Q", points, points),
                     "",
-                    tables.error / cone.total(),
+                    measured.error / cone.total(),
                     {},
                     "this is rounding: sums in double precision cannot show 1e-18"});
+}
 
+void RotatingCone::figures(std::vector<Claim>& claims) const {
   const auto narrow = static_cast<int>(printed("neighbours_of_figures"));
-  const auto figures = cone.hermite(r, p, narrow);
+  const auto measured = cone.hermite(r, p, narrow);
   claims.push_back(
       {section, "error of the figures",
        fmt::format("the error for r = {:g}, p = {}, n = {} is 1e-8. Measured at t = 0, where the height is 1", r, p,
                    narrow),
-       printed.text("error_of_figures"), figures.error, figures.error <= printed("error_of_figures"),
+       printed.text("error_of_figures"), measured.error, measured.error <= printed("error_of_figures"),
        "by 3.8.2 this n is too small for this r, as above"});
   // The printed boxes put over the domain are twice as wide as stated: r is then 0.4.
   const double over_domain = 2 / printed("boxes_an_axis") / (std::sqrt(2.0) * overlap * cone.spacing());
@@ -294,7 +332,7 @@ void rotating_cone(const Printed& printed, const ClaimsOptions& options, std::ve
        printed.text("difference_from_pairs"), with_printed.error,
        with_printed.error <= printed("difference_from_pairs"),
        fmt::format("with r = {:g} as stated it differs by {:.1e}. So the thesis probably had the wider boxes", r,
-                   figures.error)});
+                   measured.error)});
   claims.push_back({section,
                     "seconds, n = 12",
                     fmt::format("seconds of {} x {} points by hermite, r = {:.3g}", points, points, over_domain),
@@ -321,7 +359,10 @@ ClaimsReproduction reproduce_claims(const ClaimsOptions& options,
   formulas(printed, result.claims);
   choice_of_parameters(printed, result.claims);
   if (progress) progress("the rotating cone");
-  rotating_cone(printed, options, result.claims);
+  const RotatingCone cone(printed, options);
+  cone.lattice(result.claims);
+  cone.tables(result.claims);
+  cone.figures(result.claims);
   std::stable_sort(result.claims.begin(), result.claims.end(),
                    [](const Claim& a, const Claim& b) { return a.section < b.section; });
   result.seconds = watch.seconds();

@@ -185,6 +185,46 @@ double own_derivative(const GaussianSum<3>& sum, int axis, const fgtd::Points<3>
 
 double relative(const Divergence& result) { return std::abs(result.value[0]) / result.terms[0]; }
 
+/// Of n sources: row i of the table.
+Row divergence_row(std::size_t i, double n, int threads) {
+  const fgtd::Points<3> target = Eigen::Vector3d::Constant(0.5);
+  const auto count = static_cast<std::size_t>(n);
+  const fgtd::Points<3> points = halton_points<3>(count), cube = with_corners<3>(points);
+  const Eigen::MatrixXd gamma = halton_coefficients(count), padded = with_corners(gamma);
+  const auto divergence = [&](const fgtd::Points<3>& sources, const Eigen::MatrixXd& coefficients,
+                              const GaussianSumOptions& with) {
+    return GaussianSum<3>(sources, coefficients, sigma, with).divergence(GaussianMatrix::field, target);
+  };
+  const GaussianSumOptions direct_options{.derivative_order = 3, .method = fgtd::Method::direct, .threads = threads};
+  Divergence direct, hermite;
+  const double direct_seconds = fastest_seconds([&] { direct = divergence(points, gamma, direct_options); });
+  const double hermite_seconds =
+      fastest_seconds([&] { hermite = divergence(cube, padded, hermite_options(3, threads)); });
+  const double automatic_seconds = fastest_seconds(
+      [&] { divergence(points, gamma, {.derivative_order = 3, .threads = threads, .expected_targets = 1}); });
+
+  const GaussianSum<3> by_pairs(points, gamma, sigma, direct_options),
+      by_hermite(cube, padded, sigma, hermite_options(3, threads)),
+      by_chebyshev(points, gamma, sigma,
+                   {.tolerance = 1e-6, .derivative_order = 3, .method = fgtd::Method::chebyshev, .threads = threads});
+  const double apart = own_derivative(by_hermite, 0, target) + own_derivative(by_chebyshev, 1, target) +
+                       own_derivative(by_pairs, 2, target);
+  const double of_hermite = own_derivative(by_hermite, 0, target) - own_derivative(by_pairs, 0, target);
+  double size = 0;
+  for (const int axis : {0, 1, 2}) size += std::abs(own_derivative(by_pairs, axis, target));
+
+  Row row{fmt::format("N = {:.0f}", n), i, {}, {}};
+  row.entries = {{direct_seconds, {}},
+                 {std::abs(direct.value[0]), {}},
+                 {hermite_seconds, automatic_seconds},
+                 {std::abs(hermite.value[0]), {}},
+                 {relative(divergence_by_differences(by_pairs, target.col(0))), {}},
+                 {relative(divergence_by_differences(by_hermite, target.col(0))), {}},
+                 {std::abs(apart) / size, {}},
+                 {std::abs(of_hermite) / size, {}}};
+  return row;
+}
+
 }  // namespace
 
 std::vector<Table> divergence_table(const FgtdOptions& options) {
@@ -210,46 +250,10 @@ std::vector<Table> divergence_table(const FgtdOptions& options) {
                {.name = "apart"},
                {.name = "error"}},
               {}};
-  const fgtd::Points<3> target = Eigen::Vector3d::Constant(0.5);
-  const int threads = timed_threads(options);
   const PublishedTable published("schroeder-table-6.2");
   for (std::size_t i = 0; i < published.rows(); ++i) {
     const double n = *published.number(i, "sources");
-    if (n > options.most_points) continue;
-    const auto count = static_cast<std::size_t>(n);
-    const fgtd::Points<3> points = halton_points<3>(count), cube = with_corners<3>(points);
-    const Eigen::MatrixXd gamma = halton_coefficients(count), padded = with_corners(gamma);
-    const auto divergence = [&](const fgtd::Points<3>& sources, const Eigen::MatrixXd& coefficients,
-                                const GaussianSumOptions& with) {
-      return GaussianSum<3>(sources, coefficients, sigma, with).divergence(GaussianMatrix::field, target);
-    };
-    const GaussianSumOptions direct_options{.derivative_order = 3, .method = fgtd::Method::direct, .threads = threads};
-    Divergence direct, hermite;
-    const double direct_seconds = fastest_seconds([&] { direct = divergence(points, gamma, direct_options); });
-    const double hermite_seconds =
-        fastest_seconds([&] { hermite = divergence(cube, padded, hermite_options(3, threads)); });
-    const double automatic_seconds = fastest_seconds(
-        [&] { divergence(points, gamma, {.derivative_order = 3, .threads = threads, .expected_targets = 1}); });
-
-    const GaussianSum<3> by_pairs(points, gamma, sigma, direct_options),
-        by_hermite(cube, padded, sigma, hermite_options(3, threads)),
-        by_chebyshev(points, gamma, sigma,
-                     {.tolerance = 1e-6, .derivative_order = 3, .method = fgtd::Method::chebyshev, .threads = threads});
-    const double apart = own_derivative(by_hermite, 0, target) + own_derivative(by_chebyshev, 1, target) +
-                         own_derivative(by_pairs, 2, target);
-    const double of_hermite = own_derivative(by_hermite, 0, target) - own_derivative(by_pairs, 0, target);
-    double size = 0;
-    for (const int axis : {0, 1, 2}) size += std::abs(own_derivative(by_pairs, axis, target));
-
-    Row& row = table.rows.emplace_back(Row{fmt::format("N = {:.0f}", n), i, {}, {}});
-    row.entries = {{direct_seconds, {}},
-                   {std::abs(direct.value[0]), {}},
-                   {hermite_seconds, automatic_seconds},
-                   {std::abs(hermite.value[0]), {}},
-                   {relative(divergence_by_differences(by_pairs, target.col(0))), {}},
-                   {relative(divergence_by_differences(by_hermite, target.col(0))), {}},
-                   {std::abs(apart) / size, {}},
-                   {std::abs(of_hermite) / size, {}}};
+    if (n <= options.most_points) table.rows.push_back(divergence_row(i, n, timed_threads(options)));
   }
   return {table};
 }

@@ -1,3 +1,4 @@
+// Tables 4.1 to 4.9: the measurements of chapter 4.
 #include "reproduce/fgtd_tables.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <numeric>
 
 #include "gaussdrift/error.hpp"
+#include "reproduce/fgtd_entries.hpp"
 #include "reproduce/measured_sum.hpp"
 #include "reproduce/point_sets.hpp"
 #include "reproduce/published.hpp"
@@ -15,8 +17,6 @@
 namespace gaussdrift::reproduce {
 
 namespace {
-
-constexpr int all_boxes = fgtd::HermiteParameters::all_boxes;
 
 // The two choices of parameters that chapter 4 measures.
 struct Parameters {
@@ -26,8 +26,6 @@ struct Parameters {
 };
 constexpr Parameters coarse{8, 2}, fine{9, 3};
 constexpr std::array<Parameters, 2> both{coarse, fine};
-
-double boxes_of(int d, int nu) { return std::pow(nu, d); }
 
 // How many of `points` targets a direct sum over as many sources may have.
 std::size_t within_pairs(const FgtdOptions& options, double sources, double targets) {
@@ -53,90 +51,46 @@ Problem<d> standard_problem(std::size_t count) {
   return problem;
 }
 
-Entry absolute_errors(const Measurement& hermite, const Measurement& automatic) {
-  return {hermite.absolute, automatic.absolute, automatic.absolute <= automatic.allowed};
-}
-Entry relative_errors(const Measurement& hermite, const Measurement& automatic) {
-  return {hermite.relative, automatic.relative, automatic.absolute <= automatic.allowed};
-}
-
 constexpr const char* beyond_the_end = "just beyond the end of the printed power of ten";
 constexpr const char* nearest_to_zero =
     "it is the error of the one target where the sum is nearest to 0. The thesis's weights are not known to the digit";
-
-// The number that a row is named by: nu, N, sigma, c.
-double row_number(const PublishedTable& published, std::size_t row) {
-  return *published.number(row, published.columns()[0]);
-}
 
 std::string chosen(const Measurement& automatic) {
   return fmt::format("{} {:.0e}", fgtd::to_string(automatic.choice.method), automatic.choice.tolerance);
 }
 
-double seconds_for(const Measurement& measured, double targets) {
-  return measured.prepare + targets * measured.evaluate;
+/// Of Tables 4.1 and 4.2.
+void add_columns(const Parameters& q, Table& error, Table& time) {
+  error.columns.push_back(
+      {.name = q.name() + " bound",
+       .printed = q.printed() + "_bound",
+       .comparison = Comparison::arithmetic,
+       .decades = 1,
+       .why_off = "(3.5) gives 11.3 Q and 0.0295 Q for the two choices, the thesis says Q 10^1 and Q 10^-2"});
+  error.columns.push_back({.name = q.name() + " absolute",
+                           .printed = q.printed() + "_absolute",
+                           .comparison = Comparison::order,
+                           .automatic = true,
+                           .why_off = beyond_the_end});
+  error.columns.push_back({.name = q.name() + " relative",
+                           .printed = q.printed() + "_relative",
+                           .comparison = Comparison::at_most,
+                           .automatic = true,
+                           .decades = 1,
+                           .why_off = nearest_to_zero});
+  time.columns.push_back({.name = q.name() + " seconds",
+                          .printed = "seconds_" + q.printed(),
+                          .quantity = Quantity::seconds,
+                          .digits = 3,
+                          .automatic = true});
+  time.columns.push_back({.name = q.name() + " times faster",
+                          .printed = "speedup_" + q.printed(),
+                          .quantity = Quantity::factor,
+                          .digits = 3,
+                          .automatic = true});
 }
-
-// Tables 3.2 to 3.5 have rows nu and columns p5, ..., p12.
-struct TermsTable {
-  PublishedTable published;
-  Table table;
-
-  TermsTable(const std::string& number, const std::string& title, const std::string& what, Column of_all)
-      : published("schroeder-table-" + number), table{number, title, what, {}, {}} {
-    for (std::size_t i = 1; i < published.columns().size(); ++i) {
-      of_all.printed = published.columns()[i];
-      of_all.name = "p=" + of_all.printed.substr(1);
-      table.columns.push_back(of_all);
-    }
-    for (std::size_t row = 0; row < published.rows(); ++row)
-      table.rows.push_back({"nu = " + published.row_name(row), row, {}, {}});
-  }
-  int nu(std::size_t row) const { return static_cast<int>(row_number(published, row)); }
-  int terms(std::size_t column) const { return std::stoi(table.columns[column].printed.substr(1)); }
-
-  template <class Number>
-  void fill(const Number& number) {
-    for (std::size_t row = 0; row < table.rows.size(); ++row)
-      for (std::size_t column = 0; column < table.columns.size(); ++column)
-        table.rows[row].entries.push_back({number(nu(row), terms(column)), {}});
-  }
-};
 
 }  // namespace
-
-std::vector<Table> analytic_tables() {
-  TermsTable cost("3.2", "cost p^d N + nu^d p^d M", "d = 3, N = M = 1; nothing is summed",
-                  {.quantity = Quantity::count, .comparison = Comparison::arithmetic, .digits = 0});
-  TermsTable bound("3.3", "bound (3.5)", "d = 3, every box, r = 1/nu (sigma = 2), alpha = 0, Q = 1; nothing is summed",
-                   {.comparison = Comparison::arithmetic});
-  cost.fill([](int nu, int p) { return fgtd::hermite_cost(3, p, boxes_of(3, nu), 1, 1); });
-  bound.fill([](int nu, int p) { return fgtd::hermite_bound<3>(1.0 / nu, p, all_boxes, {}).value(); });
-  return {cost.table, bound.table};
-}
-
-std::vector<Table> parameter_tables() {
-  constexpr std::size_t count = 12;
-  const std::string taken = fmt::format(
-      "d = 3, sigma = 2, alpha = 0, every box. The thesis does not state the number of points; here {} Halton points "
-      "with weights scaled to Q = 1",
-      count);
-  TermsTable error("3.4", "absolute error", taken, {.comparison = Comparison::order, .automatic = true});
-  TermsTable time("3.5", "microseconds to prepare and evaluate at all points",
-                  taken + ". Published as hundredths of a second, which is plausible for 12 points. One thread",
-                  {.quantity = Quantity::seconds, .digits = 3, .automatic = true, .unit = 1e4});
-  Problem<3> problem{halton_points<3>(count), halton_weights(count, 3), 2.0, {}};
-  problem.weights /= problem.weights.sum();
-  const MeasuredSum<3> sum(problem, count, count, 1);
-  for (std::size_t row = 0; row < error.table.rows.size(); ++row)
-    for (std::size_t i = 0; i < error.table.columns.size(); ++i) {
-      const Measurement hermite = sum.hermite(error.nu(row), error.terms(i), all_boxes);
-      const Measurement automatic = sum.automatic(hermite.absolute);
-      error.table.rows[row].entries.push_back(absolute_errors(hermite, automatic));
-      time.table.rows[row].entries.push_back({1e6 * seconds_for(hermite, count), 1e6 * seconds_for(automatic, count)});
-    }
-  return {error.table, time.table};
-}
 
 std::vector<Table> point_number_tables(const FgtdOptions& options) {
   const std::string what = "N = M Halton points, d = 3, sigma = 2, alpha = (0,1,2), every box" + sampled(options);
@@ -144,35 +98,7 @@ std::vector<Table> point_number_tables(const FgtdOptions& options) {
   Table time{"4.2", "seconds over the number of points", what, {}, {}};
   time.columns.push_back(
       {.name = "direct", .printed = "seconds_brute_force", .quantity = Quantity::seconds, .digits = 3});
-  for (const Parameters& q : both) {
-    error.columns.push_back(
-        {.name = q.name() + " bound",
-         .printed = q.printed() + "_bound",
-         .comparison = Comparison::arithmetic,
-         .decades = 1,
-         .why_off = "(3.5) gives 11.3 Q and 0.0295 Q for the two choices, the thesis says Q 10^1 and Q 10^-2"});
-    error.columns.push_back({.name = q.name() + " absolute",
-                             .printed = q.printed() + "_absolute",
-                             .comparison = Comparison::order,
-                             .automatic = true,
-                             .why_off = beyond_the_end});
-    error.columns.push_back({.name = q.name() + " relative",
-                             .printed = q.printed() + "_relative",
-                             .comparison = Comparison::at_most,
-                             .automatic = true,
-                             .decades = 1,
-                             .why_off = nearest_to_zero});
-    time.columns.push_back({.name = q.name() + " seconds",
-                            .printed = "seconds_" + q.printed(),
-                            .quantity = Quantity::seconds,
-                            .digits = 3,
-                            .automatic = true});
-    time.columns.push_back({.name = q.name() + " times faster",
-                            .printed = "speedup_" + q.printed(),
-                            .quantity = Quantity::factor,
-                            .digits = 3,
-                            .automatic = true});
-  }
+  for (const Parameters& q : both) add_columns(q, error, time);
   const PublishedTable published("schroeder-table-4.1");
   for (std::size_t row = 0; row < published.rows(); ++row) {
     const double n = row_number(published, row);

@@ -5,10 +5,10 @@
 namespace farfield::detail {
 namespace {
 
-/// What a rank tells of a cluster.
-struct Told {
+/// What another rank gets to know of a cluster.
+struct ClusterHeader {
   Index number = 0;  // in its forest
-  Index parent = 0;  // among those told
+  Index parent = 0;  // among those sent
   std::uint32_t sources = 0;
   std::uint8_t octant = 0;
   bool one_point = false;
@@ -20,10 +20,10 @@ void shift(Range& range, std::size_t from, std::size_t to) { range = {range.begi
 /// The clusters that another rank needs to know, parents first: the leaves of the coarse tree that are divided for it,
 /// and below them the children of all clusters that its leaves see.
 template <int d>
-std::vector<Told> told_to(const CoarseTree& coarse, const std::vector<Cluster>& forest, std::size_t rank,
-                          std::size_t other) {
+std::vector<ClusterHeader> headers_for(const CoarseTree& coarse, const std::vector<Cluster>& forest, std::size_t rank,
+                                       std::size_t other) {
   struct Open {
-    Index cluster, told;
+    Index cluster, header;
     std::vector<Index> seen_by;  // leaves of the other rank
   };
   std::vector<Index> others, own;
@@ -31,7 +31,7 @@ std::vector<Told> told_to(const CoarseTree& coarse, const std::vector<Cluster>& 
     if (coarse.is_of(coarse.clusters[i], other)) others.push_back(i);
     if (coarse.is_of(coarse.clusters[i], rank)) own.push_back(i);
   }
-  std::vector<Told> told;
+  std::vector<ClusterHeader> headers;
   std::vector<Open> open;
   const auto look = [&](Index i, Index place, const std::vector<Index>& leaves) {
     if (forest[i].leaf()) return;
@@ -40,37 +40,38 @@ std::vector<Told> told_to(const CoarseTree& coarse, const std::vector<Cluster>& 
       if (sees_children<d>(coarse.clusters[leaf], forest[i])) next.seen_by.push_back(leaf);
     if (!next.seen_by.empty()) open.push_back(std::move(next));
   };
-  const auto tell = [&](Index i, Index parent) {
+  const auto add = [&](Index i, Index parent) {
     const Cluster& cluster = forest[i];
-    told.push_back({i, parent, static_cast<std::uint32_t>(cluster.source_count()), cluster.octant, cluster.one_point});
-    return static_cast<Index>(told.size() - 1);
+    headers.push_back(
+        {i, parent, static_cast<std::uint32_t>(cluster.source_count()), cluster.octant, cluster.one_point});
+    return static_cast<Index>(headers.size() - 1);
   };
   for (const Index i : own) {
     const std::size_t before = open.size();
     look(i, 0, others);
-    if (open.size() > before) open.back().told = tell(i, is_leaf_of_coarse_tree);
+    if (open.size() > before) open.back().header = add(i, is_leaf_of_coarse_tree);
   }
   for (std::size_t n = 0; n < open.size(); ++n) {
     const Open parent = std::move(open[n]);
     const Cluster& cluster = forest[parent.cluster];
     for (Index c = cluster.first_child; c < cluster.first_child + cluster.children; ++c)
-      look(c, tell(c, parent.told), parent.seen_by);
+      look(c, add(c, parent.header), parent.seen_by);
   }
-  return told;
+  return headers;
 }
 
-/// The forest that a rank has told of: [number among those told].
+/// The forest of a rank as far as its headers show it: [number of the header].
 template <int d>
-std::vector<Cluster> forest_of(const std::vector<Told>& told, const CoarseTree& coarse) {
+std::vector<Cluster> forest_of(const std::vector<ClusterHeader>& headers, const CoarseTree& coarse) {
   std::vector<Cluster> clusters;
   std::vector<std::size_t> next;  // where the next child's points begin
-  for (const Told& one : told) {
+  for (const ClusterHeader& one : headers) {
     Cluster cluster;
     if (one.parent == is_leaf_of_coarse_tree) {
-      if (one.number >= coarse.clusters.size()) throw Error("farfield: a rank told of an unknown cluster");
+      if (one.number >= coarse.clusters.size()) throw Error("farfield: a rank sent an unknown cluster");
       cluster = coarse.clusters[one.number];
     } else {
-      if (one.parent >= clusters.size()) throw Error("farfield: a rank told of an unknown cluster");
+      if (one.parent >= clusters.size()) throw Error("farfield: a rank sent an unknown cluster");
       Cluster& parent = clusters[one.parent];
       if (parent.children++ == 0) parent.first_child = static_cast<Index>(clusters.size());
       cluster.level = static_cast<std::uint8_t>(parent.level + 1);
@@ -119,7 +120,7 @@ Tree<d> make_essential_tree(const Channel& channel, const Cube& cube, const Coar
   for (std::size_t r = 0; r < ranks; ++r) {
     if (r == rank) continue;
     Writer to;
-    to.put_list(told_to<d>(coarse, forest, rank, r));
+    to.put_list(headers_for<d>(coarse, forest, rank, r));
     out[r] = to.take();
   }
   const std::vector<Bytes> in = channel.exchange(std::move(out), received);
@@ -129,13 +130,14 @@ Tree<d> make_essential_tree(const Channel& channel, const Cube& cube, const Coar
     const std::vector<Cluster>* forest;
     Index place;
   };
-  std::vector<From> told_as(coarse.clusters.size(), From{nullptr, 0});
+  std::vector<From> sent_as(coarse.clusters.size(), From{nullptr, 0});
   for (std::size_t r = 0; r < ranks; ++r) {
     if (r == rank) continue;
-    const auto told = Reader(in[r]).get_list<Told>();
-    forests[r] = forest_of<d>(told, coarse);
-    for (std::size_t i = 0; i < told.size(); ++i)
-      if (told[i].parent == is_leaf_of_coarse_tree) told_as[told[i].number] = {&forests[r], static_cast<Index>(i)};
+    const auto headers = Reader(in[r]).get_list<ClusterHeader>();
+    forests[r] = forest_of<d>(headers, coarse);
+    for (std::size_t i = 0; i < headers.size(); ++i)
+      if (headers[i].parent == is_leaf_of_coarse_tree)
+        sent_as[headers[i].number] = {&forests[r], static_cast<Index>(i)};
   }
 
   const Range own = coarse.own(rank);
@@ -144,7 +146,7 @@ Tree<d> make_essential_tree(const Channel& channel, const Cube& cube, const Coar
   std::vector<std::size_t> level_begin{0};
   const auto add = [&](From source, Index parent) {
     const bool is_coarse = source.forest == &forest && source.place < coarse.clusters.size();
-    if (is_coarse && told_as[source.place].forest) source = told_as[source.place];
+    if (is_coarse && sent_as[source.place].forest) source = sent_as[source.place];
     Cluster cluster = (*source.forest)[source.place];
     const Range points = cluster.sources;
     cluster.parent = parent;

@@ -3,6 +3,38 @@
 #include <algorithm>
 
 namespace farfield::detail {
+namespace {
+
+/// A point that has come from another rank.
+struct Arrival {
+  std::uint32_t leaf;
+  Index arrival;
+  std::int64_t number;
+};
+
+/// What has come from all ranks, in the order of arrival; arrived[r]: the first of rank r.
+std::vector<Arrival> read_arrivals(std::vector<Reader>& from, std::vector<std::size_t>& arrived) {
+  std::vector<Arrival> arrivals;
+  arrived = {0};
+  for (Reader& reader : from) {
+    const auto leaves = reader.get_list<std::uint64_t>();
+    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
+      for (std::uint64_t i = 0; i < leaves[leaf]; ++i)
+        arrivals.push_back(
+            {static_cast<std::uint32_t>(leaf), static_cast<Index>(arrivals.size()), reader.get<std::int64_t>()});
+    arrived.push_back(arrivals.size());
+  }
+  return arrivals;
+}
+
+void refuse_equal_numbers(const std::vector<Arrival>& sorted) {
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i - 1].leaf == sorted[i].leaf && sorted[i - 1].number == sorted[i].number)
+      throw InvalidArgument("farfield: two points have the number " + std::to_string(sorted[i].number) +
+                            "; the numbers of all points of all ranks must differ");
+}
+
+}  // namespace
 
 template <int d>
 Homes<d>::Homes(const Channel& channel, const CoarseTree& coarse, const SortedPoints& points,
@@ -29,32 +61,12 @@ Homes<d>::Homes(const Channel& channel, const CoarseTree& coarse, const SortedPo
   }
   const std::vector<Bytes> in = channel.exchange(std::move(out), received);
 
-  struct Arrival {
-    std::uint32_t leaf;
-    Index arrival;
-    std::int64_t number;
-  };
-  std::vector<Arrival> arrivals;
-  std::vector<Reader> readers;
-  arrived_ = {0};
-  for (std::size_t r = 0; r < ranks; ++r) {
-    Reader& from = readers.emplace_back(in[r]);
-    const auto leaves = from.get_list<std::uint64_t>();
-    for (std::size_t leaf = 0; leaf < leaves.size(); ++leaf)
-      for (std::uint64_t i = 0; i < leaves[leaf]; ++i)
-        arrivals.push_back(
-            {static_cast<std::uint32_t>(leaf), static_cast<Index>(arrivals.size()), from.get<std::int64_t>()});
-    arrived_.push_back(arrivals.size());
-  }
+  std::vector<Reader> readers(in.begin(), in.end());
+  std::vector<Arrival> arrivals = read_arrivals(readers, arrived_);
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
     return a.leaf != b.leaf ? a.leaf < b.leaf : a.number < b.number;
   });
-  channel.together([&] {
-    for (std::size_t i = 1; i < arrivals.size(); ++i)
-      if (arrivals[i - 1].leaf == arrivals[i].leaf && arrivals[i - 1].number == arrivals[i].number)
-        throw InvalidArgument("farfield: two points have the number " + std::to_string(arrivals[i].number) +
-                              "; the numbers of all points of all ranks must differ");
-  });
+  channel.together([&] { refuse_equal_numbers(arrivals); });
 
   own.original.resize(arrivals.size());
   for (std::size_t i = 0; i < arrivals.size(); ++i) own.original[i] = arrivals[i].arrival;
