@@ -131,6 +131,6 @@ int main(int argc, char** argv) {
                  rows.excess.size(), std::exp(deviation));
   }
   std::istringstream headers(COST_HEADERS);
-  for (std::string header; std::getline(headers, header, ';');) print_header(header);
+  for (std::string header; std::getline(headers, header, ',');) print_header(header);
   return 0;
 }
