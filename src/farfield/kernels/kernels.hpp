@@ -46,6 +46,24 @@ struct PairsJob {
   double* field[3];   // null: not wanted
 };
 
+/// The kernels of general.hpp; only those with a name are summed here.
+enum class GeneralShape { yukawa, inverse_power, gaussian, of_distance, of_difference };
+
+/// out_i += sum_j q_j k(x_i - y_j) for the targets of a range and the sources of several. Pairs at distance 0 are left out
+/// where k is infinite there.
+struct GeneralPairsJob {
+  GeneralShape shape;
+  int dimension;
+  double parameter;         // lambda, power or sigma
+  const double* target[3];  // [dimension]: arrays of coordinates
+  Range targets;
+  const double* source[3];
+  const double* charge;
+  const Range* runs;
+  std::size_t run_count;
+  double* out;  // by target like the coordinates
+};
+
 /// C (rows x width) += A (rows x depth) B (depth x width), all row-major; B is readable `padding` numbers past its end.
 struct ProductJob {
   std::size_t rows, depth, width;
@@ -104,6 +122,7 @@ struct Kernels {
   void (*moments)(const MomentsJob&);
   void (*expansion)(const ExpansionJob&);
   void (*inverse_roots)(const InverseRootsJob&);
+  void (*general_pairs)(const GeneralPairsJob&);
 };
 
 /// Those of the fastest instruction set that this processor runs.

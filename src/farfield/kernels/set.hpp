@@ -14,6 +14,7 @@ void product(const ProductJob& job);
 void moments(const MomentsJob& job);
 void expansion(const ExpansionJob& job);
 void inverse_roots(const InverseRootsJob& job);
+void general_pairs(const GeneralPairsJob& job);
 
 extern const Kernels kernels;
 
