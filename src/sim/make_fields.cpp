@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/longest_side.hpp"
 #include "field/density/shapes.hpp"
 #include "field/density/sum_density.hpp"
 #include "field/density/written_density.hpp"
@@ -28,7 +29,7 @@ std::unique_ptr<VelocityField> make_part(const ExpressionVelocitySpec& part, con
 }
 
 std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocitySpec& part, const Case& spec, int /*threads*/) {
-  return std::make_unique<StreamfunctionField>(part.psi, spec.params);
+  return std::make_unique<StreamfunctionField>(part.psi, spec.params, longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max));
 }
 
 std::unique_ptr<VelocityField> make_part(const NamedVelocitySpec& part, const Case& spec, int /*threads*/) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -88,6 +89,44 @@ TEST_F(GaussianTables, MayHoldVorticityOrCoefficients) {
   write("space.csv", "x,y,z,gamma_x,gamma_y,gamma_z\n0.5,0.5,0.5,1,0,0\n");
   EXPECT_EQ(spec_of(read("gaussians = \"space.csv\"\nkind = \"coefficients\"\nwidth = 0.1", least)).model->dimension,
             3);
+}
+
+TEST_F(GaussianTables, HaveTheGradientOfTheirVelocity) {
+  write("one.csv", "x,y,gamma\n0.25,0,3\n0.4,0.3,-2\n");
+  write("space.csv", "x,y,z,gamma_x,gamma_y,gamma_z\n0.5,0.5,0.5,1,0,0.5\n");
+  for (const int d : {2, 3}) {
+    const Case scene = d == 2 ? read("gaussians = \"one.csv\"\nkind = \"curl-coefficients\"\nwidth = 0.5")
+                              : read("gaussians = \"space.csv\"\nkind = \"coefficients\"\nwidth = 0.4", least);
+    const auto field = make_gaussian_velocity(*spec_of(scene).model, 1, 1);
+    const Vector x{0.45, 0.35, 0.6};
+    const auto velocity = [&](Vector at) {
+      Vector u{};
+      PointsView points{d, 1, {}};
+      VectorsView values{d, 1, {}};
+      for (int k = 0; k < d; ++k) points.axis[k] = &at[k], values.axis[k] = &u[k];
+      field->add(0, points, values);
+      return u;
+    };
+    std::array<std::array<double, 3>, 3> slopes{};
+    GradientsView view{d, 1, {}};
+    PointsView point{d, 1, {}};
+    for (int k = 0; k < d; ++k) {
+      point.axis[k] = &x[k];
+      for (int i = 0; i < d; ++i) view.slope[k][i] = &slopes[k][i];
+    }
+    field->add_gradient(0, point, view);
+    for (int i = 0; i < d; ++i) {
+      constexpr double h = 1e-3;
+      const auto at = [&](double shift) {
+        Vector y = x;
+        y[i] += shift;
+        return velocity(y);
+      };
+      const Vector near = at(h), back = at(-h), far = at(2 * h), far_back = at(-2 * h);
+      for (int k = 0; k < d; ++k)
+        EXPECT_NEAR(slopes[k][i], (8 * (near[k] - back[k]) - (far[k] - far_back[k])) / (12 * h), 1e-8 * 50) << k << i;
+    }
+  }
 }
 
 TEST_F(GaussianTables, AreWrittenIntoTheResolvedCase) {

@@ -1,6 +1,7 @@
 // Forward derivatives of expressions, against analytic ones and against differences, and the velocities made of them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -119,6 +120,39 @@ TEST(ExpressionField, HasTheDivergenceOfItsFormula) {
   EXPECT_NEAR(value, 1 + 2 * x * y + t * std::exp(y * t) + 3 * x * y * z * z, 1e-15);  // a few roundings
   EXPECT_FALSE(field.is_steady());
   EXPECT_TRUE(ExpressionField({"x", "y"}, {}).is_steady());
+}
+
+/// slopes[k][i] = d u_k / d x_i at a point of the plane.
+std::array<std::array<double, 2>, 2> gradient(const VelocityField& field, double t, double x, double y) {
+  std::array<std::array<double, 2>, 2> slopes{};
+  GradientsView view{2, 1, {}};
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < 2; ++i) view.slope[k][i] = &slopes[k][i];
+  field.add_gradient(t, {2, 1, {&x, &y, nullptr}}, view);
+  return slopes;
+}
+
+TEST(ExpressionField, HasTheGradientOfItsFormula) {
+  const ExpressionField field({"x^2*y + sin(t)", "exp(y*t)*x"}, {});
+  const double x = 0.3, y = -0.4, t = 0.7;
+  const auto slopes = gradient(field, t, x, y);
+  EXPECT_NEAR(slopes[0][0], 2 * x * y, 1e-15);
+  EXPECT_NEAR(slopes[0][1], x * x, 1e-15);
+  EXPECT_NEAR(slopes[1][0], std::exp(y * t), 1e-15);
+  EXPECT_NEAR(slopes[1][1], t * x * std::exp(y * t), 1e-15);
+}
+
+TEST(StreamfunctionField, HasTheGradientOfTheSameFlowByHand) {
+  const StreamfunctionField field("sin(pi*x)^2*sin(pi*y)^2/pi*cos(pi*t/8)", {}, 1);
+  const ExpressionField hand({"sin(pi*x)^2*sin(2*pi*y)*cos(pi*t/8)", "-sin(pi*y)^2*sin(2*pi*x)*cos(pi*t/8)"}, {});
+  for (const double x : {0.0, 0.1, 0.45, 0.9})
+    for (const double y : {0.05, 0.5, 0.77}) {
+      const auto slopes = gradient(field, 1.3, x, y), expected = gradient(hand, 1.3, x, y);
+      for (std::size_t k = 0; k < 2; ++k)
+        for (std::size_t i = 0; i < 2; ++i)
+          EXPECT_NEAR(slopes[k][i], expected[k][i], 3e-12);  // 1024 times the rounding of slopes, some ten times
+      EXPECT_NEAR(slopes[0][0] + slopes[1][1], 0, 1e-15);
+    }
 }
 
 TEST(StreamfunctionField, IsTheTurnedGradient) {

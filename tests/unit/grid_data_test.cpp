@@ -67,6 +67,22 @@ TEST(GridInterpolator, ReproducesWhatItsOrderPromises) {
       }
 }
 
+TEST(GridInterpolator, HasTheGradientOfSquares) {
+  const Function first = [](double x, double y, double z) { return x * x - y * y * x + z * z; };
+  const Function second = [](double x, double y, double z) { return 2 * x * y + y - z * x; };
+  const Function third = [](double x, double y, double z) { return z * z * x - y; };
+  const GridInterpolator grid(sampled(3, 6, {first, second, third}, true), Interpolation::cubic, Outside::error);
+  const double x = 0.37, y = 0.81, z = 0.22;
+  std::array<std::array<double, 3>, 3> slopes{};
+  std::array<std::array<double*, 3>, 3> view{};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) view[k][i] = &slopes[k][i];
+  grid.add_gradient(0, {3, 1, {&x, &y, &z}}, view);
+  const double expected[3][3] = {{2 * x - y * y, -2 * y * x, 2 * z}, {2 * y - z, 2 * x + 1, -x}, {z * z, -1, 2 * z * x}};
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(slopes[k][i], expected[k][i], 1e-13) << k << i;
+}
+
 TEST(GridInterpolator, ConvergesWithItsOrder) {
   const Function wave = [](double x, double y, double) { return std::sin(5 * x) * std::cos(4 * y); };
   const auto error = [&](std::size_t n, Interpolation interpolation) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -126,6 +127,58 @@ TEST_P(EveryNamedField, HasTheDivergenceThatItStates) {
         EXPECT_EQ(divergence(*field, d, t, x), 0);
       }
     }
+}
+
+TEST_P(EveryNamedField, HasTheGradientOfItsVelocity) {
+  const auto field = make(GetParam());
+  const int d = GetParam().dimension;
+  for (const Vector& x : places(d, 20))
+    for (const double t : {0.0, 0.4}) {
+      std::array<std::array<double, 3>, 3> slopes{};
+      PointsView points{d, 1, {}};
+      GradientsView view{d, 1, {}};
+      for (int k = 0; k < d; ++k) {
+        points.axis[k] = &x[k];
+        for (int i = 0; i < d; ++i) view.slope[k][i] = &slopes[k][i];
+      }
+      field->add_gradient(t, points, view);
+      double trace = 0;
+      for (int i = 0; i < d; ++i) {
+        const double h = 1e-3;
+        const auto u = [&](double shift) {
+          Vector y = x;
+          y[i] += shift;
+          return velocity(*field, d, t, y);
+        };
+        const Vector near = u(h), back = u(-h), far = u(2 * h), far_back = u(-2 * h);
+        for (int k = 0; k < d; ++k) {
+          const double numerical = (8 * (near[k] - back[k]) - (far[k] - far_back[k])) / (12 * h);
+          EXPECT_NEAR(slopes[k][i], numerical, 2.7e-10 * (1 + std::abs(numerical))) << k << i;
+        }
+        trace += slopes[i][i];
+      }
+      EXPECT_NEAR(trace, divergence(*field, d, t, x), 1e-14 * 20);
+    }
+}
+
+TEST(GaussianSwirl, HasASlopeWhoseFormsMeet) {
+  const auto slope = [](double s) {
+    const double h = 1e-3;
+    const auto f = [](double at) { return -std::expm1(-at) / at; };
+    return (8 * (f(s + h) - f(s - h)) - (f(s + 2 * h) - f(s - 2 * h))) / (12 * h);
+  };
+  const auto field = make_named_field("lamb_oseen", {2, corner, far_corner}, {{"circulation", {2 * std::numbers::pi}}});
+  for (const double s : {0.05, 0.5, 0.999, 1.001, 3.0}) {
+    // At (0, r) the slope of u along y is -(omega + 2 r^2 omega'), omega = f(r^2).
+    const double x = 0, y = std::sqrt(s);
+    double slopes[2][2] = {};
+    const PointsView points{2, 1, {&x, &y, nullptr}};
+    GradientsView view{2, 1, {}};
+    for (int k = 0; k < 2; ++k)
+      for (int i = 0; i < 2; ++i) view.slope[k][i] = &slopes[k][i];
+    field->add_gradient(0, points, view);
+    EXPECT_NEAR(slopes[0][1], std::expm1(-s) / s - 2 * s * slope(s), 1e-11) << s;
+  }
 }
 
 TEST_P(EveryNamedField, FlowsAsAnIntegrationToFullPrecisionSays) {

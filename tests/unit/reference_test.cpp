@@ -231,6 +231,9 @@ class CountingField : public VelocityField {
   void add_divergence(double t, const PointsView& x, double* values) const override {
     rotation_.add_divergence(t, x, values);
   }
+  void add_gradient(double t, const PointsView& x, const GradientsView& gradients) const override {
+    rotation_.add_gradient(t, x, gradients);
+  }
   std::string describe() const override { return "counted"; }
   mutable std::atomic<std::size_t> calls{0};
 

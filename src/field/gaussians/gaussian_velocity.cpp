@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 
 #include "base/number.hpp"
@@ -22,8 +25,13 @@ bool is_curl(GaussianKind kind) { return kind == GaussianKind::vorticity || kind
 template <int d>
 class GaussianVelocity : public VelocityField {
  public:
-  GaussianVelocity(GaussianMatrix matrix, GaussianSum<d> sum, std::string description)
-      : matrix_(matrix), sum_(std::move(sum)), description_(std::move(description)) {}
+  using MakeSum = std::function<std::unique_ptr<GaussianSum<d>>()>;
+  /// make_slopes: the same sum, prepared for one derivative more.
+  GaussianVelocity(GaussianMatrix matrix, GaussianSum<d> sum, MakeSum make_slopes, std::string description)
+      : matrix_(matrix),
+        sum_(std::move(sum)),
+        make_slopes_(std::move(make_slopes)),
+        description_(std::move(description)) {}
 
   void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
     fgtd::Points<d> targets(d, static_cast<Index>(x.count));
@@ -45,6 +53,20 @@ class GaussianVelocity : public VelocityField {
       Eigen::Map<Eigen::VectorXd>(values, static_cast<Index>(x.count)) +=
           0 * Eigen::Map<const Eigen::VectorXd>(x.axis[static_cast<std::size_t>(l)], static_cast<Index>(x.count));
   }
+  // It needs one derivative more than the velocity, so it is a sum of its own, made when it is first asked for.
+  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& gradients) const override {
+    std::call_once(slopes_made_, [&] { slopes_ = make_slopes_(); });
+    fgtd::Points<d> targets(d, static_cast<Index>(x.count));
+    for (int l = 0; l < d; ++l)
+      targets.row(l) = Eigen::Map<const Eigen::RowVectorXd>(x.axis[static_cast<std::size_t>(l)], targets.cols());
+    for (std::size_t i = 0; i < d; ++i) {
+      fgtd::Derivative<d> along{};
+      along[i] = 1;
+      const Eigen::MatrixXd values = slopes_->evaluate(matrix_, targets, along);
+      for (std::size_t k = 0; k < d; ++k)
+        Eigen::Map<Eigen::VectorXd>(gradients.slope[k][i], values.rows()) += values.col(static_cast<Index>(k));
+    }
+  }
   bool is_steady() const override { return true; }
   bool is_solenoidal() const override { return true; }
   bool evaluates_in_blocks() const override { return sum_.pairwise(); }
@@ -53,6 +75,9 @@ class GaussianVelocity : public VelocityField {
  private:
   GaussianMatrix matrix_;
   GaussianSum<d> sum_;
+  MakeSum make_slopes_;
+  mutable std::once_flag slopes_made_;
+  mutable std::unique_ptr<const GaussianSum<d>> slopes_;
   std::string description_;
 };
 
@@ -183,15 +208,17 @@ GaussianModel make_model(const std::vector<double>& positions, const std::vector
 
 template <int d>
 std::unique_ptr<VelocityField> make_field(const GaussianModel& model, std::size_t expected_targets, int threads) {
-  const fgtd::Points<d> points = points_of<d>(model.positions);
-  const GaussianSumOptions options{.tolerance = model.term_tolerance,
-                                   .derivative_order = model.matrix == GaussianMatrix::curl ? 1 : 2,
-                                   .threads = threads,
-                                   .expected_targets = expected_targets};
-  return std::make_unique<GaussianVelocity<d>>(
-      model.matrix,
-      GaussianSum<d>(points, rows_of(model.coefficients, points.cols()), 1 / (model.width * model.width), options),
-      model.about);
+  const auto prepared = [model, expected_targets, threads](int further_derivatives) {
+    const fgtd::Points<d> points = points_of<d>(model.positions);
+    const GaussianSumOptions options{
+        .tolerance = model.term_tolerance,
+        .derivative_order = (model.matrix == GaussianMatrix::curl ? 1 : 2) + further_derivatives,
+        .threads = threads,
+        .expected_targets = expected_targets};
+    return GaussianSum<d>(points, rows_of(model.coefficients, points.cols()), 1 / (model.width * model.width), options);
+  };
+  const auto slopes = [prepared] { return std::make_unique<GaussianSum<d>>(prepared(1)); };
+  return std::make_unique<GaussianVelocity<d>>(model.matrix, prepared(0), slopes, model.about);
 }
 
 // Errors of fgtd in the words of the case file.

@@ -155,8 +155,8 @@ double gather(const GridData& data, const std::array<const double*, max_dimensio
 
 }  // namespace
 
-void GridInterpolator::add(double t, const PointsView& x, std::size_t count, double* const* sums) const {
-  const TimeWeights time = at(t);
+template <class Use>
+void GridInterpolator::each_place(const PointsView& x, const Use& use) const {
   std::array<Stencil, max_dimension> stencils;
   for (std::size_t i = 0; i < x.count; ++i) {
     bool inside = true, lost = false;
@@ -165,9 +165,16 @@ void GridInterpolator::add(double t, const PointsView& x, std::size_t count, dou
       inside = inside && stencils[k].length > 0;
       lost = lost || stencils[k].lost;
     }
+    use(i, inside, lost, stencils);
+  }
+}
+
+void GridInterpolator::add(double t, const PointsView& x, std::size_t count, double* const* sums) const {
+  const TimeWeights time = at(t);
+  each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
     if (lost)
       for (std::size_t c = 0; c < count; ++c) sums[c][i] = std::numeric_limits<double>::quiet_NaN();
-    if (!inside) continue;
+    if (!inside) return;
     const std::array<const double*, max_dimension> weights{stencils[0].weight.data(), stencils[1].weight.data(),
                                                            stencils[2].weight.data()};
     for (std::size_t c = 0; c < count; ++c) {
@@ -178,33 +185,42 @@ void GridInterpolator::add(double t, const PointsView& x, std::size_t count, dou
       }
       sums[c][i] += value;
     }
+  });
+}
+
+double GridInterpolator::slope(const TimeWeights& time, const std::array<Stencil, max_dimension>& stencils, int axis,
+                               int component) const {
+  std::array<const double*, max_dimension> weights{stencils[0].weight.data(), stencils[1].weight.data(),
+                                                   stencils[2].weight.data()};
+  weights[axis] = stencils[axis].slope.data();
+  double value = gather(*data_, weights, stencils, data_->values[time.first].data() + component);
+  if (time.second_weight > 0) {
+    const double next = gather(*data_, weights, stencils, data_->values[time.first + 1].data() + component);
+    value += time.second_weight * (next - value);
   }
+  return value;
 }
 
 void GridInterpolator::add_divergence(double t, const PointsView& x, double* sums) const {
   const TimeWeights time = at(t);
-  std::array<Stencil, max_dimension> stencils;
-  for (std::size_t i = 0; i < x.count; ++i) {
-    bool inside = true, lost = false;
-    for (int k = 0; k < x.dimension; ++k) {
-      stencils[k] = stencil(k, x.axis[k][i]);
-      inside = inside && stencils[k].length > 0;
-      lost = lost || stencils[k].lost;
-    }
+  each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
     if (lost) sums[i] = std::numeric_limits<double>::quiet_NaN();
-    if (!inside) continue;
-    for (int k = 0; k < x.dimension; ++k) {
-      std::array<const double*, max_dimension> weights{stencils[0].weight.data(), stencils[1].weight.data(),
-                                                       stencils[2].weight.data()};
-      weights[k] = stencils[k].slope.data();
-      double value = gather(*data_, weights, stencils, data_->values[time.first].data() + k);
-      if (time.second_weight > 0) {
-        const double next = gather(*data_, weights, stencils, data_->values[time.first + 1].data() + k);
-        value += time.second_weight * (next - value);
+    if (!inside) return;
+    for (int k = 0; k < x.dimension; ++k) sums[i] += slope(time, stencils, k, k);
+  });
+}
+
+void GridInterpolator::add_gradient(
+    double t, const PointsView& x,
+    const std::array<std::array<double*, max_dimension>, max_dimension>& slopes) const {
+  const TimeWeights time = at(t);
+  each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
+    for (int k = 0; k < x.dimension; ++k)
+      for (int l = 0; l < x.dimension; ++l) {
+        if (lost) slopes[k][l][i] = std::numeric_limits<double>::quiet_NaN();
+        if (inside) slopes[k][l][i] += slope(time, stencils, l, k);
       }
-      sums[i] += value;
-    }
-  }
+  });
 }
 
 std::string GridInterpolator::why_lost(const Vector& x) const {

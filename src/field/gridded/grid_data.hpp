@@ -51,6 +51,9 @@ class GridInterpolator {
   void add(double t, const PointsView& x, std::size_t count, double* const* sums) const;
   /// sums[i] += sum_k d component k / d x_k, of the interpolating function itself.
   void add_divergence(double t, const PointsView& x, double* sums) const;
+  /// slopes[k][l][i] += d component k / d x_l, of the interpolating function itself.
+  void add_gradient(double t, const PointsView& x,
+                    const std::array<std::array<double*, max_dimension>, max_dimension>& slopes) const;
 
   /// "x = 1.3 is outside of u of wind.pvd, which reaches from -1 to 1: ..."; empty where there is a value.
   std::string why_lost(const Vector& x) const;
@@ -65,6 +68,12 @@ class GridInterpolator {
   struct TimeWeights;
   Stencil stencil(int axis, double x) const;
   TimeWeights at(double t) const;
+  // use(i, inside, lost, stencils) for each point.
+  template <class Use>
+  void each_place(const PointsView& x, const Use& use) const;
+  // The derivative along `axis` of a component, from the stencils of a place.
+  double slope(const TimeWeights& time, const std::array<Stencil, max_dimension>& stencils, int axis,
+               int component) const;
 
   std::shared_ptr<const GridData> data_;
   Interpolation interpolation_;

@@ -20,6 +20,9 @@ class GriddedVelocity : public VelocityField {
   void add_divergence(double t, const PointsView& x, double* values) const override {
     grid_.add_divergence(t, x, values);
   }
+  void add_gradient(double t, const PointsView& x, const GradientsView& gradients) const override {
+    grid_.add_gradient(t, x, gradients.slope);
+  }
   bool is_steady() const override { return grid_.is_steady(); }
   bool is_smooth() const override { return false; }
   double cost() const override { return 10; }

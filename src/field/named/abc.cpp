@@ -21,6 +21,17 @@ class Abc : public SolenoidalField {
       u.axis[2][i] += c_ * std::sin(py) + b_ * std::cos(px);
     }
   }
+  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
+    for (std::size_t j = 0; j < x.count; ++j) {
+      const double px = wave_ * x.axis[0][j], py = wave_ * x.axis[1][j], pz = wave_ * x.axis[2][j];
+      g.slope[0][1][j] -= wave_ * c_ * std::sin(py);
+      g.slope[0][2][j] += wave_ * a_ * std::cos(pz);
+      g.slope[1][0][j] += wave_ * b_ * std::cos(px);
+      g.slope[1][2][j] -= wave_ * a_ * std::sin(pz);
+      g.slope[2][0][j] -= wave_ * b_ * std::sin(px);
+      g.slope[2][1][j] += wave_ * c_ * std::cos(py);
+    }
+  }
   bool is_steady() const override { return true; }
 
  private:

@@ -23,6 +23,15 @@ class Burgers : public SolenoidalField {
       u.axis[2][i] += strain_ * (x.axis[2][i] - center_[2]);
     }
   }
+  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
+    for (std::size_t j = 0; j < x.count; ++j) {
+      const double dx = x.axis[0][j] - center_[0], dy = x.axis[1][j] - center_[1], s = quarter_ * (dx * dx + dy * dy);
+      add_circular_gradient(omega_ * gaussian_swirl(s), omega_ * quarter_ * gaussian_swirl_slope(s), dx, dy, g, j);
+      g.slope[0][0][j] -= strain_ / 2;
+      g.slope[1][1][j] -= strain_ / 2;
+      g.slope[2][2][j] += strain_;
+    }
+  }
   bool is_steady() const override { return true; }
 
   // d theta / ds = -omega_ / strain (1 - exp(-s)) / s^2 along a path, whose integral is H(s) = (1 - exp(-s)) / s +

@@ -23,6 +23,25 @@ class Deformation : public SolenoidalField {
       u.axis[2][i] -= box_.length[2] * g * twice[0] * twice[1] * square[2];
     }
   }
+  void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
+    const double pi = std::numbers::pi, f = reversal_.factor(t);
+    for (std::size_t j = 0; j < x.count; ++j) {
+      Vector square{}, twice{}, cosine{};  // sin^2(pi xi), sin(2 pi xi), cos(2 pi xi)
+      for (int k = 0; k < 3; ++k) {
+        const double a = pi * box_.unit(k, x.axis[k][j]), s = std::sin(a), c = std::cos(a);
+        square[k] = s * s;
+        twice[k] = 2 * s * c;
+        cosine[k] = c * c - s * s;
+      }
+      for (int k = 0; k < 3; ++k) {
+        const int a = (k + 1) % 3, b = (k + 2) % 3;
+        const double scale = (k == 0 ? 2 : -1) * f * box_.length[k] * pi;
+        g.slope[k][k][j] += scale / box_.length[k] * twice[k] * twice[a] * twice[b];
+        g.slope[k][a][j] += 2 * scale / box_.length[a] * square[k] * cosine[a] * twice[b];
+        g.slope[k][b][j] += 2 * scale / box_.length[b] * square[k] * twice[a] * cosine[b];
+      }
+    }
+  }
   bool is_steady() const override { return reversal_.is_steady(); }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
     return reversal_.is_undone(from, to) ? std::optional(x) : std::nullopt;

@@ -14,6 +14,16 @@ struct Omega {
     const double ratio = s == 0 ? 1.0 : std::tanh(s) / s;
     return 1.5 * std::numbers::sqrt3 * speed / radius * ratio / (cosine * cosine);
   }
+  // With T = tanh s, C = sech^2 s, of C T/s: C ((C s - T)/s^3 - 2 T^2/s^2) / 2R^2 for each r^2.
+  double slope(double square) const {
+    const double s = std::sqrt(square) / radius, cosine = std::cosh(s), c = 1 / (cosine * cosine), t = std::tanh(s);
+    const double s2 = s * s;
+    const bool small = s < 0.02;  // there C s - T cancels: its Taylor series
+    const double difference = small ? -2. / 3 + s2 * (8. / 15 - s2 * 34 / 105) : (c * s - t) / (s2 * s);
+    const double ratio = small ? 1 - s2 / 3 : t / s;
+    const double of_square = c * (difference - 2 * ratio * ratio) / (2 * radius * radius);
+    return 1.5 * std::numbers::sqrt3 * speed / radius * of_square;
+  }
 };
 
 }  // namespace

@@ -22,6 +22,19 @@ class DoubleGyre : public SolenoidalField {
       u.axis[1][i] += box_.length[1] * pi * amplitude_ * std::cos(pi * f) * std::sin(pi * eta) * slope;
     }
   }
+  void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
+    const double pi = std::numbers::pi, a = sway_ * std::sin(2 * pi * (t / period_)), b = 1 - 2 * a;
+    const double scale = pi * pi * amplitude_, across = 2 / box_.length[0], up = 1 / box_.length[1];  // d xi/dx, d eta/dy
+    for (std::size_t j = 0; j < x.count; ++j) {
+      const double xi = 2 * box_.unit(0, x.axis[0][j]), eta = box_.unit(1, x.axis[1][j]);
+      const double f = (a * xi + b) * xi, slope = 2 * a * xi + b;
+      const double sf = std::sin(pi * f), cf = std::cos(pi * f), se = std::sin(pi * eta), ce = std::cos(pi * eta);
+      g.slope[0][0][j] -= scale * cf * slope * ce;
+      g.slope[0][1][j] += scale * up / across * sf * se;
+      g.slope[1][0][j] += scale * across / up * se * (2 * a / pi * cf - slope * slope * sf);
+      g.slope[1][1][j] += scale * cf * ce * slope;
+    }
+  }
   bool is_steady() const override { return sway_ == 0; }
 
  private:

@@ -13,6 +13,10 @@ struct Omega {
     const double core = radius * radius;
     return circulation / (2 * std::numbers::pi * core) * gaussian_swirl(square / core);
   }
+  double slope(double square) const {
+    const double core = radius * radius;
+    return circulation / (2 * std::numbers::pi * core * core) * gaussian_swirl_slope(square / core);
+  }
 };
 
 }  // namespace

@@ -22,8 +22,29 @@ class SolenoidalField : public NamedVelocityField {
 /// (1 - exp(-s)) / s for s >= 0, 1 at s = 0: the angular velocity of a Gaussian vortex relative to that at its centre.
 inline double gaussian_swirl(double s) { return s == 0 ? 1.0 : -std::expm1(-s) / s; }
 
+/// The derivative of gaussian_swirl: (exp(-s) (1 + s) - 1) / s^2, -1/2 at s = 0.
+inline double gaussian_swirl_slope(double s) {
+  if (s > 1) return (std::exp(-s) * (1 + s) - 1) / (s * s);
+  double sum = 0, power = 1;  // -sum_n n (-s)^(n-1) / (n+1)!, where the formula cancels
+  for (int n = 1; n <= 18; ++n) {
+    power /= n + 1;
+    sum -= n * power;
+    power *= -s;
+  }
+  return sum;
+}
+
+/// Adds at point j the gradient of u = omega(r^2) (-dy, dx), from omega and its derivative with respect to r^2.
+inline void add_circular_gradient(double omega, double slope, double dx, double dy, const GradientsView& g,
+                                  std::size_t j) {
+  g.slope[0][0][j] -= 2 * slope * dx * dy;
+  g.slope[0][1][j] -= omega + 2 * slope * dy * dy;
+  g.slope[1][0][j] += omega + 2 * slope * dx * dx;
+  g.slope[1][1][j] += 2 * slope * dx * dy;
+}
+
 /// Circles about `center`, in 3D about an axis parallel to z: u = omega(r) (-(y - c_y), x - c_x).
-/// `Omega` is a function of r^2, finite at 0.
+/// `Omega` is a function of r^2, finite at 0; Omega::slope is its derivative with respect to r^2.
 template <class Omega>
 class CircularField : public SolenoidalField {
  public:
@@ -35,6 +56,12 @@ class CircularField : public SolenoidalField {
       const double omega = omega_(dx * dx + dy * dy);
       u.axis[0][i] -= omega * dy;
       u.axis[1][i] += omega * dx;
+    }
+  }
+  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
+    for (std::size_t j = 0; j < x.count; ++j) {
+      const double dx = x.axis[0][j] - center_[0], dy = x.axis[1][j] - center_[1], square = dx * dx + dy * dy;
+      add_circular_gradient(omega_(square), omega_.slope(square), dx, dy, g, j);
     }
   }
   bool is_steady() const override { return true; }

@@ -20,6 +20,12 @@ class Rotation : public SolenoidalField {
       uy[i] += rate * dx;
     }
   }
+  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
+    for (std::size_t j = 0; j < x.count; ++j) {
+      g.slope[0][1][j] -= rate_;
+      g.slope[1][0][j] += rate_;
+    }
+  }
   double cost() const override { return 0.1; }
   bool is_steady() const override { return true; }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {

@@ -13,6 +13,9 @@ class Shear : public SolenoidalField {
   void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
     for (std::size_t i = 0; i < x.count; ++i) u.axis[0][i] += rate_ * (x.axis[1][i] - middle_);
   }
+  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
+    for (std::size_t j = 0; j < x.count; ++j) g.slope[0][1][j] += rate_;
+  }
   double cost() const override { return 0.1; }
   bool is_steady() const override { return true; }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {

@@ -17,6 +17,10 @@ class Strain : public NamedVelocityField {
   void add_divergence(double /*t*/, const PointsView& x, double* values) const override {
     for (std::size_t i = 0; i < x.count; ++i) values[i] += divergence();
   }
+  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
+    for (int k = 0; k < x.dimension; ++k)
+      for (std::size_t j = 0; j < x.count; ++j) g.slope[k][k][j] += rates_[k];
+  }
   double cost() const override { return 0.1; }
   bool is_solenoidal() const override { return divergence() == 0; }
   bool is_steady() const override { return true; }

@@ -18,6 +18,18 @@ class Swirl : public SolenoidalField {
       u.axis[1][i] -= box_.length[1] * g * (sb * sb) * (sa * ca);
     }
   }
+  void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
+    const double pi = std::numbers::pi, f = 2 * reversal_.factor(t) * pi;
+    for (std::size_t j = 0; j < x.count; ++j) {
+      const double a = pi * box_.unit(0, x.axis[0][j]), b = pi * box_.unit(1, x.axis[1][j]);
+      const double sa = std::sin(a), ca = std::cos(a), sb = std::sin(b), cb = std::cos(b);
+      const double stretch = f * 2 * (sa * ca) * (sb * cb);
+      g.slope[0][0][j] += stretch;
+      g.slope[0][1][j] += f * box_.length[0] / box_.length[1] * (sa * sa) * (cb * cb - sb * sb);
+      g.slope[1][0][j] -= f * box_.length[1] / box_.length[0] * (sb * sb) * (ca * ca - sa * sa);
+      g.slope[1][1][j] -= stretch;
+    }
+  }
   bool is_steady() const override { return reversal_.is_steady(); }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {
     return reversal_.is_undone(from, to) ? std::optional(x) : std::nullopt;

@@ -73,6 +73,17 @@ class TaylorGreen : public SolenoidalField {
       u.axis[1][i] -= speed * std::cos(a) * std::sin(b);
     }
   }
+  void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
+    const double rate = wave_ * speed_ * std::exp(-decay_ * t);
+    for (std::size_t j = 0; j < x.count; ++j) {
+      const double a = wave_ * (x.axis[0][j] - corner_[0]), b = wave_ * (x.axis[1][j] - corner_[1]);
+      const double stretch = rate * std::cos(a) * std::cos(b), turn = rate * std::sin(a) * std::sin(b);
+      g.slope[0][0][j] += stretch;
+      g.slope[0][1][j] -= turn;
+      g.slope[1][0][j] += turn;
+      g.slope[1][1][j] -= stretch;
+    }
+  }
   bool is_steady() const override { return decay_ == 0; }
 
   // Within one cell, with the angles a, b = 0 ... pi and k' = sin a sin b, m = sqrt(1 - k'^2), which the path keeps:

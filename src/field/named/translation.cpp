@@ -13,6 +13,7 @@ class Translation : public SolenoidalField {
     for (int k = 0; k < x.dimension; ++k)
       for (std::size_t i = 0; i < x.count; ++i) u.axis[k][i] += velocity_[k];
   }
+  void add_gradient(double /*t*/, const PointsView& /*x*/, const GradientsView& /*g*/) const override {}
   double cost() const override { return 0.1; }
   bool is_steady() const override { return true; }
   std::optional<Vector> flow(double from, double to, const Vector& x) const override {

@@ -20,6 +20,7 @@ class ExpressionField : public VelocityField {
   /// Known where no component mentions its own coordinate.
   bool is_solenoidal() const override;
   void add_divergence(double t, const PointsView& x, double* values) const override;
+  void add_gradient(double t, const PointsView& x, const GradientsView& gradients) const override;
   bool is_steady() const override;
   bool is_smooth() const override;
   double cost() const override;

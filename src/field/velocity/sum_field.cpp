@@ -12,6 +12,10 @@ void SumField::add_divergence(double t, const PointsView& x, double* values) con
   for (const auto& field : fields_) field->add_divergence(t, x, values);
 }
 
+void SumField::add_gradient(double t, const PointsView& x, const GradientsView& gradients) const {
+  for (const auto& field : fields_) field->add_gradient(t, x, gradients);
+}
+
 bool SumField::is_steady() const {
   return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_steady(); });
 }

@@ -17,6 +17,7 @@ class SumField : public VelocityField {
   explicit SumField(std::vector<std::unique_ptr<VelocityField>> fields) : fields_(std::move(fields)) {}
   void add(double t, const PointsView& x, const VectorsView& u) const override;
   void add_divergence(double t, const PointsView& x, double* values) const override;
+  void add_gradient(double t, const PointsView& x, const GradientsView& gradients) const override;
   bool is_steady() const override;
   bool is_smooth() const override;
   bool is_solenoidal() const override;

@@ -1,12 +1,27 @@
 // Velocity fields u(x, t): the prescribed flow that carries the particles.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
+
+/// d u_k / d x_i at many points: slope[k][i] is an array of them, null beyond the dimension.
+struct GradientsView {
+  int dimension = 0;
+  std::size_t count = 0;
+  std::array<std::array<double*, max_dimension>, max_dimension> slope{};
+  GradientsView block(std::size_t first, std::size_t length) const {
+    GradientsView part{dimension, length, {}};
+    for (int k = 0; k < dimension; ++k)
+      for (int i = 0; i < dimension; ++i) part.slope[k][i] = slope[k][i] + first;
+    return part;
+  }
+};
 
 /// A field is immutable; everything here is safe to call from several threads.
 class VelocityField {
@@ -16,6 +31,8 @@ class VelocityField {
   virtual void add(double t, const PointsView& x, const VectorsView& u) const = 0;
   /// values[i] += div u(x_i, t), by the derivatives of the field's own formula. Not finite where they are not.
   virtual void add_divergence(double t, const PointsView& x, double* values) const = 0;
+  /// gradients.slope[k][i][j] += d u_k / d x_i at (x_j, t), likewise.
+  virtual void add_gradient(double t, const PointsView& x, const GradientsView& gradients) const = 0;
   /// True if u does not depend on t.
   virtual bool is_steady() const { return false; }
   /// False if u or a derivative of it jumps somewhere. Methods of high order take short steps there.
