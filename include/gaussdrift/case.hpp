@@ -161,11 +161,20 @@ struct PictureStyle {
   bool shows(int dimension) const { return least_dimension <= dimension && dimension <= most_dimension; }
 };
 
+/// A quantity that a run shows on its grid beside the density, as far as a case and predictions need to know it.
+struct GridField {
+  std::string_view name;               ///< in a case, and of the array in files
+  std::string_view meaning;            ///< one line
+  std::array<bool, 2> is_vector = {};  ///< in the plane, in space; else it is a number
+  bool is_of_flow = false;             ///< it follows from the prescribed velocity alone
+};
+
 /// `[output]`: when to write, and what.
 struct OutputSpec {
   std::vector<double> times;         ///< ascending, 0 <= t <= end
   std::vector<OutputFile> files;     ///< files that are written at each of these times
   std::vector<PictureStyle> images;  ///< pictures of every output
+  std::vector<GridField> fields;     ///< in the density files, beside the density
   bool report = true;                ///< report.html, report.json, summary.png
   double piece_particles = 4194304;  ///< most particles of a file: more are written in pieces
   /// Seconds between two checkpoints; 0: none; empty: about a minute in runs of more than five.

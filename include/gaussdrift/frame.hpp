@@ -54,6 +54,8 @@ struct Frame {
   const Lattice* lattice = nullptr;  ///< with pieces: of all of them
   std::size_t every = 1;             ///< k
   bool pieces_have_exact = false;    ///< whether they come with the exact density
+  /// Name and components of the fields that the pieces have; with pieces `density` has none.
+  std::vector<std::pair<std::string, int>> piece_fields{};
   std::size_t particle_pieces = 1;   ///< more: particles come in so many pieces too
 };
 
@@ -63,6 +65,7 @@ struct DensityPiece {
   LatticeBox box;          ///< the points that it shows, with the layers that the next pieces have too
   const std::vector<double>* rho = nullptr;    ///< at its points, first axis fastest; never null
   const std::vector<double>* exact = nullptr;  ///< the same of the exact density; null where it is not known
+  const std::vector<FieldOnGrid>* fields = nullptr;  ///< what the case names beside it, at its points; never null
 };
 
 /// A piece of particles that are too many for one file (`output.piece_particles`): neighbours in the order of ids.

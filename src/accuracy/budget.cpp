@@ -26,7 +26,7 @@ void LastFrame::frame(const Frame& frame) {
   kept_.any = true;
   kept_.time = frame.time;
   kept_.particles = *frame.particles;
-  kept_.density = *frame.density;
+  kept_.density = {.lattice = frame.density->lattice, .rho = frame.density->rho};
   if (frame.exact) kept_.exact = *frame.exact;
   kept_.numbers = frame.numbers;
 }

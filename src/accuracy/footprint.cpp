@@ -22,6 +22,7 @@
 #include "render/styles.hpp"
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
+#include "sim/fields_on_grid.hpp"
 #include "sim/grid_pieces.hpp"
 #include "sim/scene.hpp"
 #include "write/checkpoint.hpp"
@@ -57,6 +58,7 @@ bool changes_particles(const Case& spec) {
 /// What files hold: pieces of a density show layers that others have, too, and of exact densities formulas alone.
 Extent in_files(const Case& spec, Extent extent) {
   extent.particle_pieces = std::max(1.0, std::ceil(extent.particles / spec.output.piece_particles));
+  extent.field_numbers = field_numbers(spec.output, spec.domain.dimension);
   const LatticePieces pieces = pieces_of_grid(spec);
   if (pieces.count() == 1) return extent;
   const Lattice lattice = evaluation_lattice(spec);
@@ -174,14 +176,17 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   // Of pieces two layers each are held from the beginning to the end of an output, beside the thinned grid.
   const Extent files = in_files(spec, extent);
   const double layers = in_pieces ? 2 * (files.grid_points - extent.grid_points) + m : 0;
+  const auto derivatives = static_cast<double>(derivatives_of(spec.output, spec.domain.dimension).size());
   const RunMemory density = stays + RunMemory{.particles = n * number * (in_space(spec) ? 20 : 11),
-                                              .grid = number * (at_once * (in_space(spec) ? 4.5 : 3) + layers)};
+                                              .grid = number * (at_once * (in_space(spec) ? 4.5 : 3) +
+                                                                (at_once + layers) * derivatives * 3 + layers)};
   // An output: density, velocity at the particles, exact density with the feet of its paths.
   const bool traced = spec.reference.kind == ReferenceSpec::Kind::characteristics && extent.compared_everywhere;
   const RunMemory shown =
       stays +
       RunMemory{.particles = n * number * d,
-                .grid = m * number + (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0)};
+                .grid = m * number + at_once * number * (derivatives + files.field_numbers) +
+                        (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0)};
   const auto larger = [](const RunMemory& a, const RunMemory& b) { return a.all() < b.all() ? b : a; };
   RunMemory output = shown + RunMemory{.particles = n * number * d};
   const RunMemory piece{.grid = in_pieces ? number * (at_once + layers) : 0};

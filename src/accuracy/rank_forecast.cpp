@@ -18,6 +18,7 @@
 #include "particle/cutoff.hpp"
 #include "particle/placing.hpp"
 #include "particle/tiles.hpp"
+#include "sim/fields_on_grid.hpp"
 #include "sim/grid_pieces.hpp"
 #include "sim/scene.hpp"
 #include "sim/sharing.hpp"
@@ -132,7 +133,9 @@ RankForecast forecast_ranks(const Case& spec, double particles_at_most, double p
                                   spec.particles.overlap * trial.lattice.spacing, spec.particles.cutoff_arguments);
   const Lattice grid = evaluation_lattice(spec);
   const double each = trial.each();
-  const Tiles tiles(grid, reach_of_blob(blob), trial.particles.view(), limits_of(spec, each));
+  DensityOptions options;
+  options.derivatives = derivatives_of(spec.output, spec.domain.dimension);
+  const Tiles tiles(grid, reach_of_blob(blob, options), trial.particles.view(), limits_of(spec, each));
   const auto work_of = work_of_tiles(spec, *trial.scene.velocity, 0);
   std::vector<double> work;
   for (Tile tile : tiles.list()) {

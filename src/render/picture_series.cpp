@@ -121,7 +121,7 @@ class PictureSeries : public Observer {
   }
 
   static DensityGrid error_of(const Frame& frame) {
-    DensityGrid error = *frame.density;
+    DensityGrid error{.lattice = frame.density->lattice, .rho = frame.density->rho};
     for (std::size_t i = 0; i < error.rho.size(); ++i) error.rho[i] -= (*frame.exact)[i];
     return error;
   }

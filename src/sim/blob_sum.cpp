@@ -32,19 +32,27 @@ BlobSum<d>::BlobSum(const Particles& particles, const Cutoff& cutoff, const Dens
     : options_(options),
       sources_(points_of<d>(particles)),
       weights_(Eigen::Map<const Eigen::VectorXd>(particles.alpha.data(), static_cast<Eigen::Index>(particles.size()))),
-      groups_(group_by_width(cutoff)) {}
+      groups_(group_by_width(cutoff, options.derivatives)) {}
 
 template <int d>
-std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cutoff& cutoff) {
+std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cutoff& cutoff,
+                                                                        const std::vector<DensityDerivatives>& wanted) {
   std::map<double, WidthGroup> groups;
   for (const CutoffTerm& term : cutoff) {
     WidthGroup& group = groups[term.width];
     group.sigma = 1 / (term.width * term.width);
-    fgtd::Derivative<d> alpha{};
-    for (int k = 0; k < d; ++k) alpha[static_cast<std::size_t>(k)] = term.derivative[static_cast<std::size_t>(k)];
-    group.combination.push_back({alpha, term.coefficient});
-    group.derivative_order = std::max(group.derivative_order, std::accumulate(alpha.begin(), alpha.end(), 0));
-    group.scale += std::abs(term.coefficient) * fgtd::derivative_scale<d>(alpha, group.sigma);
+    group.combinations.resize(1 + wanted.size());
+    group.scale.resize(1 + wanted.size());
+    const auto add = [&](std::size_t quantity, const std::array<int, max_dimension>& further) {
+      fgtd::Derivative<d> alpha{};
+      for (std::size_t k = 0; k < d; ++k) alpha[k] = term.derivative[k] + further[k];
+      group.combinations[quantity].push_back({alpha, term.coefficient});
+      group.derivative_order = std::max(group.derivative_order, std::accumulate(alpha.begin(), alpha.end(), 0));
+      group.scale[quantity] += std::abs(term.coefficient) * fgtd::derivative_scale<d>(alpha, group.sigma);
+    };
+    add(0, {});
+    for (std::size_t q = 0; q < wanted.size(); ++q)
+      for (const auto& derivative : wanted[q]) add(q + 1, derivative);
   }
   std::vector<WidthGroup> list;
   for (auto& [width, group] : groups) list.push_back(std::move(group));
@@ -52,45 +60,54 @@ std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cu
 }
 
 template <int d>
-double BlobSum<d>::error_of_unit_tolerance(const Particles& particles) const {
-  double error = 0;
+OfQuantities BlobSum<d>::error_of_unit_tolerance(const Particles& particles) const {
+  OfQuantities errors(options_.quantities(), 0.0);
   for (const WidthGroup& group : groups_) {
     const double reach = std::sqrt((2 * std::log(1 / options_.tolerance) + 40) / group.sigma);
-    error += group.scale * largest_weight_within(particles.view(), particles.alpha.data(), reach);
+    const double weight = largest_weight_within(particles.view(), particles.alpha.data(), reach);
+    for (std::size_t q = 0; q < errors.size(); ++q) errors[q] += group.scale[q] * weight;
   }
-  return error;
+  return errors;
 }
 
-// The promise of fgtd is tolerance * N * (weight around the target); the simulator's is relative to max |rho|.
+// The promise of fgtd is tolerance * N * (weight around the target); the simulator's is relative to the maximum.
 template <int d>
-void BlobSum<d>::choose_tolerance(double unit_error, double maximum, DensityReport& report) {
+void BlobSum<d>::choose_tolerance(const OfQuantities& unit_errors, const OfQuantities& maxima, DensityReport& report) {
   constexpr double coarsest = 0.1;  // nothing is gained above
-  const double wanted = unit_error > 0 ? options_.tolerance * maximum / unit_error : coarsest;
-  tolerance_ = std::clamp(wanted, fgtd::smallest_tolerance, coarsest);
-  report.requested_tolerance = tolerance_;
-  if (by_hand()) {
-    const double bound = bound_by_hand();
-    report.requested_tolerance = options_.tolerance;
-    report.achievable = maximum > 0 ? bound / maximum : 0;
-    return;
+  const auto wanted = [&](std::size_t q) {
+    return unit_errors[q] > 0 ? options_.tolerance * maxima[q] / unit_errors[q] : coarsest;
+  };
+  // Bound relative to the maximum.
+  const auto achievable = [&](std::size_t q) {
+    if (by_hand()) return maxima[q] > 0 ? bound_by_hand(q) / maxima[q] : 0;
+    return wanted(q) >= fgtd::smallest_tolerance || maxima[q] == 0
+               ? options_.tolerance
+               : fgtd::smallest_tolerance * unit_errors[q] / maxima[q];
+  };
+  double finest = wanted(0);
+  report.achievable = achievable(0);
+  report.derivatives_achievable = 0;
+  for (std::size_t q = 1; q < maxima.size(); ++q) {
+    if (maxima[q] == 0) continue;  // nothing is known of its size
+    finest = std::min(finest, wanted(q));
+    report.derivatives_achievable = std::max(report.derivatives_achievable, achievable(q));
   }
-  report.achievable = wanted >= fgtd::smallest_tolerance || maximum == 0
-                          ? options_.tolerance
-                          : fgtd::smallest_tolerance * unit_error / maximum;
+  tolerance_ = std::clamp(finest, fgtd::smallest_tolerance, coarsest);
+  report.requested_tolerance = by_hand() ? options_.tolerance : tolerance_;
 }
 
 template <int d>
-double BlobSum<d>::bound_by_hand() const {
+double BlobSum<d>::bound_by_hand(std::size_t quantity) const {
   const HermiteSpec& by_hand = *options_.hermite;
   double bound = 0;
   for (const WidthGroup& group : groups_)
-    for (const fgtd::Term<d>& term : group.combination) {
+    for (const fgtd::Term<d>& term : group.combinations[quantity]) {
       const auto of_term = fgtd::hermite_bound<d>(by_hand.r, by_hand.p, by_hand.n, term.derivative);
       if (!of_term)
         throw InputError(
-            fmt::format("with evaluate.p = {} the error of `hermite` has no bound for this cutoff function. "
+            fmt::format("with evaluate.p = {} the error of `hermite` has no bound for this cutoff function{}. "
                         "Raise evaluate.p, or leave r, p and n out.",
-                        by_hand.p));
+                        by_hand.p, quantity > 0 ? " and the derivatives of output.fields" : ""));
       const int order = std::accumulate(term.derivative.begin(), term.derivative.end(), 0);
       bound += std::abs(term.coefficient) * std::pow(group.sigma, order / 2.0) * *of_term;
     }
@@ -114,31 +131,52 @@ DensityWork BlobSum<d>::predict(const fgtd::TensorGrid& grid) const {
 }
 
 template <int d>
-Eigen::VectorXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
+Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
   report.choice.clear();
-  Eigen::VectorXd rho = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(grid.size()),
+                                                 static_cast<Eigen::Index>(options_.quantities()));
   for (const WidthGroup& group : groups_) {
     const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options_for(group, grid));
-    rho += plan.evaluate_combination(grid, group.combination);
+    values += plan.evaluate_combinations(grid, group.combinations);
     std::ostringstream text;
     text << plan.choice();
     if (!report.choice.empty()) report.choice += '\n';
     report.choice += text.str();
   }
-  return rho;
+  return values;
 }
 
 template <int d>
-Eigen::VectorXd BlobSum<d>::direct(const fgtd::Points<d>& targets) const {
-  Eigen::VectorXd rho = Eigen::VectorXd::Zero(targets.cols());
+Eigen::MatrixXd BlobSum<d>::direct(const fgtd::Points<d>& targets) const {
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Zero(targets.cols(), static_cast<Eigen::Index>(options_.quantities()));
   for (const WidthGroup& group : groups_) {
     fgtd::Options options;
     options.method = fgtd::Method::direct;
     options.derivative_order = group.derivative_order;
     options.threads = options_.threads;
-    rho += fgtd::Plan<d>(sources_, weights_, group.sigma, options).evaluate_combination(targets, group.combination);
+    values += fgtd::Plan<d>(sources_, weights_, group.sigma, options).evaluate_combinations(targets, group.combinations);
   }
-  return rho;
+  return values;
+}
+
+template <int d>
+OfQuantities BlobSum<d>::largest_near(const fgtd::Points<d>& points) const {
+  const auto largest_at = [&](const fgtd::Points<d>& targets) {
+    const Eigen::RowVectorXd largest = direct(targets).cwiseAbs().colwise().maxCoeff();
+    return OfQuantities(largest.begin(), largest.end());
+  };
+  OfQuantities largest = largest_at(points);
+  if (options_.derivatives.empty()) return largest;
+  for (int k = 0; k < d; ++k)
+    for (const int side : {-1, 1}) {
+      fgtd::Points<d> beside = points;
+      beside.row(k).array() += side / std::sqrt(2 * groups_.front().sigma);  // where exp(-sigma r^2) is steepest
+      OfQuantities there = largest_at(beside);
+      there[0] = 0;  // the density's own bound is what it is without derivatives
+      raise(largest, there);
+    }
+  return largest;
 }
 
 template <int d>
@@ -154,8 +192,8 @@ fgtd::Options BlobSum<d>::options_for(const WidthGroup& group, const fgtd::Tenso
 }
 
 template <int d>
-double BlobSum<d>::largest_error(const Lattice& lattice, const LatticeBox& box, const std::vector<double>& rho,
-                                 const std::vector<std::size_t>& numbers) const {
+OfQuantities BlobSum<d>::largest_errors(const Lattice& lattice, const LatticeBox& box, const std::vector<double>& values,
+                                        const std::vector<std::size_t>& numbers) const {
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(numbers.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     std::size_t rest = numbers[i];
@@ -165,11 +203,13 @@ double BlobSum<d>::largest_error(const Lattice& lattice, const LatticeBox& box, 
       rest /= box.points[axis];
     }
   }
-  const Eigen::VectorXd exact = direct(targets);
-  double error = 0;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    error = std::max(error, std::abs(exact(static_cast<Eigen::Index>(i)) - rho[numbers[i]]));
-  return error;
+  const Eigen::MatrixXd exact = direct(targets);
+  OfQuantities errors(options_.quantities(), 0.0);
+  for (std::size_t q = 0; q < errors.size(); ++q)
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      errors[q] = std::max(errors[q], std::abs(exact(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(q)) -
+                                               values[q * box.size() + numbers[i]]));
+  return errors;
 }
 
 fgtd::TensorGrid nodes_of(const Lattice& lattice, const LatticeBox& box) {
@@ -181,10 +221,10 @@ fgtd::TensorGrid nodes_of(const Lattice& lattice, const LatticeBox& box) {
   return nodes;
 }
 
-std::size_t number_of_largest(const std::vector<double>& rho) {
+std::size_t number_of_largest(std::span<const double> values) {
   const auto largest =
-      std::max_element(rho.begin(), rho.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  return static_cast<std::size_t>(largest - rho.begin());
+      std::max_element(values.begin(), values.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+  return static_cast<std::size_t>(largest - values.begin());
 }
 
 std::vector<std::size_t> spread_numbers(std::size_t size, std::size_t count) {

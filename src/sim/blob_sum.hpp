@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "gaussdrift/lattice_pieces.hpp"
@@ -22,23 +23,28 @@ class BlobSum {
 
   /// The largest error that a tolerance of 1 in each term gives, anywhere: fgtd promises tolerance * N * weight around.
   /// For the particles that this was made of.
-  double error_of_unit_tolerance(const Particles& particles) const;
+  OfQuantities error_of_unit_tolerance(const Particles& particles) const;
 
-  /// Sets the tolerance a term with which the error stays below options.tolerance * maximum, and reports it.
-  void choose_tolerance(double unit_error, double maximum, DensityReport& report);
+  /// Sets the tolerance a term with which errors stay below options.tolerance * maxima, and reports it.
+  void choose_tolerance(const OfQuantities& unit_errors, const OfQuantities& maxima, DensityReport& report);
 
   /// What transform() would take.
   DensityWork predict(const fgtd::TensorGrid& grid) const;
 
-  /// The density on a grid. Reports what fgtd chose.
-  Eigen::VectorXd transform(const fgtd::TensorGrid& grid, DensityReport& report) const;
+  /// The density on a grid and, in further columns, its derivatives. Reports what fgtd chose.
+  Eigen::MatrixXd transform(const fgtd::TensorGrid& grid, DensityReport& report) const;
 
-  /// The density at some points, pair by pair.
-  Eigen::VectorXd direct(const fgtd::Points<d>& targets) const;
+  /// The same at some points, pair by pair.
+  Eigen::MatrixXd direct(const fgtd::Points<d>& targets) const;
 
-  /// The largest error of `rho` on the points of a box, at those with these numbers within it.
-  double largest_error(const Lattice& lattice, const LatticeBox& box, const std::vector<double>& rho,
-                       const std::vector<std::size_t>& numbers) const;
+  /// The largest errors of `values` on the points of a box, one quantity after the other, at the points with these
+  /// numbers within it.
+  OfQuantities largest_errors(const Lattice& lattice, const LatticeBox& box, const std::vector<double>& values,
+                              const std::vector<std::size_t>& numbers) const;
+
+  /// Lower bounds of the maxima, from these points; derivatives also from points beside them, where a blob has its
+  /// largest slope.
+  OfQuantities largest_near(const fgtd::Points<d>& points) const;
 
   /// Number of particles.
   std::size_t size() const { return static_cast<std::size_t>(sources_.cols()); }
@@ -48,14 +54,14 @@ class BlobSum {
   // All terms of one Gaussian width: one prepared transform, evaluated with derivatives.
   struct WidthGroup {
     double sigma = 0;  // 1 / width^2
-    fgtd::Combination<d> combination;
+    std::vector<fgtd::Combination<d>> combinations;  // of each quantity
     int derivative_order = 0;
-    double scale = 0;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight
+    OfQuantities scale;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight
   };
-  static std::vector<WidthGroup> group_by_width(const Cutoff& cutoff);
+  static std::vector<WidthGroup> group_by_width(const Cutoff& cutoff, const std::vector<DensityDerivatives>& wanted);
   bool by_hand() const { return options_.method == to_string(fgtd::Method::hermite) && options_.hermite; }
   // Bound (3.5) of the error of the sum with parameters by hand.
-  double bound_by_hand() const;
+  double bound_by_hand(std::size_t quantity) const;
   fgtd::Options options_for(const WidthGroup& group, const fgtd::TensorGrid& grid) const;
 
   const DensityOptions& options_;
@@ -71,8 +77,8 @@ inline LatticeBox whole(const Lattice& lattice) { return {.first = {}, .points =
 /// The points of a box.
 fgtd::TensorGrid nodes_of(const Lattice& lattice, const LatticeBox& box);
 
-/// The number of the largest |rho|, the first of several.
-std::size_t number_of_largest(const std::vector<double>& rho);
+/// The number of the largest |value|, the first of several.
+std::size_t number_of_largest(std::span<const double> values);
 
 /// count - 1 numbers below `size`, spread evenly however many there are, to be looked at beside that of the largest
 /// value.

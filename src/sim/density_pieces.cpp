@@ -45,16 +45,17 @@ void each_subset(unsigned set, const Use& use) {  // not the empty one
 
 struct Layer {
   LatticeBox box;
-  std::vector<double> rho;
+  std::vector<double> values;  // of the density, then of each derivative
 };
 
 class PieceSums {
  public:
   PieceSums(const Tiles& tiles, const std::vector<int>& owner, const Lattice& lattice, const LatticePieces& pieces,
-            base::Communicator& ranks, const PieceReceiver& receiver, DensityReport& report)
+            std::size_t quantities, base::Communicator& ranks, const PieceReceiver& receiver, DensityReport& report)
       : tiles_(tiles.list()),
         owner_(owner),
         pieces_(pieces),
+        quantities_(quantities),
         ranks_(ranks),
         receiver_(receiver),
         report_(report),
@@ -131,10 +132,10 @@ class PieceSums {
         for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
           if (!is_own(tile)) continue;
           each_layer(tile, [&](const LatticeBox& box, const auto& shown_by) {
-            const std::vector<double> rho = sums.sum(tile, box, false, report_);
+            const std::vector<double> values = sums.sum(tile, box, false, report_);
             for (const auto& [rank, pieces] : shown_by) {
               auto& to = out[static_cast<std::size_t>(rank)];
-              to.insert(to.end(), rho.begin(), rho.end());
+              to.insert(to.end(), values.begin(), values.end());
             }
           });
         }
@@ -148,9 +149,10 @@ class PieceSums {
         if (here == shown_by.end()) return;
         const auto from = static_cast<std::size_t>(owner_[tile]);
         const auto begin = in[from].begin() + static_cast<std::ptrdiff_t>(next[from]);
-        next[from] += box.size();
+        const std::size_t count = quantities_ * box.size();
+        next[from] += count;
         const auto layer = std::make_shared<const Layer>(
-            Layer{box, std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(box.size()))});
+            Layer{box, std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(count))});
         for (const std::size_t piece : here->second) layers_[piece].push_back(layer);
       });
   }
@@ -171,10 +173,10 @@ class PieceSums {
     const auto self = static_cast<std::size_t>(ranks_.rank());
     const bool shows = now[self] < pieces_.count();
     const LatticeBox shown = shows ? pieces_.shown(now[self]) : LatticeBox{{}, {0, 0, 0}};
-    std::vector<double> rho;
+    std::vector<double> values;
     std::vector<std::vector<double>> out(size());
     ranks_.agree_on([&] {
-      rho.resize(shown.size());
+      values.resize(quantities_ * shown.size());
       in_words_of_a_case([&] {
         for (std::size_t rank = 0; rank < size(); ++rank) {
           if (now[rank] == pieces_.count()) continue;
@@ -183,7 +185,7 @@ class PieceSums {
             const LatticeBox box = main_part(tile);
             const std::vector<double> some = sums.sum(tile, box, true, report_);
             if (rank == self)
-              put(some, box, shown, rho);
+              put(some, box, shown, values);
             else
               out[rank].insert(out[rank].end(), some.begin(), some.end());
           }
@@ -198,14 +200,15 @@ class PieceSums {
         if (is_own(tile)) continue;
         const auto from = static_cast<std::size_t>(owner_[tile]);
         const LatticeBox box = main_part(tile);
-        put(std::span(in[from]).subspan(next[from], box.size()), box, shown, rho);
-        next[from] += box.size();
+        const std::size_t count = quantities_ * box.size();
+        put(std::span(in[from]).subspan(next[from], count), box, shown, values);
+        next[from] += count;
       }
-      for (const auto& layer : layers_[now[self]]) put(layer->rho, layer->box, shown, rho);
+      for (const auto& layer : layers_[now[self]]) put(layer->values, layer->box, shown, values);
       layers_.erase(now[self]);
-      look_at(now[self], shown, rho);
+      look_at(now[self], shown, values);
       const base::Stopwatch receiving;
-      receiver_.piece(now[self], rho);
+      receiver_.piece(now[self], values);
       receiving_ += receiving.seconds();
     });
   }
@@ -215,13 +218,17 @@ class PieceSums {
   }
 
   // Values of a box into those of a larger one.
-  static void put(std::span<const double> some, const LatticeBox& box, const LatticeBox& all,
-                  std::vector<double>& rho) {
-    for (std::size_t l = 0; l < box.points[2]; ++l)
-      for (std::size_t j = 0; j < box.points[1]; ++j)
-        std::copy_n(
-            some.begin() + static_cast<std::ptrdiff_t>((l * box.points[1] + j) * box.points[0]), box.points[0],
-            rho.begin() + static_cast<std::ptrdiff_t>(all.number(box.first[0], box.first[1] + j, box.first[2] + l)));
+  void put(std::span<const double> some, const LatticeBox& box, const LatticeBox& all,
+           std::vector<double>& values) const {
+    for (std::size_t q = 0; q < quantities_; ++q)
+      for (std::size_t l = 0; l < box.points[2]; ++l)
+        for (std::size_t j = 0; j < box.points[1]; ++j)
+          std::copy_n(some.begin() + static_cast<std::ptrdiff_t>(q * box.size() +
+                                                                 (l * box.points[1] + j) * box.points[0]),
+                      box.points[0],
+                      values.begin() +
+                          static_cast<std::ptrdiff_t>(q * all.size() +
+                                                      all.number(box.first[0], box.first[1] + j, box.first[2] + l)));
   }
 
   template <class Use>
@@ -237,11 +244,12 @@ class PieceSums {
     return i / every_ + points[0] * (j / every_ + points[1] * (l / every_));
   }
 
-  void look_at(std::size_t piece, const LatticeBox& shown, const std::vector<double>& rho) {
-    const auto [low, high] = std::minmax_element(rho.begin(), rho.end());
+  void look_at(std::size_t piece, const LatticeBox& shown, const std::vector<double>& values) {
+    const auto [low, high] =
+        std::minmax_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(shown.size()));
     minimum_ = std::min(minimum_, *low), maximum_ = std::max(maximum_, *high);
     each_thin(pieces_.own(piece), [&](std::size_t i, std::size_t j, std::size_t l) {
-      const double value = rho[shown.number(i, j, l)];
+      const double value = values[shown.number(i, j, l)];
       if (ranks_.rank() == 0)
         thin_.rho[thin_number(i, j, l)] = value;
       else
@@ -252,6 +260,7 @@ class PieceSums {
   const std::vector<Tile>& tiles_;
   const std::vector<int>& owner_;
   const LatticePieces& pieces_;
+  const std::size_t quantities_;
   base::Communicator& ranks_;
   const PieceReceiver& receiver_;
   DensityReport& report_;
@@ -271,7 +280,7 @@ PiecesSummary sum_pieces(const TileSources& sources, const Tiles& tiles, const s
                          DensityReport& report) {
   std::vector<char> owned;
   for (const int rank : owner) owned.push_back(rank == ranks.rank());
-  PieceSums all(tiles, owner, lattice, pieces, ranks, receiver, report);
+  PieceSums all(tiles, owner, lattice, pieces, options.quantities(), ranks, receiver, report);
   sum_by_tiles(
       sources, tiles, owned, cutoff, lattice, options, ranks, [&](TileSums& sums) { all.sum(sums); }, report);
   report.evaluate_seconds -= all.receiving_seconds();

@@ -22,8 +22,9 @@ struct PiecesSummary {
 /// Gets the pieces of this rank.
 struct PieceReceiver {
   std::function<void()> begin;  // all pieces come now; perhaps once more, for a finer tolerance
-  /// Values at the points that the piece shows, first axis fastest.
-  std::function<void(std::size_t piece, const std::vector<double>& rho)> piece;
+  /// The density at the points that the piece shows, first axis fastest, then each of the derivatives that the options
+  /// ask for.
+  std::function<void(std::size_t piece, std::vector<double>& values)> piece;
 };
 
 /// Sums the tiles, of which each lies in one piece, and hands the pieces out. A rank holds one piece at a time, and what

@@ -8,9 +8,11 @@
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
 #include "base/told_by_first.hpp"
+#include "field/grid_fields.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
 #include "sim/density_pieces.hpp"
+#include "sim/fields_on_grid.hpp"
 #include "sim/outside.hpp"
 #include "sim/particle_pieces.hpp"
 #include "sim/piece_comparison.hpp"
@@ -87,6 +89,7 @@ DensityOptions Simulation::Parts::density_options() const {
   options.tiles = usual_tiles(case_.domain.dimension);
   if (evaluate.tile_particles > 0) options.tiles->particles = static_cast<std::int64_t>(evaluate.tile_particles);
   options.tiles->pieces = pieces_.halvings();
+  options.derivatives = derivatives_of(case_.output, case_.domain.dimension);
   return options;
 }
 
@@ -173,26 +176,41 @@ DensityGrid Simulation::Parts::sum_tiles(DensityReport& report) {
                                                       scene_.evaluation, density_options(), ranks_, report);
   DensityGrid density{scene_.evaluation, {}};
   const auto& tiles = place_.tiles().list();
-  if (place_.is_first()) density.rho.resize(scene_.evaluation.size());
+  const std::size_t quantities = density_options().quantities();
+  if (place_.is_first()) {
+    density.rho.resize(scene_.evaluation.size());
+    report.derivatives.assign(quantities - 1, density.rho);
+  }
   std::vector<double> values;  // of the others, tile after tile
-  for (const auto& [tile, rho] : own)
+  for (const auto& [tile, some] : own)
     if (place_.is_first())
-      gaussdrift::place(rho, tiles[tile], scene_.evaluation, density.rho);
+      gaussdrift::place(some, tiles[tile], density, report.derivatives);
     else
-      values.insert(values.end(), rho.begin(), rho.end());
+      values.insert(values.end(), some.begin(), some.end());
   const std::vector<base::Bytes> arrived = ranks_.gather(base::to_bytes(values));
   if (!place_.is_first()) return density;
   std::vector<std::size_t> read(arrived.size(), 0);
-  std::vector<double> rho;
   for (std::size_t tile = 0; tile < tiles.size(); ++tile) {
     const auto from = static_cast<std::size_t>(place_.owner()[tile]);
     if (from == 0) continue;
-    const std::size_t bytes = tiles[tile].size() * sizeof(double);
-    rho = base::from_bytes<double>(std::span(arrived[from]).subspan(read[from], bytes));
+    const std::size_t bytes = quantities * tiles[tile].size() * sizeof(double);
+    const auto some = base::from_bytes<double>(std::span(arrived[from]).subspan(read[from], bytes));
     read[from] += bytes;
-    gaussdrift::place(rho, tiles[tile], scene_.evaluation, density.rho);
+    gaussdrift::place(some, tiles[tile], density, report.derivatives);
   }
   return density;
+}
+
+// Of the density at the points of a piece, followed by its derivatives, leaves the density.
+std::vector<FieldOnGrid> Simulation::Parts::fields_of_piece(double time, const LatticeBox& box,
+                                                            std::vector<double>& values) const {
+  std::vector<std::vector<double>> derivatives;
+  for (std::size_t first = box.size(); first < values.size(); first += box.size()) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(first);
+    derivatives.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(box.size()));
+  }
+  values.resize(box.size());
+  return fields_on_grid(case_.output, scene_.evaluation, box, derivatives, *scene_.velocity, time, threads_);
 }
 
 // Every k-th value on rank 0; the pieces go to the observers.
@@ -202,13 +220,19 @@ DensityGrid Simulation::Parts::sum_in_pieces(Frame& frame, DensityReport& report
   frame.lattice = &scene_.evaluation;
   frame.every = thinning(scene_.evaluation);
   frame.pieces_have_exact = compares_pieces();
+  for (const GridField& field : case_.output.fields)
+    if (const GridFieldKind& kind = find_grid_field(field.name); kind.of_density || kind.of_flow)
+      frame.piece_fields.emplace_back(field.name, kind.components(case_.domain.dimension));
   PieceComparison comparison(scene_.evaluation, pieces_, largest_at_start_);
   const PieceReceiver receiver{
       .begin = [&] { comparison.begin(); },
       .piece =
-          [&](std::size_t number, const std::vector<double>& rho) {
+          [&](std::size_t number, std::vector<double>& values) {
             std::vector<double> exact;
-            DensityPiece piece{number, pieces_.shown(number), &rho, nullptr};
+            const LatticeBox box = pieces_.shown(number);
+            const std::vector<FieldOnGrid> fields = fields_of_piece(frame.time, box, values);
+            const std::vector<double>& rho = values;
+            DensityPiece piece{number, box, &rho, nullptr, &fields};
             if (frame.pieces_have_exact) {
               summary_.stages.run("reference", [&] { comparison.compare(*reference_, frame.time, piece, exact); });
               piece.exact = &exact;
@@ -258,11 +282,20 @@ void Simulation::Parts::show_frame(double time) {
   frame.index = index_;
   frame.time = time;
   frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
-  const DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);
+  DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);
   summary_.stages.add("density", report.evaluate_seconds);
   summary_.stages.add("measure transform error", report.measure_seconds);
   summary_.transform_choice = report.choice;
   summary_.transform_achievable = std::max(summary_.transform_achievable, report.achievable);
+  if (!in_pieces() && shows_fields(case_.output))
+    on_first([&] {
+      summary_.stages.run("fields on the grid", [&] {
+        const LatticeBox all{{}, density.lattice.points};
+        density.fields =
+            fields_on_grid(case_.output, density.lattice, all, report.derivatives, *scene_.velocity, time, threads_);
+        report.derivatives.clear();
+      });
+    });
 
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
   std::vector<double> velocity;

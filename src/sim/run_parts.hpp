@@ -76,6 +76,7 @@ class Simulation::Parts {
   void plan_reference();
   DensityGrid sum_density(DensityReport& report);
   DensityGrid sum_tiles(DensityReport& report);
+  std::vector<FieldOnGrid> fields_of_piece(double time, const LatticeBox& box, std::vector<double>& values) const;
   DensityGrid sum_in_pieces(Frame& frame, DensityReport& report);
   bool show_or_abandon(double time);
   void forget_output();

@@ -115,8 +115,7 @@ class SumsInDimension : public TileSums {
         fullest_(fullest(tiles).front()),
         of_tile_(sources_of_tiles(sources, tiles, owned, options.threads)) {}
 
-  // The largest |rho| at some promising particles: a lower bound of max |rho|.
-  double lower_bound_of_maximum(const std::vector<Candidate>& heaviest) const override {
+  OfQuantities lower_bounds_of_maxima(const std::vector<Candidate>& heaviest) const override {
     std::map<std::size_t, std::vector<Vector>> places;  // by tile
     std::vector<std::int64_t> ids;
     for (const Candidate& candidate : heaviest) ids.push_back(candidate.id);
@@ -136,43 +135,49 @@ class SumsInDimension : public TileSums {
         break;
       }
     }
-    double largest = 0;
+    OfQuantities largest(options_.quantities(), 0.0);
     for (const auto& [tile, of_tile] : places)
-      if (owned_[tile]) largest = std::max(largest, largest_at(of_tile, of_tile_[tile]));
+      if (owned_[tile]) raise(largest, largest_at(of_tile, of_tile_[tile]));
     return largest;
   }
 
-  void begin(double maximum, DensityReport& report) override {
-    maximum_ = maximum;
-    error_ = 0, largest_ = 0, sample_ = 0;
+  void begin(const OfQuantities& maxima, DensityReport& report) override {
+    maxima_ = maxima;
+    largest_.assign(options_.quantities(), 0.0);
+    errors_ = largest_;
+    sample_ = 0;
     report.requested_tolerance = 1, report.achievable = 0, report.measure_seconds = 0;
+    report.derivatives_achievable = 0;
     choice_of_fullest_.clear();
     samples_ = sample_of_tiles();
   }
 
   std::vector<double> sum(std::size_t tile, const LatticeBox& where, bool main, DensityReport& report) override {
-    if (of_tile_[tile].empty() || where.size() == 0) return std::vector<double>(where.size(), 0.0);
+    const auto nothing = [&] { return std::vector<double>(where.size() * options_.quantities(), 0.0); };
+    if (of_tile_[tile].empty() || where.size() == 0) return nothing();
     const Particles some = particles_.places_and_weights(main ? of_tile_[tile] : within_reach(tile, where));
-    if (some.size() == 0) return std::vector<double>(where.size(), 0.0);
+    if (some.size() == 0) return nothing();
     BlobSum<d> blobs(some, cutoff_, options_);
     DensityReport of_tile;
-    blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum_, of_tile);
-    const Eigen::VectorXd values = blobs.transform(nodes_of(lattice_, where), of_tile);
-    const std::vector<double> rho(values.data(), values.data() + values.size());
+    blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maxima_, of_tile);
+    const Eigen::MatrixXd matrix = blobs.transform(nodes_of(lattice_, where), of_tile);
+    const std::vector<double> values(matrix.data(), matrix.data() + matrix.size());
     report.requested_tolerance = std::min(report.requested_tolerance, of_tile.requested_tolerance);
     report.achievable = std::max(report.achievable, of_tile.achievable);
+    report.derivatives_achievable = std::max(report.derivatives_achievable, of_tile.derivatives_achievable);
     if (main && tile == fullest_) choice_of_fullest_ = of_tile.choice;
-    largest_ = std::max(largest_, values.cwiseAbs().maxCoeff());
+    const Eigen::RowVectorXd largest = matrix.cwiseAbs().colwise().maxCoeff();
+    raise(largest_, {largest.begin(), largest.end()});
     if (options_.measure) {
       const base::Stopwatch measuring;
-      measure(blobs, where, rho, samples_of(tile, where), main);
+      measure(blobs, where, values, samples_of(tile, where), main);
       report.measure_seconds += measuring.seconds();
     }
-    return rho;
+    return values;
   }
 
   // The work of all tiles, predicted and not done.
-  DensityWork predict(double maximum) const {
+  DensityWork predict(const OfQuantities& maxima) const {
     std::map<std::string, double> seconds;  // of each method
     for (std::size_t tile = 0; tile < owned_.size(); ++tile) {
       if (!owned_[tile] || of_tile_[tile].empty()) continue;
@@ -180,7 +185,7 @@ class SumsInDimension : public TileSums {
       const Particles some = particles_.places_and_weights(of_tile_[tile]);
       BlobSum<d> blobs(some, cutoff_, options_);
       DensityReport ignored;
-      blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maximum, ignored);
+      blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maxima, ignored);
       const DensityWork work = blobs.predict(nodes_of(lattice_, where));
       seconds[work.method] += work.seconds;
     }
@@ -193,16 +198,16 @@ class SumsInDimension : public TileSums {
     return all;
   }
 
-  double largest() const override { return largest_; }
-  double error() const override { return error_; }
+  const OfQuantities& largest() const override { return largest_; }
+  const OfQuantities& errors() const override { return errors_; }
   std::int64_t sample() const override { return sample_; }
   const std::string& choice_of_fullest() const override { return choice_of_fullest_; }
 
  private:
   // By pairs within reach, because only these count.
-  double largest_at(const std::vector<Vector>& places, const std::vector<std::size_t>& chosen) const {
-    const double reach = reach_of_blob(cutoff_);
-    double largest = 0;
+  OfQuantities largest_at(const std::vector<Vector>& places, const std::vector<std::size_t>& chosen) const {
+    const double reach = reach_of_blob(cutoff_, options_);
+    OfQuantities largest(options_.quantities(), 0.0);
     for (const Vector& x : places) {
       std::vector<std::size_t> near;
       for (const std::size_t j : chosen) {
@@ -213,7 +218,7 @@ class SumsInDimension : public TileSums {
       fgtd::Points<d> target(d, 1);
       for (int k = 0; k < d; ++k) target(k, 0) = x[static_cast<std::size_t>(k)];
       const BlobSum<d> blobs(particles_.places_and_weights(near), cutoff_, options_);
-      largest = std::max(largest, std::abs(blobs.direct(target)(0)));
+      raise(largest, blobs.largest_near(target));
     }
     return largest;
   }
@@ -260,7 +265,7 @@ class SumsInDimension : public TileSums {
 
   // Of the particles that reach the tile, those that reach this part of it.
   std::vector<std::size_t> within_reach(std::size_t tile, const LatticeBox& where) const {
-    const double reach = reach_of_blob(cutoff_);
+    const double reach = reach_of_blob(cutoff_, options_);
     std::vector<std::size_t> near;
     for (const std::size_t j : of_tile_[tile]) {
       bool within = true;
@@ -275,12 +280,13 @@ class SumsInDimension : public TileSums {
     return near;
   }
 
-  // At the sample, and in the main part of a tile where |rho| is largest in it.
-  void measure(const BlobSum<d>& blobs, const LatticeBox& where, const std::vector<double>& rho,
+  // At the sample, and in the main part of a tile where each quantity is largest in it.
+  void measure(const BlobSum<d>& blobs, const LatticeBox& where, const std::vector<double>& values,
                std::vector<std::size_t> sample, bool main) {
-    if (main) sample.push_back(number_of_largest(rho));
+    for (std::size_t q = 0; main && q < options_.quantities(); ++q)
+      sample.push_back(number_of_largest({values.data() + q * where.size(), where.size()}));
     if (sample.empty()) return;
-    error_ = std::max(error_, blobs.largest_error(lattice_, where, rho, sample));
+    raise(errors_, blobs.largest_errors(lattice_, where, values, sample));
     sample_ += static_cast<std::int64_t>(sample.size());
   }
 
@@ -293,7 +299,7 @@ class SumsInDimension : public TileSums {
   std::size_t fullest_;
   std::vector<std::vector<std::size_t>> of_tile_;  // numbers of the particles that count, by id
   std::vector<std::vector<std::size_t>> samples_;  // numbers of grid points within the tile
-  double maximum_ = 0, error_ = 0, largest_ = 0;
+  OfQuantities maxima_, errors_, largest_;
   std::int64_t sample_ = 0;
   std::string choice_of_fullest_;
 };
@@ -301,6 +307,11 @@ class SumsInDimension : public TileSums {
 double largest_of(base::Communicator& ranks, double number) {
   ranks.max(std::span(&number, 1));
   return number;
+}
+
+OfQuantities largest_of(base::Communicator& ranks, OfQuantities numbers) {
+  ranks.max(std::span(numbers));
+  return numbers;
 }
 
 std::string told_by_whom_it_concerns(base::Communicator& ranks, const std::string& own) {
@@ -313,36 +324,39 @@ std::string told_by_whom_it_concerns(base::Communicator& ranks, const std::strin
 
 }  // namespace
 
-double reach_of_blob(const Cutoff& cutoff) { return reach(cutoff, 1e-14); }
+// At that distance a second derivative is some hundred times larger, relative to its largest value, than the blob.
+double reach_of_blob(const Cutoff& cutoff, const DensityOptions& options) {
+  return reach(cutoff, options.derivatives.empty() ? 1e-14 : 1e-17);
+}
 
 void sum_by_tiles(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
                   const Lattice& lattice, const DensityOptions& options, base::Communicator& ranks,
                   const std::function<void(TileSums&)>& sum_all, DensityReport& report) {
   const base::Stopwatch evaluating;
   std::unique_ptr<TileSums> sums;
-  double expected = 0;
+  OfQuantities expected;
   const std::vector<Candidate> candidates = heaviest(sources, ranks);
   ranks.agree_on([&] {
     if (lattice.dimension == 2)
       sums = std::make_unique<SumsInDimension<2>>(sources, tiles, owned, cutoff, lattice, options);
     else
       sums = std::make_unique<SumsInDimension<3>>(sources, tiles, owned, cutoff, lattice, options);
-    expected = sums->lower_bound_of_maximum(candidates);
+    expected = sums->lower_bounds_of_maxima(candidates);
   });
   expected = largest_of(ranks, expected);
-  const auto sum_to = [&](double maximum) {
-    ranks.agree_on([&] { sums->begin(maximum, report); });
+  const auto sum_to = [&](const OfQuantities& maxima) {
+    ranks.agree_on([&] { sums->begin(maxima, report); });
     sum_all(*sums);
     return largest_of(ranks, sums->largest());
   };
-  double found = sum_to(expected);
+  OfQuantities found = sum_to(expected);
   // Where most of the density has left the grid, the largest value on it decides, and the first tolerance was too
   // coarse.
-  if (found > 0 && found < 0.5 * expected) found = sum_to(found);
+  if (found[0] > 0 && is_too_coarse(found, expected)) found = sum_to(OfQuantities(found));
   report.requested_tolerance = -largest_of(ranks, -report.requested_tolerance);
   report.achievable = largest_of(ranks, report.achievable);
-  const double error = largest_of(ranks, sums->error());
-  report.measured_error = found > 0 ? error / found : error;
+  report.derivatives_achievable = largest_of(ranks, report.derivatives_achievable);
+  tell_errors(largest_of(ranks, sums->errors()), found, report);
   std::int64_t sample = sums->sample();
   ranks.sum(std::span(&sample, 1));
   report.sample = static_cast<std::size_t>(sample);
@@ -370,13 +384,20 @@ std::vector<TileDensity> evaluate_tiles(const TileSources& sources, const Tiles&
   return densities;
 }
 
-void place(const std::vector<double>& rho, const Tile& tile, const Lattice& lattice, std::vector<double>& whole) {
-  for (std::size_t l = 0; l < tile.points[2]; ++l)
-    for (std::size_t j = 0; j < tile.points[1]; ++j) {
-      const std::size_t line = (tile.first[2] + l) * lattice.points[1] + tile.first[1] + j;
-      std::copy_n(rho.begin() + static_cast<std::ptrdiff_t>((l * tile.points[1] + j) * tile.points[0]), tile.points[0],
-                  whole.begin() + static_cast<std::ptrdiff_t>(line * lattice.points[0] + tile.first[0]));
-    }
+void place(std::span<const double> values, const Tile& tile, DensityGrid& whole,
+           std::vector<std::vector<double>>& derivatives) {
+  const Lattice& lattice = whole.lattice;
+  for (std::size_t q = 0; q <= derivatives.size(); ++q) {
+    const std::span<const double> some = values.subspan(q * tile.size(), tile.size());
+    std::vector<double>& all = q == 0 ? whole.rho : derivatives[q - 1];
+    for (std::size_t l = 0; l < tile.points[2]; ++l)
+      for (std::size_t j = 0; j < tile.points[1]; ++j) {
+        const std::size_t line = (tile.first[2] + l) * lattice.points[1] + tile.first[1] + j;
+        std::copy_n(some.begin() + static_cast<std::ptrdiff_t>((l * tile.points[1] + j) * tile.points[0]),
+                    tile.points[0],
+                    all.begin() + static_cast<std::ptrdiff_t>(line * lattice.points[0] + tile.first[0]));
+      }
+  }
 }
 
 DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const Cutoff& cutoff, const Lattice& lattice,
@@ -385,7 +406,7 @@ DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const 
   const Particles none;
   const TileSources sources{particles, none};
   base::Communicator alone;
-  const auto predict = [&](auto sums) { return sums.predict(sums.lower_bound_of_maximum(heaviest(sources, alone))); };
+  const auto predict = [&](auto sums) { return sums.predict(sums.lower_bounds_of_maxima(heaviest(sources, alone))); };
   return lattice.dimension == 2 ? predict(SumsInDimension<2>(sources, tiles, all, cutoff, lattice, options))
                                 : predict(SumsInDimension<3>(sources, tiles, all, cutoff, lattice, options));
 }

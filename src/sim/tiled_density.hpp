@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "gaussdrift/density_grid.hpp"
 #include "gaussdrift/lattice.hpp"
 #include "gaussdrift/particles.hpp"
 #include "particle/cutoff.hpp"
@@ -19,7 +21,8 @@
 namespace gaussdrift {
 
 /// How far a blob is felt: what lies beyond is below the rounding of its largest value.
-double reach_of_blob(const Cutoff& cutoff);
+/// Its derivatives, where options ask for any, are felt a little farther.
+double reach_of_blob(const Cutoff& cutoff, const DensityOptions& options);
 
 /// The particles that a process needs for its tiles.
 struct TileSources {
@@ -40,16 +43,16 @@ struct Candidate {
 class TileSums {
  public:
   virtual ~TileSums() = default;
-  /// The largest |rho| at some promising particles: a lower bound of max |rho|.
-  virtual double lower_bound_of_maximum(const std::vector<Candidate>& heaviest) const = 0;
-  /// From now on sums are right to options.tolerance * maximum.
-  virtual void begin(double maximum, DensityReport& report) = 0;
-  /// The density at some grid points of a tile, first axis fastest. main: they are all of the tile, or nearly. Else they
+  /// The largest at some promising particles: lower bounds of the maxima.
+  virtual OfQuantities lower_bounds_of_maxima(const std::vector<Candidate>& heaviest) const = 0;
+  /// From now on sums are right to options.tolerance * maxima.
+  virtual void begin(const OfQuantities& maxima, DensityReport& report) = 0;
+  /// The density at some grid points of a tile, first axis fastest, then its derivatives one after another. main: they are all of the tile, or nearly. Else they
   /// are a thin part of it, and only particles within reach of that are taken.
   virtual std::vector<double> sum(std::size_t tile, const LatticeBox& where, bool main, DensityReport& report) = 0;
 
-  virtual double largest() const = 0;  // |rho| in all sums since begin()
-  virtual double error() const = 0;    // on a sample of the grid
+  virtual const OfQuantities& largest() const = 0;  // in all sums since begin()
+  virtual const OfQuantities& errors() const = 0;   // on a sample of the grid
   virtual std::int64_t sample() const = 0;
   /// What fgtd chose for the fullest tile, if this process has it.
   virtual const std::string& choice_of_fullest() const = 0;
@@ -65,7 +68,7 @@ void sum_by_tiles(const TileSources& sources, const Tiles& tiles, const std::vec
 /// What one tile has come to.
 struct TileDensity {
   std::size_t tile = 0;
-  std::vector<double> rho;  // on its grid points, first axis fastest
+  std::vector<double> values;  // the density on its grid points, first axis fastest, then its derivatives
 };
 
 /// The densities of the tiles of this process, `owned[tile]`. All processes call it, and get the same report but for its
@@ -74,8 +77,9 @@ std::vector<TileDensity> evaluate_tiles(const TileSources& sources, const Tiles&
                                         const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
                                         base::Communicator& ranks, DensityReport& report);
 
-/// Puts the values of a tile where they belong on the lattice.
-void place(const std::vector<double>& rho, const Tile& tile, const Lattice& lattice, std::vector<double>& whole);
+/// Puts the values of a tile where they belong: the density, and `derivatives` of as many points.
+void place(std::span<const double> values, const Tile& tile, DensityGrid& whole,
+           std::vector<std::vector<double>>& derivatives);
 
 /// The work of evaluate_tiles() on one process, predicted and not done.
 DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const Cutoff& cutoff, const Lattice& lattice,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "base/duration_text.hpp"
 #include "base/stopwatch.hpp"
@@ -36,26 +37,32 @@ std::vector<std::size_t> promising_particles(const Particles& particles) {
   return order;
 }
 
-// Largest |rho| among some promising points, by `direct`: a lower bound of max |rho|.
+// The largest among some promising points, by `direct`: lower bounds of the maxima.
 template <int d>
-double lower_bound_of_maximum(const BlobSum<d>& blobs, const Particles& particles) {
+OfQuantities lower_bounds_of_maxima(const BlobSum<d>& blobs, const Particles& particles) {
   const std::vector<std::size_t> chosen = promising_particles(particles);
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t i = 0; i < chosen.size(); ++i)
     targets.col(static_cast<Eigen::Index>(i)) = blobs.sources().col(static_cast<Eigen::Index>(chosen[i]));
-  return blobs.direct(targets).cwiseAbs().maxCoeff();
+  return blobs.largest_near(targets);
 }
 
 template <int d>
-void measure(const BlobSum<d>& blobs, const Lattice& lattice, const std::vector<double>& rho, DensityReport& report) {
+void measure(const BlobSum<d>& blobs, const Lattice& lattice, const std::vector<double>& values,
+             DensityReport& report) {
   // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
   const std::size_t wanted = std::clamp<std::size_t>(20'000'000 / blobs.size(), 4, 200);
-  std::vector<std::size_t> sample{number_of_largest(rho)};
-  const double maximum = std::abs(rho[sample.front()]);
-  for (const std::size_t number : spread_numbers(rho.size(), std::min(wanted, rho.size()))) sample.push_back(number);
-  const double error = blobs.largest_error(lattice, whole(lattice), rho, sample);
-  report.measured_error = maximum > 0 ? error / maximum : error;
+  const std::size_t points = lattice.size(), quantities = values.size() / points;
+  std::vector<std::size_t> sample;
+  OfQuantities maxima;
+  for (std::size_t q = 0; q < quantities; ++q) {
+    const std::span<const double> of_quantity(values.data() + q * points, points);
+    sample.push_back(number_of_largest(of_quantity));
+    maxima.push_back(std::abs(of_quantity[sample.back()]));
+  }
+  for (const std::size_t number : spread_numbers(points, std::min(wanted, points))) sample.push_back(number);
   report.sample = sample.size();
+  tell_errors(blobs.largest_errors(lattice, whole(lattice), values, sample), maxima, report);
 }
 
 template <int d>
@@ -63,7 +70,7 @@ DensityWork predict_in_dimension(const Particles& particles, const Cutoff& cutof
                                  const DensityOptions& options) {
   DensityReport ignored;
   BlobSum<d> blobs(particles, cutoff, options);
-  blobs.choose_tolerance(blobs.error_of_unit_tolerance(particles), lower_bound_of_maximum(blobs, particles), ignored);
+  blobs.choose_tolerance(blobs.error_of_unit_tolerance(particles), lower_bounds_of_maxima(blobs, particles), ignored);
   return blobs.predict(nodes_of(lattice, whole(lattice)));
 }
 
@@ -73,32 +80,54 @@ void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, Den
   const base::Stopwatch evaluating;
   const fgtd::TensorGrid nodes = nodes_of(grid.lattice, whole(grid.lattice));
   BlobSum<d> blobs(particles, cutoff, options);
-  const double unit_error = blobs.error_of_unit_tolerance(particles);
-  const double expected = lower_bound_of_maximum(blobs, particles);
-  blobs.choose_tolerance(unit_error, expected, report);
-  Eigen::VectorXd rho = blobs.transform(nodes, report);
+  const OfQuantities unit_errors = blobs.error_of_unit_tolerance(particles);
+  const OfQuantities expected = lower_bounds_of_maxima(blobs, particles);
+  blobs.choose_tolerance(unit_errors, expected, report);
+  Eigen::MatrixXd values = blobs.transform(nodes, report);
   // Where most of the density has left the grid, the largest value on it decides, and the first tolerance was too
   // coarse.
-  const double found = rho.cwiseAbs().maxCoeff();
-  if (found < 0.5 * expected) {
+  const Eigen::RowVectorXd largest = values.cwiseAbs().colwise().maxCoeff();
+  const OfQuantities found(largest.begin(), largest.end());
+  if (is_too_coarse(found, expected)) {
     const double before = report.requested_tolerance;
-    blobs.choose_tolerance(unit_error, found, report);
-    if (found > 0 && report.requested_tolerance < before) rho = blobs.transform(nodes, report);
+    blobs.choose_tolerance(unit_errors, found, report);
+    if (found[0] > 0 && report.requested_tolerance < before) values = blobs.transform(nodes, report);
   }
-  grid.rho.assign(rho.data(), rho.data() + rho.size());
+  grid.rho.assign(values.data(), values.data() + values.rows());
+  report.derivatives.clear();
+  for (Eigen::Index q = 1; q < values.cols(); ++q)
+    report.derivatives.emplace_back(values.col(q).begin(), values.col(q).end());
   report.evaluate_seconds = evaluating.seconds();
   if (options.measure) {
     const base::Stopwatch measuring;
-    measure(blobs, grid.lattice, grid.rho, report);
+    measure(blobs, grid.lattice, {values.data(), values.data() + values.size()}, report);
     report.measure_seconds = measuring.seconds();
   }
 }
 
 }  // namespace
 
+void raise(OfQuantities& largest, const OfQuantities& other) {
+  for (std::size_t q = 0; q < largest.size(); ++q) largest[q] = std::max(largest[q], other[q]);
+}
+
+bool is_too_coarse(const OfQuantities& found, const OfQuantities& expected) {
+  for (std::size_t q = 0; q < found.size(); ++q)
+    if (found[q] < 0.5 * expected[q]) return true;
+  return false;
+}
+
+void tell_errors(const OfQuantities& errors, const OfQuantities& maxima, DensityReport& report) {
+  const auto relative = [&](std::size_t q) { return maxima[q] > 0 ? errors[q] / maxima[q] : errors[q]; };
+  report.measured_error = relative(0);
+  report.derivatives_error = 0;
+  for (std::size_t q = 1; q < errors.size(); ++q)
+    report.derivatives_error = std::max(report.derivatives_error, relative(q));
+}
+
 Tiles tiles_of(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
                const Tiles::SumOverProcesses& sum) {
-  return {lattice, reach_of_blob(cutoff), particles.view(), options.tiles.value_or(usual_tiles(lattice.dimension)),
+  return {lattice, reach_of_blob(cutoff, options), particles.view(), options.tiles.value_or(usual_tiles(lattice.dimension)),
           sum};
 }
 
@@ -110,6 +139,7 @@ DensityGrid evaluate_at_once(const Particles& particles, const Cutoff& cutoff, c
   DensityGrid grid{lattice, {}};
   if (particles.size() == 0) {
     grid.rho.assign(lattice.size(), 0.0);
+    filled.derivatives.assign(options.derivatives.size(), grid.rho);
     filled.choice = "no particles carry weight";
     return grid;
   }
@@ -131,10 +161,12 @@ DensityGrid evaluate_density(const Particles& particles, const Cutoff& cutoff, c
   DensityReport& filled = report ? *report : ignored;
   filled = {};
   DensityGrid grid{lattice, std::vector<double>(lattice.size())};
+  filled.derivatives.assign(options.derivatives.size(), grid.rho);
   const std::vector<char> all(tiles.list().size(), 1);
   base::Communicator alone;
-  for (const auto& [tile, rho] : evaluate_tiles({particles, {}}, tiles, all, cutoff, lattice, options, alone, filled))
-    place(rho, tiles.list()[tile], lattice, grid.rho);
+  for (const auto& [tile, values] :
+       evaluate_tiles({particles, {}}, tiles, all, cutoff, lattice, options, alone, filled))
+    place(values, tiles.list()[tile], grid, filled.derivatives);
   return grid;
 }
 

@@ -2,6 +2,8 @@
 // to its own maximum. method.md, section 5.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,6 +16,9 @@
 
 namespace gaussdrift {
 
+/// A sum of derivatives D^alpha of the density: one is a component of the gradient, two or three are the Laplacian.
+using DensityDerivatives = std::vector<std::array<int, max_dimension>>;
+
 struct DensityOptions {
   double tolerance = 1e-8;                  // relative to max |rho| at that output
   std::string method = "auto";              // auto, or a method of fgtd by name
@@ -21,7 +26,22 @@ struct DensityOptions {
   int threads = 0;                          // 0: all
   bool measure = true;                      // compare with `direct` on a sample of the grid
   std::optional<TileLimits> tiles = {};     // usual_tiles() where none are given
+  /// Summed in the same pass, each to the tolerance relative to its own maximum.
+  std::vector<DensityDerivatives> derivatives = {};
+
+  /// The density and its derivatives.
+  std::size_t quantities() const { return 1 + derivatives.size(); }
 };
+
+/// A number for the density, then one for each of its derivatives.
+using OfQuantities = std::vector<double>;
+
+/// The most that a quantity comes to anywhere, of two estimates.
+void raise(OfQuantities& largest, const OfQuantities& other);
+
+/// Has a quantity turned out much smaller on the grid than expected? Then a tolerance relative to what was expected is
+/// too coarse.
+bool is_too_coarse(const OfQuantities& found, const OfQuantities& expected);
 
 /// What one evaluation did.
 struct DensityReport {
@@ -33,7 +53,14 @@ struct DensityReport {
   double evaluate_seconds = 0;
   double measure_seconds = 0;
   std::string choice;  // what fgtd chose, one line a Gaussian width
+  /// The same for the derivatives, where any were asked for: bound and measured error of the worst of them.
+  double derivatives_achievable = 0, derivatives_error = 0;
+  /// Where the density is summed as a whole: the derivatives on the lattice.
+  std::vector<std::vector<double>> derivatives;
 };
+
+/// Fills in measured errors, relative to the maxima.
+void tell_errors(const OfQuantities& errors, const OfQuantities& maxima, DensityReport& report);
 
 /// The density of the particles on the lattice. Without particles it is 0. A large one is summed tile by tile, see
 /// tiled_density.hpp.

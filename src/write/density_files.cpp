@@ -7,7 +7,7 @@ namespace gaussdrift::write {
 namespace {
 
 double bytes(const Extent& extent) {
-  return bytes_as_text(extent.grid_points) * (extent.compared_everywhere ? 3 : 1) + 1500 * extent.pieces;
+  return bytes_as_text(extent.grid_points) * ((extent.compared_everywhere ? 3 : 1) + extent.field_numbers) + 1500 * extent.pieces;
 }
 
 std::string view(int dimension) {
@@ -24,7 +24,7 @@ std::string view(int dimension) {
 FileKind density_files() {
   return {.about = {.name = "density",
                     .meaning = "the density on the evaluation lattice, with the exact density and the error where all "
-                               "points are compared",
+                               "points are compared, and with `output.fields`",
                     .by_default = true,
                     .shows_density = true},
           .ending = ".vti",

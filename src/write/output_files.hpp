@@ -20,6 +20,7 @@ struct Extent {
   double particles = 0;       // carried, with those that effects add
   double grid_points = 0;
   bool compared_everywhere = false;  // with the exact density
+  double field_numbers = 0;          // of output.fields, a grid point
   double pieces = 1;                 // of the grid
   double particle_pieces = 1;
 };

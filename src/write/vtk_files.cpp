@@ -21,6 +21,7 @@
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdint>
@@ -129,9 +130,19 @@ void check_size(const fs::path& file, std::string_view what, std::size_t is, std
                 fmt::format("{}: {} has {} values, must have {}", file.string(), what, is, should_be));
 }
 
+/// ParaView knows vectors by their three components.
+int file_components(int components) { return components == 2 ? 3 : components; }
+
+std::vector<double> with_zeros(const std::vector<double>& pairs) {
+  std::vector<double> triples(pairs.size() / 2 * 3, 0.0);
+  for (std::size_t j = 0; 2 * j < pairs.size(); ++j) std::copy_n(&pairs[2 * j], 2, &triples[3 * j]);
+  return triples;
+}
+
 /// Values at the points of a box of the lattice.
 std::string box_text(const fs::path& file, const Lattice& lattice, const LatticeBox& box,
-                     const std::vector<double>& rho, const std::vector<double>* exact, double time) {
+                     const std::vector<double>& rho, const std::vector<double>* exact,
+                     const std::vector<FieldOnGrid>& fields, double time) {
   check_size(file, "rho", rho.size(), box.size());
   vtkNew<vtkImageData> image;
   std::array<int, 6> extent{};
@@ -149,6 +160,17 @@ std::string box_text(const fs::path& file, const Lattice& lattice, const Lattice
     image->GetPointData()->AddArray(borrowed<vtkDoubleArray>("rho_exact", *exact));
     image->GetPointData()->AddArray(borrowed<vtkDoubleArray>("error", error));
   }
+  std::vector<std::vector<double>> padded;  // vectors of the plane, with a third component
+  padded.reserve(fields.size());
+  for (const FieldOnGrid& field : fields) {
+    check_size(file, field.name, field.values.size(), box.size() * static_cast<std::size_t>(field.components));
+    const std::vector<double>& values = field.components == 2 ? padded.emplace_back(with_zeros(field.values)) : field.values;
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(field.name.c_str());
+    array->SetNumberOfComponents(file_components(field.components));
+    array->SetArray(const_cast<double*>(values.data()), static_cast<vtkIdType>(values.size()), /*save=*/1);
+    image->GetPointData()->AddArray(array);
+  }
   set_time(image, time);
   return text_of<vtkXMLImageDataWriter>(file, image);
 }
@@ -163,11 +185,11 @@ std::string extent_text(const LatticeBox& box) {
 
 std::string density_text(const fs::path& file, const DensityGrid& density, double time,
                          const std::vector<double>* exact) {
-  return box_text(file, density.lattice, {{}, density.lattice.points}, density.rho, exact, time);
+  return box_text(file, density.lattice, {{}, density.lattice.points}, density.rho, exact, density.fields, time);
 }
 
 std::string density_piece_text(const fs::path& file, const Frame& frame, const DensityPiece& piece) {
-  return box_text(file, *frame.lattice, piece.box, *piece.rho, piece.exact, frame.time);
+  return box_text(file, *frame.lattice, piece.box, *piece.rho, piece.exact, *piece.fields, frame.time);
 }
 
 std::string density_index_text(const Frame& frame, const std::vector<std::string>& files) {
@@ -184,6 +206,9 @@ std::string density_index_text(const Frame& frame, const std::vector<std::string
   if (frame.pieces_have_exact)
     for (const char* name : {"rho_exact", "error"})
       text += fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\"/>\n", name);
+  for (const auto& [name, components] : frame.piece_fields)
+    text += fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\"{}/>\n", name,
+                        components > 1 ? " NumberOfComponents=\"3\"" : "");
   text += "    </PPointData>\n";
   for (std::size_t number = 0; number < files.size(); ++number)
     text += fmt::format("    <Piece Extent=\"{}\" Source=\"{}\"/>\n", extent_text(frame.pieces->shown(number)),

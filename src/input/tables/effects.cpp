@@ -91,6 +91,19 @@ void check_steps(Reader& in, const NamedEffect& effect, const EffectSpec& values
                   fixed.remedy));
 }
 
+/// Fields of the flow are those of the prescribed one, which is not the velocity where particles move each other.
+void refuse_fields(Reader& in, const NamedEffect& effect, const OutputSpec& output) {
+  const Entry* fields = in.find("output", "fields");
+  if (!fields || !effect.traits.particles_interact) return;
+  for (const GridField& field : output.fields)
+    if (field.is_of_flow)
+      in.diagnostics.error(fields->value.place,
+                           fmt::format("\"{}\" is known of the prescribed flow alone, and with [{}] particles move each "
+                                       "other",
+                                       field.name, table_of(effect)),
+                           "leave it out; the particle files have the whole velocity at the particles");
+}
+
 /// What does not go with the case, or with another effect.
 void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& spec) {
   const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
@@ -113,6 +126,7 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
         refuse(values.name, problem.message, problem.remedy);
     }
   }
+  for (const auto& [effect, values] : read) refuse_fields(in, *effect, spec.output);
   for (const EffectRule& rule : effect_rules()) {
     const EffectSpec *one = spec.effects.find(rule.effect), *two = spec.effects.find(rule.other);
     if (!one || !two || !rule.apart(*one, *two, in.facts.dimension)) continue;

@@ -6,6 +6,8 @@
 #include <functional>
 
 #include "base/catalogue.hpp"
+#include "base/has_one.hpp"
+#include "field/grid_fields.hpp"
 #include "input/tables/tables.hpp"
 #include "render/styles.hpp"
 #include "write/output_files.hpp"
@@ -47,6 +49,15 @@ std::string meaning_of_images() {
       render::default_style(3).about.name);
 }
 
+std::string meaning_of_fields() {
+  std::string text = "what the density files show on the grid:";
+  for (const GridFieldKind& field : grid_fields())
+    text += fmt::format("{} `{}`, {}", &field == &grid_fields().front() ? "" : ";", field.about.name, field.about.meaning);
+  return text +
+         ". Derivatives of the density are summed together with it, each to `evaluate.tolerance` relative to its own "
+         "largest value. In files vectors have three components";
+}
+
 }  // namespace
 
 Section output_section() {
@@ -74,6 +85,11 @@ Section output_section() {
         .fallback = kept(joined(default_names(render::styles()))),
         .choices = base::names_of(render::styles()),
         .meaning = meaning_of_images()},
+       {.name = "fields",
+        .type = Type::choices,
+        .fallback = kept("rho"),
+        .choices = base::names_of(grid_fields()),
+        .meaning = meaning_of_fields()},
        {.name = "report",
         .type = Type::choice,
         .fallback = "html",
@@ -180,10 +196,15 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
 
   for (const std::size_t k : in.choices("output", "vtk")) output.files.push_back(write::output_files()[k].about);
   for (const std::size_t k : in.choices("output", "images")) output.images.push_back(render::styles()[k].about);
+  for (const std::size_t k : in.choices("output", "fields")) output.fields.push_back(grid_fields()[k].about);
   output.report = in.choice("output", "report") == "html";
   output.checkpoint = in.duration("output", "checkpoint");
   if (const auto most = in.number("output", "piece_particles")) output.piece_particles = most->number;
   if (in.facts.dimension) check_images(in, output.images);
+  const Entry* fields = in.find("output", "fields");
+  if (fields && !base::has_one(output.files, &OutputFile::shows_density))
+    in.diagnostics.warning(fields->value.place, "output.fields are shown by density files, and none are written",
+                           "have \"density\" in output.vtk");
 }
 
 void write_output(Writer& out, const OutputSpec& output) {
@@ -196,6 +217,8 @@ void write_output(Writer& out, const OutputSpec& output) {
   out.entry("times", written(output.times));
   out.entry("vtk", names(output.files));
   out.entry("images", names(output.images));
+  if (output.fields.size() != 1 || output.fields.front().name != grid_fields().front().about.name)
+    out.entry("fields", names(output.fields));
   out.entry("report", written(std::string(output.report ? "html" : "none")));
   if (output.checkpoint) out.entry("checkpoint", written(*output.checkpoint));
   if (output.piece_particles != OutputSpec{}.piece_particles)

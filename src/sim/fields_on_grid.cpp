@@ -1,0 +1,131 @@
+#include "sim/fields_on_grid.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "base/parallel.hpp"
+#include "field/grid_fields.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+// The flow at some points of a box, as columns.
+class FlowOnBlock {
+ public:
+  FlowOnBlock(int dimension, std::size_t most, bool with_gradient)
+      : dimension_(dimension), with_gradient_(with_gradient) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+      place_[k].resize(most), velocity_[k].resize(most);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) gradient_[k][i].resize(most);
+    }
+  }
+
+  void evaluate(const VelocityField& velocity, double t, const Lattice& lattice, const LatticeBox& box,
+                std::size_t first, std::size_t count) {
+    PointsView points{dimension_, count, {}};
+    VectorsView u{dimension_, count, {}};
+    GradientsView slopes{dimension_, count, {}};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k) {
+      std::size_t before = 1;
+      for (std::size_t axis = 0; axis < k; ++axis) before *= box.points[axis];
+      for (std::size_t j = 0; j < count; ++j)
+        place_[k][j] = lattice.coordinate(static_cast<int>(k), box.first[k] + (first + j) / before % box.points[k]);
+      points.axis[k] = place_[k].data();
+      std::fill_n(velocity_[k].begin(), count, 0.0);
+      u.axis[k] = velocity_[k].data();
+      for (std::size_t i = 0; i < static_cast<std::size_t>(dimension_); ++i) {
+        std::fill_n(gradient_[k][i].begin(), count, 0.0);
+        slopes.slope[k][i] = gradient_[k][i].data();
+      }
+    }
+    velocity.add(t, points, u);
+    if (with_gradient_) velocity.add_gradient(t, points, slopes);
+  }
+
+  FlowThere at(std::size_t j) const {
+    FlowThere flow;
+    flow.dimension = dimension_;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k) {
+      flow.velocity[k] = velocity_[k][j];
+      for (std::size_t i = 0; i < static_cast<std::size_t>(dimension_); ++i) flow.gradient[k][i] = gradient_[k][i][j];
+    }
+    return flow;
+  }
+
+ private:
+  using Column = std::vector<double>;
+  int dimension_;
+  bool with_gradient_;
+  std::array<Column, max_dimension> place_, velocity_;
+  std::array<std::array<Column, max_dimension>, max_dimension> gradient_;
+};
+
+}  // namespace
+
+bool shows_fields(const OutputSpec& output) { return field_numbers(output, 2) > 0; }
+
+int field_numbers(const OutputSpec& output, int dimension) {
+  int numbers = 0;
+  for (const GridField& field : output.fields)
+    if (const GridFieldKind& kind = find_grid_field(field.name); kind.of_density || kind.of_flow)
+      numbers += kind.components(dimension) > 1 ? 3 : 1;
+  return numbers;
+}
+
+std::vector<DensityDerivatives> derivatives_of(const OutputSpec& output, int dimension) {
+  std::vector<DensityDerivatives> all;
+  for (const GridField& field : output.fields)
+    if (const GridFieldKind& kind = find_grid_field(field.name); kind.of_density)
+      for (DensityDerivatives& component : kind.of_density(dimension)) all.push_back(std::move(component));
+  return all;
+}
+
+std::vector<FieldOnGrid> fields_on_grid(const OutputSpec& output, const Lattice& lattice, const LatticeBox& box,
+                                        const std::vector<std::vector<double>>& derivatives,
+                                        const VelocityField& velocity, double t, int threads) {
+  const int d = lattice.dimension;
+  const std::size_t count = box.size();
+  std::vector<FieldOnGrid> fields;
+  fields.reserve(output.fields.size());
+  struct OfFlow {
+    const GridFieldKind* kind;
+    FieldOnGrid* field;
+  };
+  std::vector<OfFlow> of_flow;
+  std::size_t next = 0;
+  for (const GridField& named : output.fields) {
+    const GridFieldKind& kind = find_grid_field(named.name);
+    if (!kind.of_density && !kind.of_flow) continue;  // the density
+    const auto components = static_cast<std::size_t>(kind.components(d));
+    FieldOnGrid& field = fields.emplace_back(
+        FieldOnGrid{std::string(named.name), static_cast<int>(components), std::vector<double>(count * components)});
+    if (kind.of_flow)
+      of_flow.push_back({&kind, &field});
+    else
+      for (std::size_t c = 0; c < components; ++c, ++next)
+        for (std::size_t j = 0; j < count; ++j) field.values[j * components + c] = derivatives[next][j];
+  }
+  if (of_flow.empty()) return fields;
+  const bool with_gradient =
+      std::any_of(of_flow.begin(), of_flow.end(), [](const OfFlow& one) { return one.kind->needs_gradient; });
+  const std::size_t block = velocity.evaluates_in_blocks() ? std::min<std::size_t>(512, count) : count;
+  constexpr double seconds_of_value = 4e-8;  // of a velocity of cost 1; with its gradient some four times that
+  const double seconds = static_cast<double>(count) * seconds_of_value * velocity.cost() * (with_gradient ? 4 : 1);
+  const auto evaluate = [&](FlowOnBlock& flow, std::size_t number) {
+    const std::size_t first = number * block, length = std::min(block, count - first);
+    flow.evaluate(velocity, t, lattice, box, first, length);
+    for (std::size_t j = 0; j < length; ++j) {
+      const FlowThere there = flow.at(j);
+      for (const OfFlow& one : of_flow)
+        one.kind->of_flow(there, one.field->values.data() +
+                                     (first + j) * static_cast<std::size_t>(one.field->components));
+    }
+  };
+  base::parallel_for(
+      {(count + block - 1) / block, seconds}, threads, [&] { return FlowOnBlock(d, block, with_gradient); }, evaluate);
+  return fields;
+}
+
+}  // namespace gaussdrift
