@@ -65,7 +65,7 @@ struct DensityPiece {
   LatticeBox box;          ///< the points that it shows, with the layers that the next pieces have too
   const std::vector<double>* rho = nullptr;    ///< at its points, first axis fastest; never null
   const std::vector<double>* exact = nullptr;  ///< the same of the exact density; null where it is not known
-  const std::vector<FieldOnGrid>* fields = nullptr;  ///< what the case names beside it, at its points; never null
+  const std::vector<FieldOnGrid>* fields = nullptr;  ///< what the case names beside it, at its points; null: nothing
 };
 
 /// A piece of particles that are too many for one file (`output.piece_particles`): neighbours in the order of ids.

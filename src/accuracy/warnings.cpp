@@ -30,6 +30,11 @@ std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary
         fmt::format("evaluate.tolerance = {:.1e} cannot be promised for these weights. The error of the sum is at most "
                     "{:.1e} of max rho.",
                     spec.evaluate.tolerance, summary.transform_achievable));
+  if (!spec.evaluate.hermite && summary.derivatives_achievable > spec.evaluate.tolerance)
+    warnings.push_back(
+        fmt::format("evaluate.tolerance = {:.1e} cannot be promised for the derivatives of output.fields. The error of "
+                    "the sum is at most {:.1e} of the largest value of each.",
+                    spec.evaluate.tolerance, summary.derivatives_achievable));
   for (const auto& [time, numbers] : summary.frames)
     if (numbers.stretch > spec.particles.overlap) {
       const std::string table = accuracy::table_against_gaps(spec);

@@ -82,8 +82,11 @@ std::string result_text(const Case& spec, const RunSummary& summary) {
     const auto& [t1, last] = summary.frames.back();
     std::string heights = fmt::format("{} at t = {:.4g}", extremes_text(first), t0);
     if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {:.4g}", extremes_text(last), t1);
-    text += fmt::format("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho ({})\n", heights, last.mass,
-                        worst,
+    const std::string derivatives = summary.derivatives_achievable > 0
+                                        ? fmt::format(", derivatives to {:.0e} of theirs", summary.derivatives_error)
+                                        : "";
+    text += fmt::format("result {}; mass {:.9g}; Gauss transform right to {:.0e} of max rho{} ({})\n", heights,
+                        last.mass, worst, derivatives,
                         spec.evaluate.hermite ? fmt::format("bound of r, p and n: {:.0e}", summary.transform_achievable)
                                               : fmt::format("{:.0e} asked", spec.evaluate.tolerance));
   }

@@ -17,6 +17,7 @@ Verb report_verb();
 Verb render_verb();
 Verb compare_verb();
 Verb doctor_verb();
+Verb field_verb();
 Verb sum_verb();
 Verb reproduce_verb();
 Verb explain_verb();

@@ -15,6 +15,7 @@
 #include "input/registry.hpp"
 #include "input/thesis_symbols.hpp"
 #include "render/styles.hpp"
+#include "sim/grid_fields.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::input {
@@ -115,6 +116,17 @@ Explanation about(const NamedShape& shape) {
 Explanation about(const OutputFile& file) {
   Explanation result{"file", fmt::format("output.vtk = [\"{}\"]", file.name), std::string(file.meaning), {}};
   add(result.facts, "written by default", file.by_default ? "yes" : "no");
+  return result;
+}
+
+Explanation about(const GridField& field) {
+  Explanation result{"field of the grid", fmt::format("output.fields = [\"{}\"]", field.name),
+                     std::string(field.meaning), {}};
+  const auto word = [&](std::size_t at) { return field.is_vector[at] ? "a vector" : "a number"; };
+  add(result.facts, "value", field.is_vector[0] == field.is_vector[1]
+                                 ? std::string(word(0))
+                                 : fmt::format("{} in the plane, {} in space", word(0), word(1)));
+  add(result.facts, "follows from", field.is_of_flow ? "the prescribed velocity" : "the particles");
   return result;
 }
 
@@ -235,6 +247,8 @@ std::vector<Explanation> meanings_of(std::string_view word) {
     if (kind.about.name == word) found.push_back(about(kind.about));
   for (const render::Style& style : render::styles())
     if (style.about.name == word) found.push_back(about(style.about));
+  for (const GridFieldKind& field : grid_fields())
+    if (field.about.name == word) found.push_back(about(field.about));
   for (const FunctionInfo& function : expression_functions())
     if (function.name == word) found.push_back(about(function));
   for (const Key& key : keys())  // "gauss4" is explained by the key that may have this value

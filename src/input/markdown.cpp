@@ -12,6 +12,7 @@
 #include "field/named/named_fields.hpp"
 #include "input/registry.hpp"
 #include "render/styles.hpp"
+#include "sim/grid_fields.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::input {
@@ -52,6 +53,11 @@ std::string outputs_markdown() {
   std::string text = "\n| file | what |\n| --- | --- |\n";
   for (const write::FileKind& kind : write::output_files())
     text += fmt::format("| `{}` | {} |\n", kind.about.name, kind.about.meaning);
+  text += "\n| field | in the plane | in space | what |\n| --- | --- | --- | --- |\n";
+  for (const GridFieldKind& kind : grid_fields()) {
+    const auto word = [&](std::size_t at) { return kind.about.is_vector[at] ? "vector" : "number"; };
+    text += fmt::format("| `{}` | {} | {} | {} |\n", kind.about.name, word(0), word(1), kind.about.meaning);
+  }
   text += "\n| picture | dimensions | what |\n| --- | --- | --- |\n";
   for (const render::Style& style : render::styles()) {
     const PictureStyle& about = style.about;

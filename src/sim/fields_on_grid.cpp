@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "base/parallel.hpp"
-#include "field/grid_fields.hpp"
+#include "sim/grid_fields.hpp"
 
 namespace gaussdrift {
 

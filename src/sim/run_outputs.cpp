@@ -8,7 +8,7 @@
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
 #include "base/told_by_first.hpp"
-#include "field/grid_fields.hpp"
+#include "sim/grid_fields.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
 #include "sim/density_pieces.hpp"
@@ -287,6 +287,8 @@ void Simulation::Parts::show_frame(double time) {
   summary_.stages.add("measure transform error", report.measure_seconds);
   summary_.transform_choice = report.choice;
   summary_.transform_achievable = std::max(summary_.transform_achievable, report.achievable);
+  summary_.derivatives_achievable = std::max(summary_.derivatives_achievable, report.derivatives_achievable);
+  summary_.derivatives_error = std::max(summary_.derivatives_error, report.derivatives_error);
   if (!in_pieces() && shows_fields(case_.output))
     on_first([&] {
       summary_.stages.run("fields on the grid", [&] {

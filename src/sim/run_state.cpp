@@ -51,7 +51,8 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes, ObserverStates& seen
   bytes(leg_, steps_before_, index_);
   if (bytes.reading()) check_leg();
   carrier_.pass_state(bytes, particles_);
-  bytes(summary_.transform_choice, summary_.transform_achievable);
+  bytes(summary_.transform_choice, summary_.transform_achievable, summary_.derivatives_achievable,
+        summary_.derivatives_error);
   std::uint64_t frames = summary_.frames.size();
   bytes(frames);
   if (bytes.reading()) summary_.frames.clear();

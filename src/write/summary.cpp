@@ -126,6 +126,9 @@ std::string summary_json(const Case& spec, const RunSummary& summary, const json
       {"seconds", seconds_of(summary)},
       {"frames", frames_of(spec, summary)},
   };
+  if (summary.derivatives_achievable > 0)
+    document["evaluate"]["derivatives"] = {{"achievable", summary.derivatives_achievable},
+                                           {"transform_error", summary.derivatives_error}};
   if (const auto* worst = worst_output(summary.frames)) {
     const ErrorNorms& error = *worst->second.error;
     document["worst"] = {{"t", worst->first}, {"L1", error.l1}, {"L2", error.l2}, {"Linf", error.linf}};

@@ -43,9 +43,10 @@ using Int64Array = std::conditional_t<std::is_same_v<std::int64_t, long>, vtkLon
 
 /// A VTK array that looks at `values` without copying; VTK only reads them.
 template <class Array, class Value>
-vtkNew<Array> borrowed(const char* name, const std::vector<Value>& values) {
+vtkNew<Array> borrowed(const char* name, const std::vector<Value>& values, int components = 1) {
   vtkNew<Array> array;
   array->SetName(name);
+  array->SetNumberOfComponents(components);
   array->SetArray(const_cast<Value*>(values.data()), static_cast<vtkIdType>(values.size()), /*save=*/1);
   return array;
 }
@@ -139,11 +140,8 @@ std::vector<double> with_zeros(const std::vector<double>& pairs) {
   return triples;
 }
 
-/// Values at the points of a box of the lattice.
-std::string box_text(const fs::path& file, const Lattice& lattice, const LatticeBox& box,
-                     const std::vector<double>& rho, const std::vector<double>* exact,
-                     const std::vector<FieldOnGrid>& fields, double time) {
-  check_size(file, "rho", rho.size(), box.size());
+/// The points of a box of a lattice, and the time.
+vtkNew<vtkImageData> image_of(const Lattice& lattice, const LatticeBox& box, double time) {
   vtkNew<vtkImageData> image;
   std::array<int, 6> extent{};
   for (std::size_t k = 0; k < 3; ++k)
@@ -151,6 +149,29 @@ std::string box_text(const fs::path& file, const Lattice& lattice, const Lattice
   image->SetExtent(extent.data());
   image->SetOrigin(lattice.origin[0], lattice.origin[1], lattice.origin[2]);
   image->SetSpacing(lattice.spacing, lattice.spacing, lattice.spacing);
+  set_time(image, time);
+  return image;
+}
+
+/// Adds the fields to the image; `padded` holds what they are written from.
+void add_fields(const fs::path& file, const std::vector<FieldOnGrid>& fields, std::size_t points, vtkImageData* image,
+                std::vector<std::vector<double>>& padded) {
+  padded.reserve(fields.size());
+  for (const FieldOnGrid& field : fields) {
+    check_size(file, field.name, field.values.size(), points * static_cast<std::size_t>(field.components));
+    const std::vector<double>& values =
+        field.components == 2 ? padded.emplace_back(with_zeros(field.values)) : field.values;
+    const vtkNew<vtkDoubleArray> array = borrowed<vtkDoubleArray>(field.name.c_str(), values, file_components(field.components));
+    image->GetPointData()->AddArray(array);
+  }
+}
+
+/// Values at the points of a box of the lattice.
+std::string box_text(const fs::path& file, const Lattice& lattice, const LatticeBox& box,
+                     const std::vector<double>& rho, const std::vector<double>* exact,
+                     const std::vector<FieldOnGrid>& fields, double time) {
+  check_size(file, "rho", rho.size(), box.size());
+  const vtkNew<vtkImageData> image = image_of(lattice, box, time);
   image->GetPointData()->SetScalars(borrowed<vtkDoubleArray>("rho", rho));
   std::vector<double> error;
   if (exact) {
@@ -160,18 +181,8 @@ std::string box_text(const fs::path& file, const Lattice& lattice, const Lattice
     image->GetPointData()->AddArray(borrowed<vtkDoubleArray>("rho_exact", *exact));
     image->GetPointData()->AddArray(borrowed<vtkDoubleArray>("error", error));
   }
-  std::vector<std::vector<double>> padded;  // vectors of the plane, with a third component
-  padded.reserve(fields.size());
-  for (const FieldOnGrid& field : fields) {
-    check_size(file, field.name, field.values.size(), box.size() * static_cast<std::size_t>(field.components));
-    const std::vector<double>& values = field.components == 2 ? padded.emplace_back(with_zeros(field.values)) : field.values;
-    vtkNew<vtkDoubleArray> array;
-    array->SetName(field.name.c_str());
-    array->SetNumberOfComponents(file_components(field.components));
-    array->SetArray(const_cast<double*>(values.data()), static_cast<vtkIdType>(values.size()), /*save=*/1);
-    image->GetPointData()->AddArray(array);
-  }
-  set_time(image, time);
+  std::vector<std::vector<double>> padded;
+  add_fields(file, fields, box.size(), image, padded);
   return text_of<vtkXMLImageDataWriter>(file, image);
 }
 
@@ -188,8 +199,16 @@ std::string density_text(const fs::path& file, const DensityGrid& density, doubl
   return box_text(file, density.lattice, {{}, density.lattice.points}, density.rho, exact, density.fields, time);
 }
 
+std::string fields_text(const fs::path& file, const Lattice& lattice, const std::vector<FieldOnGrid>& fields,
+                        double time) {
+  const vtkNew<vtkImageData> image = image_of(lattice, {{}, lattice.points}, time);
+  std::vector<std::vector<double>> padded;
+  add_fields(file, fields, lattice.size(), image, padded);
+  return text_of<vtkXMLImageDataWriter>(file, image);
+}
+
 std::string density_piece_text(const fs::path& file, const Frame& frame, const DensityPiece& piece) {
-  return box_text(file, *frame.lattice, piece.box, *piece.rho, piece.exact, *piece.fields, frame.time);
+  return box_text(file, *frame.lattice, piece.box, *piece.rho, piece.exact, piece.fields ? *piece.fields : std::vector<FieldOnGrid>(), frame.time);
 }
 
 std::string density_index_text(const Frame& frame, const std::vector<std::string>& files) {

@@ -28,6 +28,10 @@ std::string density_text(const std::filesystem::path& file, const DensityGrid& d
 std::string particle_text(const std::filesystem::path& file, const Particles& particles,
                           const std::vector<double>& velocity, double time);
 
+/// Image data with the fields alone.
+std::string fields_text(const std::filesystem::path& file, const Lattice& lattice,
+                        const std::vector<FieldOnGrid>& fields, double time);
+
 /// density/density_0000/0000.vti: the same of a piece; its extent is that within the whole grid.
 std::string density_piece_text(const std::filesystem::path& file, const Frame& frame, const DensityPiece& piece);
 /// density/density_0000.pvti: names the files of the pieces, as seen from its folder.

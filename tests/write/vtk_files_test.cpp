@@ -136,7 +136,10 @@ TEST(DensityFile, InPiecesIsReadAsOne) {
     frame.index = 12, frame.time = 1 / 3.;
     frame.density = &density;
     frame.pieces = &pieces, frame.lattice = &lattice, frame.pieces_have_exact = dimension == 3;
-    std::vector<double> all_exact;
+    frame.piece_fields = {{"laplacian", 1}, {"gradient", 2}};
+    std::vector<double> all_exact, triples;
+    for (const double value : density.rho)
+      for (const double factor : {2., -1., 0.}) triples.push_back(factor == 0 ? 0 : factor * value);
     for (const double value : density.rho) all_exact.push_back(0.9 * value);
     const auto series = file_series(find_output_file("density"), folder.path());
     for (std::size_t number = 0; number < pieces.count(); ++number) {
@@ -148,7 +151,10 @@ TEST(DensityFile, InPiecesIsReadAsOne) {
             const std::size_t point = i + lattice.points[0] * (j + lattice.points[1] * l);
             rho.push_back(density.rho[point]), exact.push_back(all_exact[point]);
           }
-      series->piece(frame, {number, box, &rho, frame.pieces_have_exact ? &exact : nullptr});
+      std::vector<double> pairs;
+      for (const double value : rho) pairs.push_back(2 * value), pairs.push_back(-value);
+      const std::vector<FieldOnGrid> fields{{"laplacian", 1, rho}, {"gradient", 2, pairs}};
+      series->piece(frame, {number, box, &rho, frame.pieces_have_exact ? &exact : nullptr, &fields});
     }
     series->frame(frame);
     const std::string text = read_series(python, folder / "density.pvd");
@@ -157,6 +163,8 @@ TEST(DensityFile, InPiecesIsReadAsOne) {
               std::string::npos)
         << text.substr(0, 500);
     EXPECT_NE(text.find("array rho double 1" + numbers(density.rho) + "\n"), std::string::npos);
+    EXPECT_NE(text.find("array laplacian double 1" + numbers(density.rho) + "\n"), std::string::npos);
+    EXPECT_NE(text.find("array gradient double 3" + numbers(triples) + "\n"), std::string::npos);
     EXPECT_EQ(text.find("array rho_exact double 1" + numbers(all_exact) + "\n") != std::string::npos,
               frame.pieces_have_exact);
   }
@@ -166,7 +174,13 @@ TEST(DensityFile, HasTheExactDensityAndTheErrorBesideIt) {
   const std::string python = python_with_vtk();
   if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
   const ScratchFolder folder;
-  const auto density = some_density(2, {0, 0, 0}, {1, 0.5, 0}, 5);
+  auto density = some_density(2, {0, 0, 0}, {1, 0.5, 0}, 5);
+  std::vector<double> pairs, triples;
+  for (const double value : density.rho) {
+    for (const double component : {value, 3 * value}) pairs.push_back(component), triples.push_back(component);
+    triples.push_back(0);
+  }
+  density.fields = {{"velocity", 2, pairs}, {"stretch", 1, density.rho}};
   std::vector<double> exact, error;
   for (const double value : density.rho) {
     exact.push_back(0.9 * value);
@@ -179,6 +193,8 @@ TEST(DensityFile, HasTheExactDensityAndTheErrorBesideIt) {
   EXPECT_NE(text.find("array rho double 1" + numbers(density.rho) + "\n"), std::string::npos) << text;
   EXPECT_NE(text.find("array rho_exact double 1" + numbers(exact) + "\n"), std::string::npos) << text;
   EXPECT_NE(text.find("array error double 1" + numbers(error) + "\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("array velocity double 3" + numbers(triples) + "\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("array stretch double 1" + numbers(density.rho) + "\n"), std::string::npos) << text;
   exact.pop_back();
   EXPECT_THROW(write_density(folder / "rho.vti", density, 0, &exact), Error);
 }

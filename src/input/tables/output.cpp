@@ -7,7 +7,7 @@
 
 #include "base/catalogue.hpp"
 #include "base/has_one.hpp"
-#include "field/grid_fields.hpp"
+#include "sim/grid_fields.hpp"
 #include "input/tables/tables.hpp"
 #include "render/styles.hpp"
 #include "write/output_files.hpp"
@@ -49,15 +49,6 @@ std::string meaning_of_images() {
       render::default_style(3).about.name);
 }
 
-std::string meaning_of_fields() {
-  std::string text = "what the density files show on the grid:";
-  for (const GridFieldKind& field : grid_fields())
-    text += fmt::format("{} `{}`, {}", &field == &grid_fields().front() ? "" : ";", field.about.name, field.about.meaning);
-  return text +
-         ". Derivatives of the density are summed together with it, each to `evaluate.tolerance` relative to its own "
-         "largest value. In files vectors have three components";
-}
-
 }  // namespace
 
 Section output_section() {
@@ -89,7 +80,9 @@ Section output_section() {
         .type = Type::choices,
         .fallback = kept("rho"),
         .choices = base::names_of(grid_fields()),
-        .meaning = meaning_of_fields()},
+        .meaning = "what the density files show on the grid beside the density. "
+                   "Derivatives of the density are summed together with it, each to `evaluate.tolerance` relative "
+                   "to its own largest value"},
        {.name = "report",
         .type = Type::choice,
         .fallback = "html",

@@ -1,4 +1,4 @@
-#include "field/grid_fields.hpp"
+#include "sim/grid_fields.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
