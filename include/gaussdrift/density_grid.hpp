@@ -18,8 +18,8 @@ struct FieldOnGrid {
 
 /// rho_eps^h on the evaluation lattice.
 struct DensityGrid {
-  Lattice lattice;          ///< its points
-  std::vector<double> rho;  ///< at each of them, first axis fastest; mass / length^dimension
+  Lattice lattice;                    ///< its points
+  std::vector<double> rho;            ///< at each of them, first axis fastest; mass / length^dimension
   std::vector<FieldOnGrid> fields{};  ///< what the case names beside it, at the same points
 };
 

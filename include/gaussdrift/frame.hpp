@@ -56,15 +56,15 @@ struct Frame {
   bool pieces_have_exact = false;    ///< whether they come with the exact density
   /// Name and components of the fields that the pieces have; with pieces `density` has none.
   std::vector<std::pair<std::string, int>> piece_fields{};
-  std::size_t particle_pieces = 1;   ///< more: particles come in so many pieces too
+  std::size_t particle_pieces = 1;  ///< more: particles come in so many pieces too
 };
 
 /// A piece of a density that is too large to be held as a whole (`evaluate.piece_points`).
 struct DensityPiece {
   std::size_t number = 0;  ///< from 0
   LatticeBox box;          ///< the points that it shows, with the layers that the next pieces have too
-  const std::vector<double>* rho = nullptr;    ///< at its points, first axis fastest; never null
-  const std::vector<double>* exact = nullptr;  ///< the same of the exact density; null where it is not known
+  const std::vector<double>* rho = nullptr;          ///< at its points, first axis fastest; never null
+  const std::vector<double>* exact = nullptr;        ///< the same of the exact density; null where it is not known
   const std::vector<FieldOnGrid>* fields = nullptr;  ///< what the case names beside it, at its points; null: nothing
 };
 

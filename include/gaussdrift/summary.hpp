@@ -62,7 +62,7 @@ struct RunSummary {
   double transform_achievable = 0;  ///< worst frame; above the tolerance only where that cannot be promised
   /// The same of the derivatives that `output.fields` names, relative to the largest value of each; 0: it names none
   double derivatives_achievable = 0;
-  double derivatives_error = 0;  ///< the largest measured of them
+  double derivatives_error = 0;        ///< the largest measured of them
   std::vector<EffectSummary> effects;  ///< that ran: transport and what the scene called for, nothing else
   std::vector<std::pair<double, FrameNumbers>> frames;  ///< time and numbers of each output
   ReferenceReport reference;                            ///< points of all outputs whose exact density is not known

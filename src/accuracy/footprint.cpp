@@ -183,10 +183,9 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   // An output: density, velocity at the particles, exact density with the feet of its paths.
   const bool traced = spec.reference.kind == ReferenceSpec::Kind::characteristics && extent.compared_everywhere;
   const RunMemory shown =
-      stays +
-      RunMemory{.particles = n * number * d,
-                .grid = m * number + at_once * number * (derivatives + files.field_numbers) +
-                        (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0)};
+      stays + RunMemory{.particles = n * number * d,
+                        .grid = m * number + at_once * number * (derivatives + files.field_numbers) +
+                                (extent.compared_everywhere ? m * number * (2 + (traced ? d + 1 : 0)) : 0)};
   const auto larger = [](const RunMemory& a, const RunMemory& b) { return a.all() < b.all() ? b : a; };
   RunMemory output = shown + RunMemory{.particles = n * number * d};
   const RunMemory piece{.grid = in_pieces ? number * (at_once + layers) : 0};

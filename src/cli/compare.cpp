@@ -26,7 +26,8 @@ using read::WrittenOutput;
 
 struct CompareOptions {
   fs::path first, second;
-  double tolerance = -1;  // negative: none
+  std::string field = "rho";  // an array of the density files
+  double tolerance = -1;      // negative: none
   bool json = false;
 };
 
@@ -35,6 +36,7 @@ void declare(OptionList& options, CompareOptions& given) {
   options.add("second", given.second, "B", "what it is compared with").required();
   options.add("--tolerance", given.tolerance, "X", "exit code 5 if the largest difference is above this")
       .not_negative();
+  options.add("--field", given.field, "NAME", fmt::format("{}; rho by default", fmt::join(arrays_of_outputs(), ", ")));
   options.json(given.json);
 }
 
@@ -127,17 +129,21 @@ void at_all_points(read::StoredDensity& a, read::StoredDensity& b, const Use& us
     }
 }
 
-/// As gaussdrift::compare() has them. Pieces are read twice, because all of them at once may not fit into memory.
-ErrorNorms difference_of_pieces(read::StoredDensity& a, read::StoredDensity& b) {
+/// As gaussdrift::compare() has them, over the components of vectors as over further points. Pieces are read twice, because
+/// all of them at once may not fit into memory.
+ErrorNorms difference_of_pieces(std::vector<std::pair<read::StoredDensity, read::StoredDensity>>& components) {
   double largest_error = 0, largest = 0;
-  at_all_points(a, b, [&](double x, double y) {
+  const auto everywhere = [&](const auto& use) {
+    for (auto& [a, b] : components) at_all_points(a, b, use);
+  };
+  everywhere([&](double x, double y) {
     if (std::isnan(y)) return;
     largest_error = std::max(largest_error, std::abs(x - y));
     largest = std::max(largest, std::abs(y));
   });
   if (!(largest > 0)) return {NAN, NAN, largest_error == 0 ? 0.0 : INFINITY};
   double error_1 = 0, error_2 = 0, norm_1 = 0, norm_2 = 0;
-  at_all_points(a, b, [&](double x, double y) {
+  everywhere([&](double x, double y) {
     if (std::isnan(y)) return;
     const double error = std::abs(x - y) / largest, size = std::abs(y) / largest;
     error_1 += error, error_2 += error * error;
@@ -146,13 +152,22 @@ ErrorNorms difference_of_pieces(read::StoredDensity& a, read::StoredDensity& b) 
   return {error_1 / norm_1, std::sqrt(error_2 / norm_2), largest_error / largest};
 }
 
-ErrorNorms difference(const WrittenOutput& first, const WrittenOutput& second) {
-  read::StoredDensity a(first.file, "rho"), b(second.file, "rho");
+ErrorNorms difference(const WrittenOutput& first, const WrittenOutput& second, const std::string& field) {
+  read::StoredDensity a(first.file, field), b(second.file, field);
   if (!same_grid(a.lattice(), b.lattice()))
     throw FileError(fmt::format(
         "{} and {} are on different grids, {} and {}; run one of them with the domain and [evaluate] of the other",
         first.file.string(), second.file.string(), described(a.lattice()), described(b.lattice())));
-  if (a.pieces() > 1 || b.pieces() > 1) return difference_of_pieces(a, b);
+  const std::size_t components = a.components();
+  if (b.components() != components)
+    throw FileError(fmt::format("{} has {} components in {} and {} in {}", field, components, first.file.string(),
+                                b.components(), second.file.string()));
+  if (components > 1 || a.pieces() > 1 || b.pieces() > 1) {
+    std::vector<std::pair<read::StoredDensity, read::StoredDensity>> each;
+    for (std::size_t c = 0; c < components; ++c)
+      each.emplace_back(read::StoredDensity(first.file, field, c), read::StoredDensity(second.file, field, c));
+    return difference_of_pieces(each);
+  }
   const std::vector<double>&x = a.values(0), &y = b.values(0);
   ErrorNorms norms = gaussdrift::compare(x, y);
   if (std::isnan(norms.linf)) norms.linf = x == y ? 0.0 : INFINITY;
@@ -160,12 +175,12 @@ ErrorNorms difference(const WrittenOutput& first, const WrittenOutput& second) {
 }
 
 /// Compares two outputs and tells about it; the row for JSON.
-ordered_json compare_outputs(const WrittenOutput& a, const WrittenOutput& b, bool json) {
+ordered_json compare_outputs(const WrittenOutput& a, const WrittenOutput& b, const std::string& field, bool json) {
   const bool at_other_time = a.time && b.time && !same_time(*a.time, *b.time);
   if (at_other_time)  // has it come back?
     note("warning: the times differ: {} is at t = {}, {} at t = {}\n", a.file.string(),
          base::told_apart(*a.time, *b.time), b.file.string(), base::told_apart(*b.time, *a.time));
-  const ErrorNorms norms = difference(a, b);
+  const ErrorNorms norms = difference(a, b, field);
   if (!json) say("{:<14} L1 {:.2e}  L2 {:.2e}  Linf {:.2e}\n", in_text(a.time), norms.l1, norms.l2, norms.linf);
   ordered_json row = {{"t", time_in_json(a.time)}, {"L1", norms.l1}, {"L2", norms.l2}, {"Linf", norms.linf}};
   if (at_other_time) row["t_second"] = time_in_json(b.time);
@@ -173,6 +188,7 @@ ordered_json compare_outputs(const WrittenOutput& a, const WrittenOutput& b, boo
 }
 
 ExitCode compare(const CompareOptions& options) {
+  check_array(options.field);
   const auto a = outputs_of(options.first), b = outputs_of(options.second);
   const Partners partners = partners_of(a, b);
   if (partners.pairs.empty())
@@ -185,7 +201,7 @@ ExitCode compare(const CompareOptions& options) {
   tell_alone(b, partners.second_alone, options.first, alone);
   double worst = 0;
   for (const auto& [i, j] : partners.pairs) {
-    rows.push_back(compare_outputs(a[i], b[j], options.json));
+    rows.push_back(compare_outputs(a[i], b[j], options.field, options.json));
     worst = std::max(worst, rows.back()["Linf"].get<double>());
   }
   const bool apart = options.tolerance >= 0 && !(worst <= options.tolerance);

@@ -12,9 +12,9 @@
 #include "cli/output_name.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "sim/grid_fields.hpp"
 #include "gaussdrift/error.hpp"
 #include "sim/fields_on_grid.hpp"
+#include "sim/grid_fields.hpp"
 #include "sim/grid_pieces.hpp"
 #include "sim/make_fields.hpp"
 #include "sim/scene.hpp"
@@ -94,12 +94,14 @@ ExitCode field(const FieldOptions& options) {
     if (!std::isfinite(time)) throw CommandLineError("--times: a time is a number");
   const Lattice lattice = evaluation_lattice(spec);
   if (pieces_of_grid(spec).count() > 1)
-    throw InputError(fmt::format("the evaluation lattice has {} points and would be written in pieces, which `field` "
-                                 "does not do. Lower evaluate.per_axis, or raise evaluate.piece_points",
-                                 lattice.size()));
+    throw InputError(
+        fmt::format("the evaluation lattice has {} points and would be written in pieces, which `field` "
+                    "does not do. Lower evaluate.per_axis, or raise evaluate.piece_points",
+                    lattice.size()));
   const auto velocity = make_velocity(spec, options.case_options.threads);
-  const fs::path folder =
-      options.folder.empty() ? fs::path("output") / ("field_" + options.case_options.file.stem().string()) : options.folder;
+  const fs::path folder = options.folder.empty()
+                              ? fs::path("output") / ("field_" + options.case_options.file.stem().string())
+                              : options.folder;
   using Earlier = write::ResultFolder::Earlier;
   write::ResultFolder place(folder, "field", options.force ? Earlier::replace : Earlier::refuse);
   std::vector<Extremes> extremes;
@@ -107,8 +109,8 @@ ExitCode field(const FieldOptions& options) {
   write::Collection collection(place.claim("field.pvd"));
   for (std::size_t i = 0; i < spec.output.times.size(); ++i) {
     const double time = spec.output.times[i];
-    const std::vector<FieldOnGrid> fields = fields_on_grid(spec.output, lattice, {{}, lattice.points}, {}, *velocity,
-                                                           time, options.case_options.threads);
+    const std::vector<FieldOnGrid> fields =
+        fields_on_grid(spec.output, lattice, {{}, lattice.points}, {}, *velocity, time, options.case_options.threads);
     for (std::size_t k = 0; k < fields.size(); ++k) look_at(fields[k], extremes[k]);
     const fs::path file = place.claim(fmt::format("field_{:04}.vti", i));
     write::write_text(file, write::fields_text(file, lattice, fields, time));
@@ -135,8 +137,8 @@ ExitCode field(const FieldOptions& options) {
 }  // namespace
 
 Verb field_verb() {
-  return make_verb<FieldOptions>("field", "the velocity of a case alone, its curl and divergence, as files for ParaView",
-                                 declare, field);
+  return make_verb<FieldOptions>(
+      "field", "the velocity of a case alone, its curl and divergence, as files for ParaView", declare, field);
 }
 
 }  // namespace gaussdrift::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "read/written_run.hpp"
@@ -10,6 +11,12 @@ namespace gaussdrift::cli {
 
 /// Of the folder of a run, or the one of a file. Throws FileError if there are none.
 std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place);
+
+/// The arrays that density files may have: the density, what it is compared with, and `output.fields`.
+std::vector<std::string> arrays_of_outputs();
+
+/// Throws CommandLineError if --field names none of them.
+void check_array(const std::string& field);
 
 /// Says so on standard error if the folder is that of a run that is not complete. Throws FileError if summary.json is damaged.
 void tell_if_unfinished(const std::filesystem::path& folder);

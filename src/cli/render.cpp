@@ -28,7 +28,7 @@ namespace {
 struct RenderOptions {
   fs::path folder;
   std::string style;          // empty: the default of the dimension and field
-  std::string field = "rho";  // rho, rho_exact, error
+  std::string field = "rho";  // an array of the density files
   std::vector<double> times;  // empty: all
   fs::path out;               // empty: images/ of the folder
   bool json = false;
@@ -37,7 +37,8 @@ struct RenderOptions {
 void declare(OptionList& options, RenderOptions& given) {
   options.add("folder", given.folder, "DIR", "folder of a run, or a .vti or .pvti").required();
   options.add("--style", given.style, "NAME", fmt::format("{}", fmt::join(render::style_names(), ", ")));
-  options.add("--field", given.field, "NAME", "rho (the default), rho_exact or error");
+  options.add("--field", given.field, "NAME",
+              fmt::format("{}; of vectors the length. rho by default", fmt::join(arrays_of_outputs(), ", ")));
   options.add("--times", given.times, "T,...", "only these output times").separated_by(',');
   options.add("--out", given.out, "DIR", "folder for the pictures; images/ of the run by default");
   options.json(given.json);
@@ -105,12 +106,7 @@ class Place {
 
 ExitCode render(const RenderOptions& options) {
   check_folder_name(options.out, "pictures are written into a folder, as surface_0000.png and so on");
-  const std::vector<std::string> fields{"rho", "rho_exact", "error"};
-  if (std::find(fields.begin(), fields.end(), options.field) == fields.end()) {
-    const auto near = base::suggest(options.field, fields);
-    throw CommandLineError(fmt::format("--field {}: there are rho, rho_exact, error{}", options.field,
-                                       near ? fmt::format("; did you mean {}?", *near) : ""));
-  }
+  check_array(options.field);
   const bool error = options.field == "error";
   const render::Style* style = options.style.empty() ? nullptr : &style_called(options.style);
   const bool into_the_run = options.out.empty() && fs::is_directory(options.folder);

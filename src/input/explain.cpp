@@ -120,12 +120,12 @@ Explanation about(const OutputFile& file) {
 }
 
 Explanation about(const GridField& field) {
-  Explanation result{"field of the grid", fmt::format("output.fields = [\"{}\"]", field.name),
-                     std::string(field.meaning), {}};
+  Explanation result{
+      "field of the grid", fmt::format("output.fields = [\"{}\"]", field.name), std::string(field.meaning), {}};
   const auto word = [&](std::size_t at) { return field.is_vector[at] ? "a vector" : "a number"; };
-  add(result.facts, "value", field.is_vector[0] == field.is_vector[1]
-                                 ? std::string(word(0))
-                                 : fmt::format("{} in the plane, {} in space", word(0), word(1)));
+  add(result.facts, "value",
+      field.is_vector[0] == field.is_vector[1] ? std::string(word(0))
+                                               : fmt::format("{} in the plane, {} in space", word(0), word(1)));
   add(result.facts, "follows from", field.is_of_flow ? "the prescribed velocity" : "the particles");
   return result;
 }

@@ -226,18 +226,27 @@ std::string way_to_read(const std::filesystem::path& file) {
   return "";
 }
 
-GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array) {
+GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array,
+                           std::optional<std::size_t> component) {
   StoredGrid grid = open_grid(file);
-  const std::vector<ArrayInfo> arrays = chosen(grid, file, {.arrays = {array}});
+  const std::vector<ArrayInfo> arrays = chosen(grid, file, {.arrays = {array}, .most_components = 3});
   grid.load(arrays);
   GridSnapshot result;
+  result.components = arrays[0].components;
+  if (component && *component >= result.components)
+    throw GridFileError(fmt::format("\"{}\" of {} has {} components", array, name_of(file), result.components), "");
   result.dimension = grid.points()[2] > 1 ? 3 : 2;
   Layout layout = layout_of(grid, result.dimension, arrays[0].on_cells);
   std::size_t points = 1;
   for (int k = 0; k < result.dimension; ++k) points *= layout.axis[k].size();
   result.values.resize(points);
-  for (std::size_t p = 0; p < points; ++p)
-    result.values[p] = grid.values()[0].numbers[layout.source(p, result.dimension)];
+  for (std::size_t p = 0; p < points; ++p) {
+    const double* value = &grid.values()[0].numbers[layout.source(p, result.dimension) * result.components];
+    if (component || result.components == 1)
+      result.values[p] = value[component.value_or(0)];
+    else
+      result.values[p] = std::hypot(value[0], value[1], result.components > 2 ? value[2] : 0);
+  }
   result.axis = std::move(layout.axis);
   if (const double time = grid.time(); std::isfinite(time)) result.time = time;
   return result;

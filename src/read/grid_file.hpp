@@ -40,15 +40,17 @@ struct SeriesEntry {
 /// The files that a .pvd lists, relative to its folder. Throws GridFileError.
 std::vector<SeriesEntry> read_series(const std::filesystem::path& file);
 
-/// An array with one component of one .vti or .vtr, as it is: values may be NaN.
+/// An array of one .vti or .vtr, as it is: values may be NaN.
 struct GridSnapshot {
   int dimension = 2;                                    // 2 where the grid is one layer thick along z, else 3
   std::array<std::vector<double>, max_dimension> axis;  // coordinates, ascending; one on an axis is possible
-  std::vector<double> values;                           // first axis fastest
+  std::size_t components = 1;                           // of the array, 1 to 3
+  std::vector<double> values;                           // one number a point, first axis fastest
   std::optional<double> time;                           // the file's TimeValue
 };
-/// Throws GridFileError as read_grid() does.
-GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array);
+/// Its values, or a component of them; of a vector without that its length. Throws GridFileError as read_grid() does.
+GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array,
+                           std::optional<std::size_t> component = {});
 
 /// What can be done with a file that has this ending ("nc", ".png"); empty where nothing is known.
 std::string way_to_read(const std::filesystem::path& file);

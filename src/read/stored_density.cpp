@@ -30,10 +30,11 @@ auto told(const fs::path& file, const Read& read) {
 struct TimedDensity {
   DensityGrid density;
   std::optional<double> time;
+  std::size_t components = 1;
 };
 
-TimedDensity read_image(const fs::path& file, const std::string& array) {
-  GridSnapshot data = told(file, [&] { return read_snapshot(file, array); });
+TimedDensity read_image(const fs::path& file, const std::string& array, std::optional<std::size_t> component = {}) {
+  GridSnapshot data = told(file, [&] { return read_snapshot(file, array, component); });
   DensityGrid density;
   density.lattice.dimension = data.dimension;
   double spacing = 0;  // of the first axis that has one
@@ -57,22 +58,24 @@ TimedDensity read_image(const fs::path& file, const std::string& array) {
             base::told_apart(spacing, nodes[i] - nodes[i - 1])));
   }
   density.rho = std::move(data.values);
-  return {std::move(density), data.time};
+  return {std::move(density), data.time, data.components};
 }
 
 }  // namespace
 
-StoredDensity::StoredDensity(fs::path file, std::string array) : file_(std::move(file)), array_(std::move(array)) {
+StoredDensity::StoredDensity(fs::path file, std::string array, std::optional<std::size_t> component)
+    : file_(std::move(file)), array_(std::move(array)), component_(component) {
   if (file_.extension() == ".pvti") {
     index_ = told(file_, [&] { return read_piece_index(file_); });
     return;
   }
-  TimedDensity image = read_image(file_, array_);
+  TimedDensity image = read_image(file_, array_, component_);
   index_.lattice = image.density.lattice;
   const LatticeBox all{{}, image.density.lattice.points};
   index_.pieces.push_back({file_, all, all, 0});
   values_ = std::move(image.density.rho);
   time_ = image.time;
+  components_ = image.components;
   held_ = 0;
 }
 
@@ -84,10 +87,11 @@ const std::vector<double>& StoredDensity::values(std::size_t piece) {
   if (!fs::exists(about.file))
     throw FileError(
         fmt::format("there is no file {}, which line {} of {} names", about.file.string(), about.line, file_.string()));
-  TimedDensity image = read_image(about.file, array_);
+  TimedDensity image = read_image(about.file, array_, component_);
   check_fits(piece, image.density);
   values_ = std::move(image.density.rho);
   time_ = image.time;
+  components_ = image.components;
   held_ = piece;
   return values_;
 }
@@ -111,6 +115,11 @@ void StoredDensity::check_fits(std::size_t piece, const DensityGrid& read) const
 std::optional<double> StoredDensity::time() {
   values(0);
   return time_;
+}
+
+std::size_t StoredDensity::components() {
+  values(0);
+  return components_;
 }
 
 DensityGrid read_density(const fs::path& file, const std::string& array) {

@@ -13,10 +13,11 @@
 
 namespace gaussdrift::read {
 
-/// An array of it: rho, rho_exact (NaN where it is not known) or error. One piece is held at a time. All throw FileError.
+/// An array of it: rho, rho_exact (NaN where it is not known), error, or one of output.fields: of a vector a component, or
+/// its length. One piece is held at a time. All throw FileError.
 class StoredDensity {
  public:
-  StoredDensity(std::filesystem::path file, std::string array);
+  StoredDensity(std::filesystem::path file, std::string array, std::optional<std::size_t> component = {});
 
   const Lattice& lattice() const { return index_.lattice; }
   /// A .vti has one.
@@ -28,16 +29,20 @@ class StoredDensity {
   const std::vector<double>& values(std::size_t piece);
   /// Of the first piece; reads it.
   std::optional<double> time();
+  /// Of a value of the array; likewise.
+  std::size_t components();
 
  private:
   void check_fits(std::size_t piece, const DensityGrid& read) const;
 
   std::filesystem::path file_;
   std::string array_;
+  std::optional<std::size_t> component_;
   PieceIndex index_;
   std::optional<std::size_t> held_;
   std::vector<double> values_;
   std::optional<double> time_;
+  std::size_t components_ = 1;
 };
 
 /// The density of a .vti, or every k-th point of a .pvti (thinning()). Throws FileError.

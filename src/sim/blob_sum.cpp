@@ -133,8 +133,8 @@ DensityWork BlobSum<d>::predict(const fgtd::TensorGrid& grid) const {
 template <int d>
 Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
   report.choice.clear();
-  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(grid.size()),
-                                                 static_cast<Eigen::Index>(options_.quantities()));
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(grid.size()), static_cast<Eigen::Index>(options_.quantities()));
   for (const WidthGroup& group : groups_) {
     const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options_for(group, grid));
     values += plan.evaluate_combinations(grid, group.combinations);
@@ -148,14 +148,14 @@ Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityRepor
 
 template <int d>
 Eigen::MatrixXd BlobSum<d>::direct(const fgtd::Points<d>& targets) const {
-  Eigen::MatrixXd values =
-      Eigen::MatrixXd::Zero(targets.cols(), static_cast<Eigen::Index>(options_.quantities()));
+  Eigen::MatrixXd values = Eigen::MatrixXd::Zero(targets.cols(), static_cast<Eigen::Index>(options_.quantities()));
   for (const WidthGroup& group : groups_) {
     fgtd::Options options;
     options.method = fgtd::Method::direct;
     options.derivative_order = group.derivative_order;
     options.threads = options_.threads;
-    values += fgtd::Plan<d>(sources_, weights_, group.sigma, options).evaluate_combinations(targets, group.combinations);
+    values +=
+        fgtd::Plan<d>(sources_, weights_, group.sigma, options).evaluate_combinations(targets, group.combinations);
   }
   return values;
 }
@@ -192,7 +192,8 @@ fgtd::Options BlobSum<d>::options_for(const WidthGroup& group, const fgtd::Tenso
 }
 
 template <int d>
-OfQuantities BlobSum<d>::largest_errors(const Lattice& lattice, const LatticeBox& box, const std::vector<double>& values,
+OfQuantities BlobSum<d>::largest_errors(const Lattice& lattice, const LatticeBox& box,
+                                        const std::vector<double>& values,
                                         const std::vector<std::size_t>& numbers) const {
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(numbers.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {

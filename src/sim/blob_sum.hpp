@@ -53,7 +53,7 @@ class BlobSum {
  private:
   // All terms of one Gaussian width: one prepared transform, evaluated with derivatives.
   struct WidthGroup {
-    double sigma = 0;  // 1 / width^2
+    double sigma = 0;                                // 1 / width^2
     std::vector<fgtd::Combination<d>> combinations;  // of each quantity
     int derivative_order = 0;
     OfQuantities scale;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight

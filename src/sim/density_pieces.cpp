@@ -223,12 +223,11 @@ class PieceSums {
     for (std::size_t q = 0; q < quantities_; ++q)
       for (std::size_t l = 0; l < box.points[2]; ++l)
         for (std::size_t j = 0; j < box.points[1]; ++j)
-          std::copy_n(some.begin() + static_cast<std::ptrdiff_t>(q * box.size() +
-                                                                 (l * box.points[1] + j) * box.points[0]),
-                      box.points[0],
-                      values.begin() +
-                          static_cast<std::ptrdiff_t>(q * all.size() +
-                                                      all.number(box.first[0], box.first[1] + j, box.first[2] + l)));
+          std::copy_n(
+              some.begin() + static_cast<std::ptrdiff_t>(q * box.size() + (l * box.points[1] + j) * box.points[0]),
+              box.points[0],
+              values.begin() + static_cast<std::ptrdiff_t>(
+                                   q * all.size() + all.number(box.first[0], box.first[1] + j, box.first[2] + l)));
   }
 
   template <class Use>

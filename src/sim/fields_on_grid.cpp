@@ -119,8 +119,8 @@ std::vector<FieldOnGrid> fields_on_grid(const OutputSpec& output, const Lattice&
     for (std::size_t j = 0; j < length; ++j) {
       const FlowThere there = flow.at(j);
       for (const OfFlow& one : of_flow)
-        one.kind->of_flow(there, one.field->values.data() +
-                                     (first + j) * static_cast<std::size_t>(one.field->components));
+        one.kind->of_flow(there,
+                          one.field->values.data() + (first + j) * static_cast<std::size_t>(one.field->components));
     }
   };
   base::parallel_for(

@@ -7,9 +7,7 @@ namespace gaussdrift {
 
 namespace {
 
-GridFieldKind density() {
-  return {.about = {.name = "rho", .meaning = "the density, which is always there"}};
-}
+GridFieldKind density() { return {.about = {.name = "rho", .meaning = "the density, which is always there"}}; }
 
 GridFieldKind gradient() {
   return {.about = {.name = "gradient", .meaning = "the gradient of the density", .is_vector = {true, true}},
@@ -84,9 +82,8 @@ GridFieldKind stretch() {
                 for (int k = 0; k < flow.dimension; ++k)
                   for (int i = 0; i < flow.dimension; ++i) strain(k, i) = (g[k][i] + g[i][k]) / 2;
                 // A solver does not end on what is no number.
-                components[0] = !strain.allFinite()
-                                    ? strain.sum()
-                                    : strain.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+                components[0] = !strain.allFinite() ? strain.sum()
+                                                    : strain.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
               },
           .needs_gradient = true};
 }

@@ -29,7 +29,8 @@ std::unique_ptr<VelocityField> make_part(const ExpressionVelocitySpec& part, con
 }
 
 std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocitySpec& part, const Case& spec, int /*threads*/) {
-  return std::make_unique<StreamfunctionField>(part.psi, spec.params, longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max));
+  return std::make_unique<StreamfunctionField>(part.psi, spec.params,
+                                               longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max));
 }
 
 std::unique_ptr<VelocityField> make_part(const NamedVelocitySpec& part, const Case& spec, int /*threads*/) {

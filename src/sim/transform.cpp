@@ -127,8 +127,8 @@ void tell_errors(const OfQuantities& errors, const OfQuantities& maxima, Density
 
 Tiles tiles_of(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice, const DensityOptions& options,
                const Tiles::SumOverProcesses& sum) {
-  return {lattice, reach_of_blob(cutoff, options), particles.view(), options.tiles.value_or(usual_tiles(lattice.dimension)),
-          sum};
+  return {lattice, reach_of_blob(cutoff, options), particles.view(),
+          options.tiles.value_or(usual_tiles(lattice.dimension)), sum};
 }
 
 DensityGrid evaluate_at_once(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,

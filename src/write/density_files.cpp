@@ -7,7 +7,8 @@ namespace gaussdrift::write {
 namespace {
 
 double bytes(const Extent& extent) {
-  return bytes_as_text(extent.grid_points) * ((extent.compared_everywhere ? 3 : 1) + extent.field_numbers) + 1500 * extent.pieces;
+  return bytes_as_text(extent.grid_points) * ((extent.compared_everywhere ? 3 : 1) + extent.field_numbers) +
+         1500 * extent.pieces;
 }
 
 std::string view(int dimension) {

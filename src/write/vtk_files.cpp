@@ -161,7 +161,8 @@ void add_fields(const fs::path& file, const std::vector<FieldOnGrid>& fields, st
     check_size(file, field.name, field.values.size(), points * static_cast<std::size_t>(field.components));
     const std::vector<double>& values =
         field.components == 2 ? padded.emplace_back(with_zeros(field.values)) : field.values;
-    const vtkNew<vtkDoubleArray> array = borrowed<vtkDoubleArray>(field.name.c_str(), values, file_components(field.components));
+    const vtkNew<vtkDoubleArray> array =
+        borrowed<vtkDoubleArray>(field.name.c_str(), values, file_components(field.components));
     image->GetPointData()->AddArray(array);
   }
 }
@@ -208,7 +209,8 @@ std::string fields_text(const fs::path& file, const Lattice& lattice, const std:
 }
 
 std::string density_piece_text(const fs::path& file, const Frame& frame, const DensityPiece& piece) {
-  return box_text(file, *frame.lattice, piece.box, *piece.rho, piece.exact, piece.fields ? *piece.fields : std::vector<FieldOnGrid>(), frame.time);
+  return box_text(file, *frame.lattice, piece.box, *piece.rho, piece.exact,
+                  piece.fields ? *piece.fields : std::vector<FieldOnGrid>(), frame.time);
 }
 
 std::string density_index_text(const Frame& frame, const std::vector<std::string>& files) {

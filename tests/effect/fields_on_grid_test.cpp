@@ -12,8 +12,10 @@
 
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
+#include "input/explain.hpp"
 #include "message_of.hpp"
 #include "ranks_of_threads.hpp"
+#include "sim/grid_fields.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
@@ -74,7 +76,8 @@ TEST(FieldsOnGrid, HaveTheDerivativesOfASmoothedGaussian) {
       tables.velocity = velocity_of({"0", "0", "0"});
       tables.density = shape_of("gaussian", "0, 0, 0", "0.2");
     }
-    const Case spec = scene_of({"output.fields=[\"rho\", \"gradient\", \"laplacian\"]", "output.frames=1"}, case_text(tables));
+    const Case spec =
+        scene_of({"output.fields=[\"rho\", \"gradient\", \"laplacian\"]", "output.frames=1"}, case_text(tables));
     const Shown run = shown(spec);
     const double radius = 0.2, eps = 2 * (d == 2 ? 2. / 80 : 2. / 40), s = radius * radius + eps * eps;
     const double height = std::pow(radius * radius / s, d / 2.);
@@ -85,8 +88,7 @@ TEST(FieldsOnGrid, HaveTheDerivativesOfASmoothedGaussian) {
       const double r2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2], rho = height * std::exp(-r2 / s);
       for (std::size_t k = 0; k < static_cast<std::size_t>(d); ++k)
         in_gradient = std::max(in_gradient, std::abs(run.value("gradient", p, k) + 2 * x[k] / s * rho));
-      in_laplacian =
-          std::max(in_laplacian, std::abs(run.value("laplacian", p) - (4 * r2 / s - 2 * d) / s * rho));
+      in_laplacian = std::max(in_laplacian, std::abs(run.value("laplacian", p) - (4 * r2 / s - 2 * d) / s * rho));
     }
     EXPECT_LE(in_gradient, spec.evaluate.tolerance * run.largest("gradient"));
     EXPECT_LE(in_laplacian, spec.evaluate.tolerance * run.largest("laplacian"));
@@ -136,12 +138,11 @@ std::vector<Kind> cutoff_kinds() {
   return kinds;
 }
 
-INSTANTIATE_TEST_SUITE_P(, EveryCutoffOnTheGrid, testing::ValuesIn(cutoff_kinds()),
-                         [](const auto& kind) {
-                           std::string name = kind.param.name;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(, EveryCutoffOnTheGrid, testing::ValuesIn(cutoff_kinds()), [](const auto& kind) {
+  std::string name = kind.param.name;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST(FieldsOnGrid, ShowTheFlowOfItsFormulas) {
   CaseTables tables = resting;
@@ -189,6 +190,21 @@ TEST(FieldsOnGrid, AreRefusedWhereTheyWouldMislead) {
   const std::string moved = message({"output.fields=[\"velocity\"]", "effects.charge.mobility=1"});
   EXPECT_NE(moved.find("particles move each other"), std::string::npos) << moved;
   EXPECT_EQ(message({"output.fields=[\"gradient\"]", "effects.charge.mobility=1"}), "");
+}
+
+// A field that is in the catalogue and nowhere else.
+TEST(FieldsOnGrid, AreAddedThroughTheirCatalogueAlone) {
+  const GridFieldKind speed{.about = {.name = "swiftness", .meaning = "how fast the flow is", .is_of_flow = true},
+                            .of_flow = [](const FlowThere& flow, double* components) {
+                              components[0] = std::hypot(flow.velocity[0], flow.velocity[1]);
+                            }};
+  EXPECT_NE(message_of<CaseError>([] { scene_of({"output.fields=[\"swiftness\"]"}); }), "");
+  const base::Added<GridFieldKind> added(speed);
+  const Shown run = shown(scene_of({"output.fields=[\"swiftness\"]", "velocity.u=[\"3\", \"4\"]"}));
+  for (const double value : run.field("swiftness").values) EXPECT_EQ(value, 5);
+  const std::vector<input::Explanation> told = input::explain("swiftness");
+  ASSERT_EQ(told.size(), 2u);  // the field, and the key that may name it
+  EXPECT_EQ(told[0].title, "how fast the flow is");
 }
 
 // --- large cases ----------------------------------------------------------------------------------------------------

@@ -78,7 +78,8 @@ TEST(GridInterpolator, HasTheGradientOfSquares) {
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < 3; ++i) view[k][i] = &slopes[k][i];
   grid.add_gradient(0, {3, 1, {&x, &y, &z}}, view);
-  const double expected[3][3] = {{2 * x - y * y, -2 * y * x, 2 * z}, {2 * y - z, 2 * x + 1, -x}, {z * z, -1, 2 * z * x}};
+  const double expected[3][3] = {
+      {2 * x - y * y, -2 * y * x, 2 * z}, {2 * y - z, 2 * x + 1, -x}, {z * z, -1, 2 * z * x}};
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(slopes[k][i], expected[k][i], 1e-13) << k << i;
 }

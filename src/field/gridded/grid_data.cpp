@@ -210,9 +210,8 @@ void GridInterpolator::add_divergence(double t, const PointsView& x, double* sum
   });
 }
 
-void GridInterpolator::add_gradient(
-    double t, const PointsView& x,
-    const std::array<std::array<double*, max_dimension>, max_dimension>& slopes) const {
+void GridInterpolator::add_gradient(double t, const PointsView& x,
+                                    const std::array<std::array<double*, max_dimension>, max_dimension>& slopes) const {
   const TimeWeights time = at(t);
   each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
     for (int k = 0; k < x.dimension; ++k)

@@ -24,7 +24,8 @@ class DoubleGyre : public SolenoidalField {
   }
   void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
     const double pi = std::numbers::pi, a = sway_ * std::sin(2 * pi * (t / period_)), b = 1 - 2 * a;
-    const double scale = pi * pi * amplitude_, across = 2 / box_.length[0], up = 1 / box_.length[1];  // d xi/dx, d eta/dy
+    const double scale = pi * pi * amplitude_, across = 2 / box_.length[0],
+                 up = 1 / box_.length[1];  // d xi/dx, d eta/dy
     for (std::size_t j = 0; j < x.count; ++j) {
       const double xi = 2 * box_.unit(0, x.axis[0][j]), eta = box_.unit(1, x.axis[1][j]);
       const double f = (a * xi + b) * xi, slope = 2 * a * xi + b;

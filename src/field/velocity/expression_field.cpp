@@ -38,7 +38,8 @@ void ExpressionField::add_divergence(double t, const PointsView& x, double* valu
 
 void ExpressionField::add_gradient(double t, const PointsView& x, const GradientsView& gradients) const {
   std::array<std::array<double, block_length>, max_dimension> slope;
-  const std::vector<std::size_t> axes = x.dimension == 3 ? std::vector<std::size_t>{0, 1, 2} : std::vector<std::size_t>{0, 1};
+  const std::vector<std::size_t> axes =
+      x.dimension == 3 ? std::vector<std::size_t>{0, 1, 2} : std::vector<std::size_t>{0, 1};
   double* const slopes[] = {slope[0].data(), slope[1].data(), slope[2].data()};
   for_blocks(t, x, [&](std::size_t first, const double* const* arguments, std::size_t length) {
     for (int k = 0; k < x.dimension; ++k) {

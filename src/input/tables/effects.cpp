@@ -97,11 +97,12 @@ void refuse_fields(Reader& in, const NamedEffect& effect, const OutputSpec& outp
   if (!fields || !effect.traits.particles_interact) return;
   for (const GridField& field : output.fields)
     if (field.is_of_flow)
-      in.diagnostics.error(fields->value.place,
-                           fmt::format("\"{}\" is known of the prescribed flow alone, and with [{}] particles move each "
-                                       "other",
-                                       field.name, table_of(effect)),
-                           "leave it out; the particle files have the whole velocity at the particles");
+      in.diagnostics.error(
+          fields->value.place,
+          fmt::format("\"{}\" is known of the prescribed flow alone, and with [{}] particles move each "
+                      "other",
+                      field.name, table_of(effect)),
+          "leave it out; the particle files have the whole velocity at the particles");
 }
 
 /// What does not go with the case, or with another effect.

@@ -7,9 +7,9 @@
 
 #include "base/catalogue.hpp"
 #include "base/has_one.hpp"
-#include "sim/grid_fields.hpp"
 #include "input/tables/tables.hpp"
 #include "render/styles.hpp"
+#include "sim/grid_fields.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::input {
