@@ -6,7 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@
 #include "effect/catalogue.hpp"
 #include "effect/remesh_kernel.hpp"
 #include "fgtd/fgtd.hpp"
+#include "field/density/shapes.hpp"
+#include "field/named/named_fields.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "gaussdrift/simulation.hpp"
@@ -132,6 +136,94 @@ TEST(Toy, EffectMeetsTheOthers) {
   EXPECT_TRUE(has(refusal(table + "[accuracy]\ntarget = 0.1\n"), "with [effects.fading]"));
   EXPECT_TRUE(has(refusal(table, {"time.method=dopri5"}), "do not go with [effects.fading] at all"));
   EXPECT_TRUE(has(accuracy::budget_not_covered(spec), "[effects.fading]"));
+}
+
+/// Everything moves away from a corner, at the speed of its distance.
+class Bursting : public NamedVelocityField {
+ public:
+  explicit Bursting(double rate) : rate_(rate) {}
+  void add(double, const PointsView& x, const VectorsView& u) const override {
+    for (int k = 0; k < x.dimension; ++k)
+      for (std::size_t i = 0; i < x.count; ++i) u.axis[k][i] += rate_ * x.axis[k][i];
+  }
+  void add_divergence(double, const PointsView& x, double* values) const override {
+    for (std::size_t i = 0; i < x.count; ++i) values[i] += rate_ * x.dimension;
+  }
+
+ private:
+  double rate_;
+};
+
+NamedField bursting() {
+  return {
+      .about = {.name = "bursting",
+                .meaning = "all moves apart. The toy of a test",
+                .formula = "u = pace x",
+                .parameters = {{.name = "pace", .unit = "1 / time", .meaning = "how fast it bursts"}}},
+      .divergence = "d pace",
+      .exact_flow = "x exp(pace (t - s))",
+      .make = [](int, const Arguments& arguments) { return std::make_unique<Bursting>(number(arguments, "pace")); }};
+}
+
+TEST(Toy, FieldIsAddedThroughItsCatalogueAlone) {
+  const std::string keys = "field = \"bursting\"\npace = 0.5\n", text = case_text({.velocity = keys});
+  EXPECT_TRUE(
+      has(message_of<CaseError>([&] { gaussdrift::parse_case(text, "toy.toml"); }), "unknown value \"bursting\""));
+  const base::Added<NamedField> toy(bursting());
+
+  EXPECT_TRUE(has(explained("bursting"), "all moves apart"));
+  EXPECT_TRUE(has(explained("pace"), "how fast it bursts"));
+  EXPECT_TRUE(has(input::schema_json(), "\"bursting\""));
+  EXPECT_TRUE(has(input::registry_markdown(), "All moves apart"));
+  const Case spec = gaussdrift::parse_case(text, "toy.toml").spec;
+  EXPECT_TRUE(has(case_text(spec), keys));
+  EXPECT_TRUE(has(checked(spec), "bursting (pace = 0.5), div u = d pace"));
+  Simulation simulation(spec, 1);
+  simulation.prepare();
+  const Particles start = simulation.particles();
+  simulation.run();
+  for (std::size_t j = 0; j < start.size(); ++j)  // rk4: two steps, each right to (0.5 * 0.05)^5 / 120 = 8e-11
+    ASSERT_NEAR(simulation.particles().position[0][j], std::exp(0.5 * 0.1) * start.position[0][j], 2e-10);
+}
+
+/// The same density everywhere within a distance of the origin.
+class Plateau : public InitialDensity {
+ public:
+  explicit Plateau(double level) : level_(level) {}
+  void add(const PointsView& x, double* values) const override {
+    for (std::size_t i = 0; i < x.count; ++i) values[i] += std::hypot(x.axis[0][i], x.axis[1][i]) < 0.55 ? level_ : 0;
+  }
+  std::string describe() const override { return "a plateau"; }
+  std::optional<double> mass() const override { return level_ * std::numbers::pi * 0.55 * 0.55; }
+
+ private:
+  double level_;
+};
+
+NamedShape plateau() {
+  return {{.name = "plateau",
+           .meaning = "a flat top. The toy of a test",
+           .formula = "level for |x| < 0.55",
+           .parameters = {{.name = "level", .meaning = "how high the plateau is"}}},
+          [](int, const Arguments& arguments) { return std::make_unique<Plateau>(number(arguments, "level")); }};
+}
+
+TEST(Toy, ShapeIsAddedThroughItsCatalogueAlone) {
+  const std::string keys = "shape = \"plateau\"\nlevel = 2\n", text = case_text({.density = keys});
+  EXPECT_TRUE(
+      has(message_of<CaseError>([&] { gaussdrift::parse_case(text, "toy.toml"); }), "unknown value \"plateau\""));
+  const base::Added<NamedShape> toy(plateau());
+
+  EXPECT_TRUE(has(explained("plateau"), "a flat top"));
+  EXPECT_TRUE(has(explained("level"), "how high the plateau is"));
+  EXPECT_TRUE(has(input::schema_json(), "\"plateau\""));
+  EXPECT_TRUE(has(input::registry_markdown(), "A flat top"));
+  const Case spec = gaussdrift::parse_case(text, "toy.toml").spec;
+  EXPECT_TRUE(has(case_text(spec), keys));
+  EXPECT_TRUE(has(checked(spec), "a plateau"));
+  const RunSummary summary = Simulation(spec, 1).run();
+  // 97 nodes of a lattice of spacing 0.1 lie within, and none near the rim.
+  EXPECT_NEAR(summary.frames[0].second.mass, 2 * 0.01 * 97, 1e-13);
 }
 
 /// A Gaussian wider than its core radius.

@@ -46,9 +46,22 @@ NamedShape box() {
 
 }  // namespace
 
-const std::vector<NamedShape>& named_shapes() {
+const std::vector<NamedShape>& named_shapes() { return base::catalogue<NamedShape>(); }
+
+const NamedShape& find_named_shape(std::string_view name) {
+  for (const NamedShape& shape : named_shapes())
+    if (shape.about.name == name) return shape;
+  throw std::out_of_range("no shape is named " + std::string(name));
+}
+
+}  // namespace gaussdrift
+
+namespace gaussdrift::base {
+
+template <>
+std::vector<NamedShape>& catalogue() {
   using Profile = RadialDensity::Profile;
-  static const std::vector<NamedShape> list = {
+  static std::vector<NamedShape> all = {
       radial("wendland", Profile::wendland, "Wendland's function: twice continuously differentiable",
              "height (1 - s)^4 (4 s + 1) for s < 1, else 0, with s = |x - center| / radius"),
       radial("wendland4", Profile::wendland4, "Wendland's function, four times continuously differentiable",
@@ -67,13 +80,7 @@ const std::vector<NamedShape>& named_shapes() {
       slotted_disk(),
       box(),
   };
-  return list;
+  return all;
 }
 
-const NamedShape& find_named_shape(std::string_view name) {
-  for (const NamedShape& shape : named_shapes())
-    if (shape.about.name == name) return shape;
-  throw std::out_of_range("no shape is named " + std::string(name));
-}
-
-}  // namespace gaussdrift
+}  // namespace gaussdrift::base

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/catalogue.hpp"
 #include "base/named.hpp"
 #include "field/density/density.hpp"
 
@@ -24,3 +25,8 @@ const std::vector<NamedShape>& named_shapes();
 const NamedShape& find_named_shape(std::string_view name);
 
 }  // namespace gaussdrift
+
+namespace gaussdrift::base {
+template <>
+std::vector<NamedShape>& catalogue();
+}

@@ -25,14 +25,7 @@ NamedField taylor_green();
 NamedField translation();
 }  // namespace named
 
-const std::vector<NamedField>& named_fields() {
-  static const std::vector<NamedField> list = {
-      named::rotation(),   named::translation(), named::shear(),        named::strain(),
-      named::swirl(),      named::double_gyre(), named::taylor_green(), named::doswell(),
-      named::lamb_oseen(), named::deformation(), named::abc(),          named::burgers(),
-  };
-  return list;
-}
+const std::vector<NamedField>& named_fields() { return base::catalogue<NamedField>(); }
 
 const NamedField& find_named_field(std::string_view name) {
   for (const NamedField& field : named_fields())
@@ -54,3 +47,17 @@ std::unique_ptr<VelocityField> make_named_field(std::string_view name, const Box
 }
 
 }  // namespace gaussdrift
+
+namespace gaussdrift::base {
+
+template <>
+std::vector<NamedField>& catalogue() {
+  static std::vector<NamedField> all = {
+      named::rotation(),   named::translation(), named::shear(),        named::strain(),
+      named::swirl(),      named::double_gyre(), named::taylor_green(), named::doswell(),
+      named::lamb_oseen(), named::deformation(), named::abc(),          named::burgers(),
+  };
+  return all;
+}
+
+}  // namespace gaussdrift::base

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/catalogue.hpp"
 #include "base/named.hpp"
 #include "field/velocity/velocity.hpp"
 
@@ -41,3 +42,8 @@ const NamedField& find_named_field(std::string_view name);
 std::unique_ptr<VelocityField> make_named_field(std::string_view name, const Box& domain, const Arguments& given = {});
 
 }  // namespace gaussdrift
+
+namespace gaussdrift::base {
+template <>
+std::vector<NamedField>& catalogue();
+}
