@@ -150,13 +150,13 @@ Expansion Engine<d>::expand_kernel() {
   const double accuracy = kernel_part * options_.tolerance,
                points = static_cast<double>(choice_.centres + choice_.targets);
   const double close = neighbours[d - 1], radius = distance_of_neighbours<d>(centres_, close);
-  Lattice<d> lattice;
+  CellGrid<d> lattice;
   Smooth smooth;
   // How narrow the narrowest Gaussian has to be for a near field to pay.
   const double narrow = gone * end_beyond_narrow * std::exp(step_of_narrow * near_transforms[d - 1]);
   if (function_.kernel != Kernel::gaussian && radius > 0 && radius < choice_.range / 4 &&
       finest_exponent(function_, choice_.range, order, accuracy) * radius * radius > narrow &&
-      Lattice<d>::make(low_ - origin_, high_ - origin_, radius * (1 + 1e-9), lattice)) {
+      CellGrid<d>::make(low_ - origin_, high_ - origin_, radius * (1 + 1e-9), lattice)) {
     try {
       const Expansion beyond = expand(function_, choice_.range, radius, order, accuracy);
       if (make_smooth(beyond, radius, order, near_part * options_.tolerance, smooth)) {

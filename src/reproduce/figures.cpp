@@ -41,11 +41,11 @@ std::vector<std::pair<double, DensityGrid>> densities(const std::string& name,
   const auto& files = input::example_files();
   const auto file = std::find_if(files.begin(), files.end(), [&](const auto& f) { return f.name == name + ".toml"; });
   if (file == files.end()) throw Error(ExitCode::internal, "there is no built-in case " + name);
-  Case scene = parse_case(std::string(file->bytes), name + ".toml", overrides, threads).spec;
-  scene.checks.clear();  // nothing is compared, so no exact density is needed
-  scene.reference = {};
+  Case spec = parse_case(std::string(file->bytes), name + ".toml", overrides, threads).spec;
+  spec.checks.clear();  // nothing is compared, so no exact density is needed
+  spec.reference = {};
   std::vector<std::pair<double, DensityGrid>> frames;
-  Simulation simulation(scene, threads);
+  Simulation simulation(spec, threads);
   simulation.observe(std::make_unique<Keep>(frames));
   simulation.run();
   return frames;

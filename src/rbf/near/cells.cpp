@@ -11,8 +11,8 @@ constexpr std::int64_t most_cells = std::int64_t{1} << 20;  // an axis: three of
 }  // namespace
 
 template <int d>
-bool Lattice<d>::make(const Eigen::Matrix<double, d, 1>& low, const Eigen::Matrix<double, d, 1>& high, double side,
-                      Lattice& lattice) {
+bool CellGrid<d>::make(const Eigen::Matrix<double, d, 1>& low, const Eigen::Matrix<double, d, 1>& high, double side,
+                       CellGrid& lattice) {
   lattice.low = low;
   lattice.side = side;
   for (std::size_t l = 0; l < d; ++l) {
@@ -24,7 +24,7 @@ bool Lattice<d>::make(const Eigen::Matrix<double, d, 1>& low, const Eigen::Matri
 }
 
 template <int d>
-std::array<std::int64_t, d> Lattice<d>::cell(const double* point) const {
+std::array<std::int64_t, d> CellGrid<d>::cell(const double* point) const {
   std::array<std::int64_t, d> at;
   for (std::size_t l = 0; l < d; ++l) {
     const double x = std::floor((point[l] - low[static_cast<Eigen::Index>(l)]) / side);
@@ -34,7 +34,7 @@ std::array<std::int64_t, d> Lattice<d>::cell(const double* point) const {
 }
 
 template <int d>
-std::uint64_t Lattice<d>::key(const std::array<std::int64_t, d>& at) const {
+std::uint64_t CellGrid<d>::key(const std::array<std::int64_t, d>& at) const {
   std::uint64_t number = 0;
   for (std::size_t l = d; l-- > 0;)
     number = number * static_cast<std::uint64_t>(count[l] + 8) + static_cast<std::uint64_t>(at[l] + 4);
@@ -43,7 +43,7 @@ std::uint64_t Lattice<d>::key(const std::array<std::int64_t, d>& at) const {
 
 /// Sorted by eleven bits of the key at a time, from the lowest, which keeps the order of equal keys.
 template <int d>
-SortedPoints<d>::SortedPoints(const Lattice<d>& lattice, const double* points, std::size_t count) {
+SortedPoints<d>::SortedPoints(const CellGrid<d>& lattice, const double* points, std::size_t count) {
   constexpr std::size_t bits = 11, buckets = std::size_t{1} << bits;
   struct Place {
     std::uint64_t key;
@@ -73,9 +73,9 @@ SortedPoints<d>::SortedPoints(const Lattice<d>& lattice, const double* points, s
   first.push_back(count);
 }
 
-template struct Lattice<1>;
-template struct Lattice<2>;
-template struct Lattice<3>;
+template struct CellGrid<1>;
+template struct CellGrid<2>;
+template struct CellGrid<3>;
 template struct SortedPoints<1>;
 template struct SortedPoints<2>;
 template struct SortedPoints<3>;

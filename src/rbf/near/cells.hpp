@@ -12,7 +12,7 @@ namespace rbf::detail {
 
 /// The lattice: cells of one side, of which `count` an axis. Cells outside do not exist.
 template <int d>
-struct Lattice {
+struct CellGrid {
   Eigen::Matrix<double, d, 1> low = Eigen::Matrix<double, d, 1>::Zero();
   double side = 1;
   std::array<std::int64_t, d> count{};
@@ -20,7 +20,7 @@ struct Lattice {
   /// Cells that contain the box [low, high].
   /// @returns nothing, if they are too many to be numbered
   static bool make(const Eigen::Matrix<double, d, 1>& low, const Eigen::Matrix<double, d, 1>& high, double side,
-                   Lattice& lattice);
+                   CellGrid& lattice);
 
   /// Cell of a point; -1 or count where the point lies outside on an axis.
   std::array<std::int64_t, d> cell(const double* point) const;
@@ -36,7 +36,7 @@ struct SortedPoints {
   std::vector<std::size_t> order;  // equal cells in the order of the points
 
   SortedPoints() = default;
-  SortedPoints(const Lattice<d>& lattice, const double* points, std::size_t count);
+  SortedPoints(const CellGrid<d>& lattice, const double* points, std::size_t count);
 };
 
 }  // namespace rbf::detail

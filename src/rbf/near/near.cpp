@@ -11,7 +11,7 @@
 namespace rbf::detail {
 
 template <int d>
-NearField<d>::NearField(const Function& function, const Lattice<d>& lattice, double radius, Smooth smooth,
+NearField<d>::NearField(const Function& function, const CellGrid<d>& lattice, double radius, Smooth smooth,
                         const Points<d>& centres, int threads)
     : function_(function),
       lattice_(lattice),

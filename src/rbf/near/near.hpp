@@ -14,8 +14,8 @@ template <int d>
 class NearField {
  public:
   /// @param lattice  around the centres, of side `radius` at least
-  NearField(const Function& function, const Lattice<d>& lattice, double radius, Smooth smooth, const Points<d>& centres,
-            int threads);
+  NearField(const Function& function, const CellGrid<d>& lattice, double radius, Smooth smooth,
+            const Points<d>& centres, int threads);
 
   void set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights);
 
@@ -28,7 +28,7 @@ class NearField {
 
  private:
   Function function_;
-  Lattice<d> lattice_;
+  CellGrid<d> lattice_;
   double radius_;
   Smooth smooth_;
   int threads_;
