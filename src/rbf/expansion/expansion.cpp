@@ -86,8 +86,9 @@ int most_removed(int terms, const Good& good) {
   return possible;
 }
 
-/// Few exponents with an error of at most `accuracy`: those of the trapezoidal rule first, then fewer and fewer.
-std::optional<Fit::Result> fewest(const Fit& fit, Ends ends, double accuracy) {
+/// Few exponents with an error of at most `accuracy`: those of the trapezoidal rule first, then fewer and fewer. Moving
+/// them takes most of the time, and is left out if evenly spaced ones will do.
+std::optional<Fit::Result> fewest(const Fit& fit, Ends ends, double accuracy, Exponents exponents) {
   const Fit::Result polynomial = fit.weights_for(Eigen::VectorXd(0));
   if (polynomial.error <= accuracy) return polynomial;
   // The trapezoidal rule in ln t with step h errs by about exp(-pi^2 / h).
@@ -112,7 +113,7 @@ std::optional<Fit::Result> fewest(const Fit& fit, Ends ends, double accuracy) {
   terms -= high;
   terms -= most_removed(terms, [&](int removed) { return good(ends, terms - removed); });
   Fit::Result best = fit.weights_for(even_steps(ends, terms));
-  for (bool found = true; found && best.exponents.size() > 1;) {
+  for (bool found = exponents == Exponents::fewest; found && best.exponents.size() > 1;) {
     found = false;
     for (const Eigen::VectorXd& start : one_less(best.exponents)) {
       const Fit::Result fewer = fit.improved(start, accuracy);
@@ -165,7 +166,7 @@ double finest_exponent(const Function& function, double range, int order, double
          range;
 }
 
-Expansion expand(const Function& function, double range, double near, int order, double accuracy) {
+Expansion expand(const Function& function, double range, double near, int order, double accuracy, Exponents exponents) {
   Expansion sum;
   sum.scales = largest(function, range, order);
   const double squared = range * range;
@@ -180,7 +181,7 @@ Expansion expand(const Function& function, double range, double near, int order,
     ends.low = std::min(ends.low, ends.high);
     const double finest = std::exp(ends.high);
     const Fit fit(function, range, near / range, order, sum.scales, finest);
-    const std::optional<Fit::Result> result = fewest(fit, ends, aim);
+    const std::optional<Fit::Result> result = fewest(fit, ends, aim, exponents);
     if (!result) break;
     for (int i = 0; i < polynomial_terms; ++i)
       sum.polynomial[static_cast<std::size_t>(i)] = result->weights[i] * sum.scales.of[0] / std::pow(squared, i);

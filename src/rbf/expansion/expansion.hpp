@@ -34,11 +34,15 @@ struct Expansion {
 double finest_exponent(const Function& function, double range, int order, double accuracy);
 constexpr double gone = 12;
 
+/// Which exponents are wanted: `fewest` takes longest to find.
+enum class Exponents { fewest, even };
+
 /// @param range     R > 0
 /// @param near      0 <= near < R: distances below are left out
 /// @param order     of the derivatives that have to be accurate too, 0 .. 2
 /// @param accuracy  relative error that is allowed of the kernel and of each derivative
 /// @throws ToleranceError  there is none
-Expansion expand(const Function& function, double range, double near, int order, double accuracy);
+Expansion expand(const Function& function, double range, double near, int order, double accuracy,
+                 Exponents exponents = Exponents::fewest);
 
 }  // namespace rbf::detail
