@@ -77,7 +77,7 @@ class Simulation {
   /// instead of prepare(), after the observers are added; these make again what they have written (Observer::restore).
   /// Later outputs and time.end may differ from those of that run, and so may the number of threads. Throws what
   /// prepare() throws, and InputError if the particles or the bytes are not those of this case, or if time.end lies
-  /// before them.
+  /// before them. On several ranks each brings some of the particles, and rank 0 the bytes.
   void restore(Particles particles, const std::string& state);
 
   /// What the run has done so far; callable wherever a progress function is called. Its seconds are those until now.

@@ -93,6 +93,8 @@ double kept_for_pictures(const Case& spec, double grid_points) {
 
 }  // namespace
 
+double bytes_of_particle(const Case& spec) { return bytes_of_particle(spec, memory_of_effects(spec)); }
+
 RunMemory operator+(const RunMemory& a, const RunMemory& b) {
   return {a.particles + b.particles, a.grid + b.grid, a.pictures + b.pictures};
 }

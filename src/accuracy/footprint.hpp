@@ -23,6 +23,9 @@ struct RunMemory {
 /// for what is above 20 MB.
 RunMemory memory_of_run(const Case& spec, const Extent& extent);
 
+/// The columns of a particle in memory and in a checkpoint.
+double bytes_of_particle(const Case& spec);
+
 /// At one stage of a run, or on several ranks.
 RunMemory operator+(const RunMemory& a, const RunMemory& b);
 

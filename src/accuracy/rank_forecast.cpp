@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "accuracy/footprint.hpp"
@@ -23,6 +24,7 @@
 #include "sim/scene.hpp"
 #include "sim/sharing.hpp"
 #include "sim/tiled_density.hpp"
+#include "write/checkpoint.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::accuracy {
@@ -67,6 +69,13 @@ std::vector<Share> shares(const Trial& trial, const Tiles& tiles, const std::vec
   return all;
 }
 
+/// Nobody explains the errors.
+Case unexplained(Case spec) {
+  spec.output.report = false;
+  spec.accuracy.budget = AccuracySpec::Budget::none;
+  return spec;
+}
+
 /// The case as the ranks beside the first see it: they draw and explain nothing, and write their pieces alone.
 Case without_outputs(Case spec, bool particles_in_pieces) {
   spec.output.images.clear();
@@ -75,19 +84,25 @@ Case without_outputs(Case spec, bool particles_in_pieces) {
     const write::FileKind& kind = write::find_output_file(file.name);
     return !(kind.piece && grid_in_pieces) && !(kind.particle_piece && particles_in_pieces);
   });
-  spec.output.report = false;
-  spec.accuracy.budget = AccuracySpec::Budget::none;
-  return spec;
+  return unexplained(std::move(spec));
 }
 
-/// Rank 0 gets all particles where a file without pieces, a checkpoint or what explains the errors needs them.
+/// While a checkpoint is written: its own particles, a copy of those that are on their way, and a piece as it arrives
+/// and as it is written.
+RunMemory memory_at_checkpoint(const Case& spec, double own, double all) {
+  if (spec.output.checkpoint == 0.0) return {};
+  const double piece = std::min(all, static_cast<double>(write::usual_checkpoint_piece));
+  return {.particles = bytes_of_particle(spec) * 2 * (own + piece)};
+}
+
+/// Rank 0 gets all particles where a file without pieces or what explains the errors needs them.
 bool first_needs_all_particles(const Case& spec, bool in_pieces) {
   return std::any_of(spec.output.files.begin(), spec.output.files.end(),
                      [&](const OutputFile& file) {
                        const write::FileKind& kind = write::find_output_file(file.name);
                        return !(in_pieces && kind.particle_piece) && kind.bytes({.particles = 1e6}) > kind.bytes({});
                      }) ||
-         spec.output.report || spec.accuracy.budget != AccuracySpec::Budget::none || spec.output.checkpoint != 0.0;
+         spec.output.report || spec.accuracy.budget != AccuracySpec::Budget::none;
 }
 
 TileLimits limits_of(const Case& spec, double each) {
@@ -155,6 +170,8 @@ RankForecast forecast_ranks(const Case& spec, double particles_at_most, double p
   const double bytes = 8.0 * (spec.domain.dimension + 2);  // of a particle: its place, weight and id
   const bool in_pieces = particles_at_most > spec.output.piece_particles;
   const Case bare = without_outputs(spec, in_pieces);
+  // Particles that come in pieces are brought together for nobody.
+  const Case of_first = in_pieces && ranks > 1 ? unexplained(spec) : spec;
   double particles = 0;
   for (const Share& share : all) particles += share.particles;
   const double gathered = static_cast<double>(shown_grid(spec).size()) / static_cast<double>(grid.size());
@@ -174,10 +191,15 @@ RankForecast forecast_ranks(const Case& spec, double particles_at_most, double p
     result.other_memory = std::max(result.other_memory, result.memory[r].all() + program);
   }
   extent.particles =
-      first_needs_all_particles(spec, in_pieces) ? particles_at_most : grows * (all[0].particles + all[0].felt);
+      first_needs_all_particles(of_first, in_pieces) ? particles_at_most : grows * (all[0].particles + all[0].felt);
   extent.grid_points = static_cast<double>(grid.size());
   extent.compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none;
-  result.memory[0] = memory_of_run(spec, extent);
+  result.memory[0] = memory_of_run(of_first, extent);
+  for (std::size_t r = 0; r < all.size() && ranks > 1; ++r) {
+    const RunMemory keeping = memory_at_checkpoint(spec, grows * all[r].particles, particles_at_most);
+    if (result.memory[r].all() < keeping.all()) result.memory[r] = keeping;
+    if (r > 0) result.other_memory = std::max(result.other_memory, result.memory[r].all() + program);
+  }
   result.first_memory = result.memory[0].all() + program;
   return result;
 }

@@ -100,11 +100,11 @@ class Run {
         prepare_to_write(simulation);
       else
         observe_pieces(simulation, spec_, folder_);
+      keep_checkpoints();
     });
     simulation.abandon_when([this] { return stop_->by_signal() || (moved_on_ && stop_->made()); });
     try {
-      if (task_.goes_on)
-        simulation.restore(first_ ? std::move(task_.from->particles) : Particles(), first_ ? task_.from->state : "");
+      if (task_.goes_on) simulation.restore(std::move(task_.from->particles), task_.from->state);
     } catch (const Abandoned&) {
       is_to_stop();  // all ranks know why
       if (first_) own_folder_->interrupted(how_to_go_on());
@@ -152,6 +152,11 @@ class Run {
     if (!complete()) return;
     if (last_.kept.any || last_.seen || spec_.output.times.empty())
       look_back_unless_stopped();
+    else if (last_.too_many)
+      warnings_.push_back(fmt::format(
+          "no error budget and no accuracy table: they need all particles of the last output on one rank, and "
+          "several ranks bring at most output.piece_particles = {:.0f} together. A run on one rank has both.",
+          spec_.output.piece_particles));
     else if (looks_back(spec_))
       warnings_.push_back(
           "no error budget and no accuracy table: an earlier part of this run wrote the last output when it was not "
@@ -173,7 +178,7 @@ class Run {
   void force_checkpoint() {
     if (!keeper_) return;
     constexpr double most = 1.5;  // seconds after the signal
-    keeper_->force([this] { return stop_->seconds_since_signal() > most; });
+    ranks_.agree_on([&] { keeper_->force([this] { return stop_->seconds_since_signal() > most; }); });
   }
 
   ExitCode tell_how_to_go_on() const {
@@ -231,13 +236,26 @@ class Run {
     prepare_folder(simulation);
     add_observers(simulation, spec_, folder_, of_observers_);
     const auto& times = spec_.output.times;
-    if (looks_back(spec_) && !times.empty()) simulation.observe(keep_last_output(spec_, last_, task_.threads));
+    if (looks_back(spec_) && !times.empty()) {
+      // One rank of several is not to need memory for all particles, however many there are.
+      const auto may_gather = [this, &simulation] {
+        return ranks_.size() == 1 || static_cast<double>(simulation.particle_count()) <= spec_.output.piece_particles;
+      };
+      simulation.observe(keep_last_output(spec_, last_, task_.threads, may_gather));
+    }
     simulation.observe(own_folder_->watch());
-    keeper_.emplace(
-        folder_, [this] { return past(); }, spec_.output.checkpoint, task_.goes_on, task_.threads,
-        [this] { return in_haste(); });
     if (!input::data_files(spec_).empty()) past();  // a signal is not to wait for its hash
-    keeper_->force();                               // a checkpoint that was written in haste may be all that there is
+  }
+
+  void keep_checkpoints() {
+    const double most = std::min(static_cast<double>(write::usual_checkpoint_piece), spec_.output.piece_particles);
+    keeper_.emplace(
+        folder_, [this] { return past(); }, spec_.output.checkpoint, task_.goes_on,
+        write::CheckpointWriter::Options{.threads = task_.threads,
+                                         .in_haste = [this] { return in_haste(); },
+                                         .piece_particles = static_cast<std::size_t>(std::max(1.0, most))},
+        task_.from ? std::move(task_.from->trail) : write::CheckpointTrail(), ranks_);
+    keeper_->force();  // a checkpoint that was written in haste may be all that there is
   }
 
   const std::string& past() {
@@ -264,15 +282,31 @@ class Run {
 
   /// A checkpoint, and with it the numbers so far: a run that is killed has a page.
   void keep(const Simulation& simulation, double time, std::size_t steps) {
-    const bool shared = ranks_.size() > 1;
-    const Particles gathered = shared ? simulation.all_particles() : Particles();
+    RunSummary so_far;
+    std::string state;
+    std::int64_t wanted = 0;
     ranks_.agree_on([&] {
       if (!first_) return;
-      const RunSummary so_far = simulation.summary();
-      if (!keeper_->is_wanted(time, steps, so_far.frames.size())) return;
-      keeper_->write(time, steps, so_far.frames.size(), shared ? gathered : simulation.particles(), simulation.state());
-      write::write_text(folder_ / "summary.json", write::summary_json(spec_, so_far, {}));
+      so_far = simulation.summary();
+      wanted = keeper_->is_wanted(time, steps, so_far.frames.size());
+      if (wanted) state = simulation.state();
     });
+    ranks_.max(std::span(&wanted, 1));
+    if (!wanted) return;
+    keeper_->write(time, steps, so_far.frames.size(), simulation.particles(), state);
+    ranks_.agree_on([&] {
+      if (first_) write_summary_so_far(so_far);
+    });
+  }
+
+  /// It has all outputs. Where they are many it is not written anew with each of them: the bytes written would grow with
+  /// their square.
+  void write_summary_so_far(const RunSummary& so_far) {
+    constexpr std::size_t few = 64;
+    const std::size_t outputs = so_far.frames.size(), told = outputs_in_summary_;
+    if (told >= few && outputs < told + told / 8) return;
+    write::write_text(folder_ / "summary.json", write::summary_json(spec_, so_far, {}));
+    outputs_in_summary_ = outputs;
   }
 
   /// A signal's sender does not wait for the disk.
@@ -384,7 +418,8 @@ class Run {
   const bool first_;
   ExitCode stop_code_ = ExitCode::stopped;  // of the rank that was asked
   std::optional<StopRequest> stop_;
-  std::atomic<bool> moved_on_{false};  // by a step or more
+  std::atomic<bool> moved_on_{false};   // by a step or more
+  std::size_t outputs_in_summary_ = 0;  // as it was written last
   std::optional<CheckpointKeeper> keeper_;
   LastOutput last_;
   RunSummary summary_;
@@ -435,8 +470,8 @@ ExitCode carry_out(RunTask task, base::Communicator& ranks) {
       run.write();
     }
     code = static_cast<std::int64_t>(went_on ? run.report() : run.tell_how_to_go_on());
-    run.force_checkpoint();
   });
+  run.force_checkpoint();
   ranks.sum(std::span(&code, 1));  // the others have 0
   return static_cast<ExitCode>(code);
 }

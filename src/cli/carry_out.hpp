@@ -24,7 +24,7 @@ struct RunTask {
   double stop_after = std::numeric_limits<double>::infinity();   // seconds
   double most_memory = std::numeric_limits<double>::infinity();  // bytes; what would take more is refused
   bool goes_on = false;                                          // from a checkpoint
-  std::optional<write::Checkpoint> from{};                       // that one; on rank 0
+  std::optional<write::Checkpoint> from{};                       // that one, as far as this rank has it
   std::string past{};                                            // past_of() the case, where it is known
   std::optional<ExitCode> done{};                                // nothing is left to do
   bool changed = false;                                          // going on: the case is another than before

@@ -13,13 +13,15 @@ constexpr double least_part_of_run = 50;  // an interval is so many times as lon
 }  // namespace
 
 CheckpointKeeper::CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past,
-                                   std::optional<double> asked, bool resumed, int threads, write::InHaste in_haste)
+                                   std::optional<double> asked, bool resumed, write::CheckpointWriter::Options options,
+                                   write::CheckpointTrail trail, base::Communicator& ranks)
     : folder_(std::move(folder)),
       past_(std::move(past)),
       asked_(asked),
       resumed_(resumed),
-      threads_(threads),
-      in_haste_(std::move(in_haste)),
+      in_haste_(options.in_haste),
+      ranks_(ranks),
+      writer_(folder_, std::move(trail), std::move(options), ranks),
       on_disk_(!resumed) {}
 
 bool CheckpointKeeper::is_due(const Progress& progress) const {
@@ -46,10 +48,12 @@ bool CheckpointKeeper::is_wanted(double time, std::size_t steps, std::size_t out
 void CheckpointKeeper::write(double time, std::size_t steps, std::size_t outputs, const Particles& particles,
                              const std::string& state) {
   const base::Stopwatch watch;
-  if (hash_.empty()) hash_ = past_();
-  force();  // the one that stays: the other is about to go
+  ranks_.agree_on([&] {
+    if (ranks_.rank() == 0 && hash_.empty()) hash_ = past_();
+    force();  // the one that stays: the other is about to go
+  });
   on_disk_ = false;
-  last_ = write::write_checkpoint(folder_, hash_, time, steps, particles, state, threads_, in_haste_);
+  last_ = writer_.write(hash_, time, steps, particles, state);
   on_disk_ = !in_haste_();
   outputs_ = outputs;
   last_seconds_ = watch.seconds();
@@ -59,7 +63,7 @@ void CheckpointKeeper::write(double time, std::size_t steps, std::size_t outputs
 }
 
 void CheckpointKeeper::force(const write::InHaste& in_haste) {
-  if (!on_disk_) on_disk_ = write::force_checkpoints(folder_, in_haste);
+  if (!on_disk_) on_disk_ = write::force_checkpoints(folder_, in_haste, ranks_.rank(), ranks_.size());
 }
 
 }  // namespace gaussdrift::cli

@@ -19,9 +19,10 @@ class CheckpointKeeper {
   /// would take more than a fiftieth of the time, once a run is seen to take more than five minutes.
   /// `past` gives the hash of what the particles depend on; asked for once, and only if something is written.
   /// `resumed`: the run goes on from a checkpoint, and keeps one of its end.
-  /// `in_haste`: whether there is no time to wait for the disk.
+  /// `trail`: of the checkpoint that the run goes on from. Every rank has a keeper; that of rank 0 decides.
   CheckpointKeeper(std::filesystem::path folder, std::function<std::string()> past, std::optional<double> asked,
-                   bool resumed, int threads, write::InHaste in_haste);
+                   bool resumed, write::CheckpointWriter::Options options, write::CheckpointTrail trail,
+                   base::Communicator& ranks);
 
   /// To be called between steps: whether it is time to write one. So it is at the end of a run that keeps checkpoints.
   bool is_time(const Progress& progress);
@@ -29,10 +30,11 @@ class CheckpointKeeper {
   /// Whether the case wants checkpoints, and the last one is not of this moment.
   bool is_wanted(double time, std::size_t steps, std::size_t outputs) const;
 
-  /// Writes one, whatever the time. `particles` are those of all ranks. Throws FileError.
+  /// Writes one, whatever the time. All ranks call it, each with its own particles; what else there is counts on rank 0.
+  /// Throws FileError on all of them.
   void write(double time, std::size_t steps, std::size_t outputs, const Particles& particles, const std::string& state);
 
-  /// Waits until the disk has the checkpoints, or until `in_haste` says so. Throws FileError.
+  /// Waits until the disk has what this rank has of the checkpoints, or until `in_haste` says so. Throws FileError.
   void force(const write::InHaste& in_haste = {});
 
   std::size_t written() const { return written_; }
@@ -47,9 +49,10 @@ class CheckpointKeeper {
   std::string hash_;  // what it said
   std::optional<double> asked_;
   bool resumed_;
-  int threads_;
   write::InHaste in_haste_;
-  bool on_disk_;             // all that there is
+  base::Communicator& ranks_;
+  write::CheckpointWriter writer_;
+  bool on_disk_;             // all that there is of this rank
   std::size_t outputs_ = 0;  // in the last one
   base::Stopwatch since_start_, since_last_;
   std::optional<double> begun_at_;  // time of the scene

@@ -4,6 +4,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "accuracy/accuracy_table.hpp"
 #include "base/json_file.hpp"
@@ -31,10 +32,18 @@ void pass(base::StateBytes& bytes, LookBack& seen) {
 
 class KeepLastOutput : public accuracy::LastFrame {
  public:
-  KeepLastOutput(const Case& spec, LastOutput& last, int threads)
-      : LastFrame(last.kept, spec.output.times.back()), spec_(spec), last_(last), threads_(threads) {}
+  KeepLastOutput(const Case& spec, LastOutput& last, int threads, std::function<bool()> may_gather)
+      : LastFrame(last.kept, spec.output.times.back()),
+        spec_(spec),
+        last_(last),
+        threads_(threads),
+        may_gather_(std::move(may_gather)) {}
+
+  bool needs_particles(double time) const override { return LastFrame::needs_particles(time) && may_gather_(); }
 
   void frame(const Frame& frame) override {
+    last_.too_many = LastFrame::needs_particles(frame.time) && !may_gather_();
+    if (last_.too_many) return;
     LastFrame::frame(frame);
     if (!last_.kept.any || last_.kept.time >= spec_.time.end) return;
     StageTimes within_this_stage;
@@ -68,6 +77,7 @@ class KeepLastOutput : public accuracy::LastFrame {
   const Case& spec_;
   LastOutput& last_;
   int threads_;
+  std::function<bool()> may_gather_;
 };
 
 }  // namespace
@@ -113,8 +123,9 @@ LookBack look_back(const Case& spec, double run_seconds, const accuracy::LastFra
   return seen;
 }
 
-std::unique_ptr<Observer> keep_last_output(const Case& spec, LastOutput& last, int threads) {
-  return std::make_unique<KeepLastOutput>(spec, last, threads);
+std::unique_ptr<Observer> keep_last_output(const Case& spec, LastOutput& last, int threads,
+                                           std::function<bool()> may_gather) {
+  return std::make_unique<KeepLastOutput>(spec, last, threads, std::move(may_gather));
 }
 
 }  // namespace gaussdrift::cli

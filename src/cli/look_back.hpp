@@ -1,6 +1,7 @@
 // What is found out about a run beyond its numbers, from its last output: where its error comes from, what digits cost.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -31,9 +32,12 @@ LookBack look_back(const Case& spec, double run_seconds, const accuracy::LastFra
 struct LastOutput {
   accuracy::LastFrame::Kept kept{};
   std::optional<LookBack> seen{};  // where it was looked back on already, maybe by an earlier process
+  bool too_many = false;           // its particles were not brought together
 };
 
 /// Keeps the last output. If steps come after it, it is looked back on at once, and a checkpoint has what was found.
-std::unique_ptr<Observer> keep_last_output(const Case& spec, LastOutput& last, int threads);
+/// may_gather: whether its particles may be brought together on one rank; asked at that output.
+std::unique_ptr<Observer> keep_last_output(const Case& spec, LastOutput& last, int threads,
+                                           std::function<bool()> may_gather);
 
 }  // namespace gaussdrift::cli

@@ -102,11 +102,19 @@ bool lacks_its_end(const fs::path& folder) {
   return !state.empty() && state != "complete";
 }
 
-RunTask task_of(const ResumeOptions& options) {
-  RunTask task;
-  task.stop_after = stop_after_seconds(options.stop_after);
-  task.most_memory = most_memory(options.memory);
-  const Case before = case_in(options.folder, {}, options.threads);
+/// The run as it was, and as it is asked for.
+struct Asked {
+  Case before{}, spec{};
+  std::string past{};
+  double stop_after = 0, most_memory = 0;
+};
+
+Asked asked_for(const ResumeOptions& options) {
+  Asked asked;
+  asked.stop_after = stop_after_seconds(options.stop_after);
+  asked.most_memory = most_memory(options.memory);
+  asked.before = case_in(options.folder, {}, options.threads);
+  const Case& before = asked.before;
   const bool times_set = std::any_of(options.overrides.begin(), options.overrides.end(), [](const std::string& set) {
     return set.starts_with("output.times") || set.starts_with("output.frames");
   });
@@ -119,14 +127,24 @@ RunTask task_of(const ResumeOptions& options) {
   }
   if (!times_set) add_outputs(spec, before.time.end);
   refuse_changed_past(input::changed_keys(before, spec));
+  asked.spec = std::move(spec);
+  asked.past = past_of(before);
+  return asked;
+}
 
+RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<write::Checkpoint> from,
+                const std::vector<std::string>& refused) {
+  RunTask task;
+  task.stop_after = asked.stop_after;
+  task.most_memory = asked.most_memory;
+  const Case& before = asked.before;
+  Case spec = asked.spec;
   task.folder = options.folder;
   task.command = options.command;
   task.json = options.json;
   task.threads = options.threads;
-  std::vector<std::string> refused;
-  task.past = past_of(before);
-  task.from = write::read_checkpoint(options.folder, task.past, refused);
+  task.past = asked.past;
+  task.from = std::move(from);
   for (const std::string& why : refused) note("warning: {}\n", why);
   const bool complete = write::says_complete(options.folder);
   if (task.from) {
@@ -168,7 +186,16 @@ RunTask task_of(const ResumeOptions& options) {
 }
 
 ExitCode resume(const ResumeOptions& options, base::Communicator& ranks) {
-  return carry_out(shared_task(ranks, [&] { return task_of(options); }), ranks);
+  const bool first = ranks.rank() == 0;
+  Asked asked;
+  ranks.agree_on([&] {
+    if (first) asked = asked_for(options);
+  });
+  std::vector<std::string> refused;
+  std::optional<write::Checkpoint> from = write::read_checkpoint(options.folder, asked.past, refused, ranks);
+  RunTask task = shared_task(ranks, [&] { return task_of(options, asked, std::move(from), refused); });
+  if (!first) task.from = std::move(from);
+  return carry_out(std::move(task), ranks);
 }
 
 }  // namespace

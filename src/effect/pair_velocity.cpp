@@ -57,15 +57,22 @@ farfield::Points<d> PairVelocity::field_of(farfield::Kernel kernel, const Points
     choice_ = plan->choice();
     field = plan->evaluate(charges).field;
   };
-  std::exception_ptr trouble;
-  try {
+  const auto sum_in_words = [&] {
     in_words_of_particles(
         sum, [&](std::size_t target) { return ranks_ ? static_cast<std::int64_t>(target) : ids.at(target); });
-  } catch (const Error&) {  // of all ranks together; anything else is of this rank alone
-    if (!ranks_) throw;
-    trouble = std::current_exception();
+  };
+  if (!ranks_) {
+    sum_in_words();
+    return field;
   }
-  if (ranks_) ranks_->agree(trouble);
+  farfield_ranks_->begin();
+  try {
+    ranks_->agree_on(sum_in_words);
+  } catch (...) {
+    // Ranks that have failed inside of the sum agree on that twice: there, and at its end.
+    if (farfield_ranks_->failed_together()) throw;
+    ranks_->agree(std::current_exception());
+  }
   return field;
 }
 

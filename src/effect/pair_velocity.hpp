@@ -22,12 +22,37 @@ class FarfieldRanks : public farfield::Ranks {
   explicit FarfieldRanks(base::Communicator& ranks) : ranks_(ranks) {}
   int rank() const override { return ranks_.rank(); }
   int size() const override { return ranks_.size(); }
-  std::vector<Bytes> exchange(std::vector<Bytes> out) override { return ranks_.exchange(std::move(out)); }
-  void sum(std::span<std::int64_t> numbers) override { ranks_.sum(numbers); }
-  void max(std::span<double> numbers) override { ranks_.max(numbers); }
+  std::vector<Bytes> exchange(std::vector<Bytes> out) override {
+    agree_to_go_on();
+    return ranks_.exchange(std::move(out));
+  }
+  void sum(std::span<std::int64_t> numbers) override {
+    agree_to_go_on();
+    ranks_.sum(numbers);
+  }
+  void max(std::span<double> numbers) override {
+    agree_to_go_on();
+    ranks_.max(numbers);
+  }
+  /// Before a sum.
+  void begin() { failed_together_ = false; }
+  /// Whether all ranks have failed together since then, here.
+  bool failed_together() const { return failed_together_; }
 
  private:
+  // Each call begins with an agreement. A rank whose part of a sum fails or is abandoned between two calls agrees on that
+  // instead of its next call, and the others learn of it in theirs.
+  void agree_to_go_on() {
+    try {
+      ranks_.agree(nullptr);
+    } catch (...) {
+      failed_together_ = true;
+      throw;
+    }
+  }
+
   base::Communicator& ranks_;
+  bool failed_together_ = false;
 };
 
 class PairVelocity {

@@ -94,7 +94,10 @@ class Simulation::Parts {
   void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
 
   // run_state.cpp: what the run has come to, for another process that goes on.
-  void pass_state(base::StateBytes& bytes, ObserverStates& seen);
+  void pass_outputs(base::StateBytes& bytes);
+  std::vector<std::string> outputs();
+  void take_outputs(const std::vector<std::string>& all);
+  void pass_state(base::StateBytes& bytes, bool format_1, ObserverStates& seen);
   void check_leg() const;
   void check_frames() const;
   void take_particles(Particles particles);

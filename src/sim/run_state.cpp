@@ -1,4 +1,5 @@
-// What a run has come to, for another process that goes on.
+#include "sim/run_state.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 
 #include "base/told_by_first.hpp"
 #include "gaussdrift/error.hpp"
+#include "particle/pieces_by_id.hpp"
 #include "sim/landings.hpp"
 #include "sim/run_parts.hpp"
 
@@ -26,7 +28,32 @@ bool all_finite(const Particles& particles) {
          std::all_of(particles.path.begin(), particles.path.end(), finite) && finite(particles.volume);
 }
 
+void pass(base::StateBytes& bytes, RunState& parts) {
+  bytes(parts.outputs_apart, parts.run, parts.outputs);
+  bytes.end();
+}
+
+using Output = std::pair<double, FrameNumbers>;
+
+void pass(base::StateBytes& bytes, Output& output) {
+  bytes(output.first);
+  pass(bytes, output.second);
+}
+
 }  // namespace
+
+RunState parted(std::string_view state) {
+  base::StateBytes bytes(state);
+  RunState parts;
+  pass(bytes, parts);
+  return parts;
+}
+
+std::string joined(RunState& parts) {
+  base::StateBytes bytes;
+  pass(bytes, parts);
+  return bytes.written();
+}
 
 // A state may be a stranger's: numbers that count steps, and those that index, are looked at before they are used.
 void Simulation::Parts::check_leg() const {
@@ -46,21 +73,45 @@ void Simulation::Parts::check_frames() const {
     throw std::out_of_range("its outputs are not as many as it counts");
 }
 
-// What the run has come to, beside the particles.
-void Simulation::Parts::pass_state(base::StateBytes& bytes, ObserverStates& seen) {
+void Simulation::Parts::pass_outputs(base::StateBytes& bytes) {
+  std::uint64_t count = summary_.frames.size();
+  bytes(count);
+  if (bytes.reading()) summary_.frames.clear();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (bytes.reading()) summary_.frames.emplace_back();
+    pass(bytes, summary_.frames[i]);
+  }
+}
+
+std::vector<std::string> Simulation::Parts::outputs() {
+  std::vector<std::string> all;
+  for (Output& output : summary_.frames) {
+    base::StateBytes bytes;
+    pass(bytes, output);
+    all.push_back(bytes.written());
+  }
+  return all;
+}
+
+void Simulation::Parts::take_outputs(const std::vector<std::string>& all) {
+  summary_.frames.clear();
+  for (const std::string& output : all) {
+    base::StateBytes bytes(output);
+    pass(bytes, summary_.frames.emplace_back());
+    bytes.end();
+  }
+}
+
+// What the run has come to, beside the particles and, mostly, the numbers of the outputs.
+void Simulation::Parts::pass_state(base::StateBytes& bytes, bool format_1, ObserverStates& seen) {
   bytes(leg_, steps_before_, index_);
   if (bytes.reading()) check_leg();
   carrier_.pass_state(bytes, particles_);
-  bytes(summary_.transform_choice, summary_.transform_achievable, summary_.derivatives_achievable,
-        summary_.derivatives_error);
-  std::uint64_t frames = summary_.frames.size();
-  bytes(frames);
-  if (bytes.reading()) summary_.frames.clear();
-  for (std::uint64_t i = 0; i < frames; ++i) {
-    if (bytes.reading()) summary_.frames.emplace_back();
-    bytes(summary_.frames[i].first);
-    pass(bytes, summary_.frames[i].second);
-  }
+  bytes(summary_.transform_choice, summary_.transform_achievable);
+  if (format_1)
+    pass_outputs(bytes);
+  else
+    bytes(summary_.derivatives_achievable, summary_.derivatives_error);
   ReferenceReport& traced = summary_.reference;
   if (bytes.reading()) check_frames();
   bytes(traced.untraced, traced.first_untraced, traced.trouble, traced.rates, traced.exhausted);
@@ -87,8 +138,9 @@ std::string Simulation::Parts::state() {
   ObserverStates seen;
   for (const auto& observer : observers) seen.emplace_back(observer->name(), observer->state());
   base::StateBytes bytes;
-  pass_state(bytes, seen);
-  return bytes.written();
+  pass_state(bytes, false, seen);
+  RunState parts{.run = bytes.written(), .outputs = outputs()};
+  return joined(parts);
 }
 
 // From where the particles are. The end of the leg under way is kept, because its steps lead there; only an earlier
@@ -130,20 +182,23 @@ std::size_t Simulation::Parts::steps_to_end() const {
   return steps;
 }
 
-// Of rank 0, for all. They stay there until they are placed.
+// Every rank brings some of them, which stay there until they are placed.
 void Simulation::Parts::take_particles(Particles particles) {
+  const std::size_t integrals = particles_.path.size();
   ranks_.agree_on([&] {
-    if (!place_.is_first()) return;
-    if (particles.size() == 0) throw misfit("it has no particles");
-    if (particles.dimension != particles_.dimension || particles.path.size() != particles_.path.size() ||
+    if (particles.size() == 0) return;
+    if (particles.dimension != particles_.dimension || particles.path.size() != integrals ||
         (particles_.size() > 0 && particles.volume.empty() != particles_.volume.empty()))
       throw misfit("it has other particles");
     if (!all_finite(particles)) throw misfit("a number of its particles is not finite");
   });
-  if (place_.is_first()) {
+  const bool none = particles_of_all(particles, ranks_) == 0;
+  ranks_.agree_on([&] {
+    if (none) throw misfit("it has no particles");
+  });
+  if (particles.size() > 0) {
     particles_ = std::move(particles);
   } else {
-    const std::size_t integrals = particles_.path.size();
     particles_ = {};
     particles_.dimension = scene_.seeding.dimension;
     particles_.path.resize(integrals);
@@ -161,8 +216,10 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   ObserverStates seen;
   ranks_.agree_on([&] {
     try {
-      base::StateBytes state(of_all);
-      pass_state(state, seen);
+      const RunState parts = parted(of_all);
+      if (parts.outputs_apart) take_outputs(parts.outputs);
+      base::StateBytes state(parts.run);
+      pass_state(state, !parts.outputs_apart, seen);
       plan_landings();
       if (!carrier_.has_steps_until(leg_.now)) throw misfit("it has other steps");
     } catch (const std::out_of_range& error) {

@@ -36,7 +36,8 @@ constexpr std::size_t most_names = 40'000;  // in status.json, and as many as mo
 OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<std::string>& picture_styles,
                       std::size_t most, bool in_pieces) {
   OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
-                  "state/0/", "state/1/", "state/pictures/", "summary.json", "summary.png", "view.py"});
+                  "state/0/", "state/1/", "state/outputs.raw", "state/pictures/", "summary.json", "summary.png",
+                  "view.py"});
   for (const std::string& name : kinds) {
     files.add(name + ".pvd");
     const FileKind& kind = find_output_file(name);

@@ -100,16 +100,38 @@ TEST(SharedRun, StopsAndGoesOnWithAnotherNumberOfRanks) {
   NEEDS_MPIRUN();
   const ScratchFolder folder;
   const std::string arguments =
-      copy_of("rotating_cone", folder) + small("--set time.end=3 --set time.step=0.0002 --set output.frames=3 ");
+      copy_of("rotating_cone", folder) + small(
+                                             "--set time.end=3 --set time.step=0.0002 --set output.frames=3 "
+                                             "--set output.piece_particles=300 ");
   const Outcome alone = outcome_of(folder, run + arguments + "--out alone");
   const Outcome stopped = on_ranks_of_mpi(3, run + arguments + "--out parts --stop-after 0.1", folder);
   EXPECT_EQ(stopped.exit_code, 7) << stopped.err;
   EXPECT_NE(stopped.err.find("resume with: gaussdrift resume parts"), std::string::npos) << stopped.err;
+  EXPECT_TRUE(fs::exists(folder / "parts/state/0/particles_0003.raw")) << "checkpoints come in pieces, too";
   const Outcome two = on_ranks_of_mpi(2, "'" PROGRAM "' resume parts --stop-after 0.1", folder);
   EXPECT_EQ(two.exit_code, 7) << two.err;
   const Outcome rest = outcome_of(folder, "'" PROGRAM "' resume parts");
   EXPECT_EQ(rest.exit_code, alone.exit_code) << rest.err;
   expect_same(folder / "alone", folder / "parts");
+}
+
+// One rank would have to hold all particles.
+TEST(SharedRun, ExplainsErrorsOfFewParticlesAlone) {
+  NEEDS_MPIRUN();
+  const ScratchFolder folder;
+  const std::string arguments =
+      copy_of("rotating_cone", folder) + small("--set time.end=0.3 --set output.frames=2 --set output.vtk=[] ");
+  const Outcome few = on_ranks_of_mpi(2, run + arguments + "--out few", folder);
+  EXPECT_NE(few.exit_code, 3) << few.err;
+  EXPECT_NE(read_file(folder / "few/summary.json").find("\"accuracy_table"), std::string::npos);
+  EXPECT_EQ(times_in(few.err, "output.piece_particles"), 0u) << few.err;
+  const Outcome many = on_ranks_of_mpi(2, run + arguments + "--out many --set output.piece_particles=300", folder);
+  EXPECT_EQ(many.exit_code, few.exit_code) << many.err;
+  EXPECT_EQ(times_in(many.err, "several ranks bring at most output.piece_particles = 300 together"), 1u) << many.err;
+  EXPECT_EQ(read_file(folder / "many/summary.json").find("\"accuracy_table"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "many/report.html")) << "the page has the rest";
+  const Outcome alone = outcome_of(folder, run + arguments + "--out alone --set output.piece_particles=300");
+  EXPECT_EQ(times_in(alone.err, "output.piece_particles"), 0u) << alone.err;
 }
 
 TEST(SharedRun, OfACompleteFolderSaysSoOnce) {

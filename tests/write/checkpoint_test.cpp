@@ -14,6 +14,7 @@
 #include "gaussdrift/error.hpp"
 #include "same_particles.hpp"
 #include "scratch_folder.hpp"
+#include "sim/run_state.hpp"
 #include "write/disk.hpp"
 
 namespace gaussdrift::write {
@@ -35,18 +36,36 @@ Particles some_particles(std::size_t count, double first) {
   return particles;
 }
 
-/// Two of them: of 5 particles at t = 1, then of 3 at t = 2.
+/// What Simulation::state() would say.
+std::string state_of(std::string run, std::vector<std::string> outputs = {}) {
+  RunState parts{.run = std::move(run), .outputs = std::move(outputs)};
+  return joined(parts);
+}
+
+base::Communicator alone;
+
+CheckpointWriter writer_to(const ScratchFolder& folder, CheckpointWriter::Options options = {}) {
+  return {folder.path(), {}, std::move(options), alone};
+}
+
+/// Two of them: of 5 particles and an output at t = 1, then of 3 and another output at t = 2.
 class TwoCheckpoints : public testing::Test {
  protected:
   TwoCheckpoints() {
-    write_checkpoint(folder.path(), "hash", 1, 10, older, "first");
-    write_checkpoint(folder.path(), "hash", 2, 20, newer, std::string("sec\0nd", 6));
+    writer.write("hash", 1, 10, older, state_of("first", {"one"}));
+    writer.write("hash", 2, 20, newer, state_of(std::string("sec\0nd", 6), {"one", "two"}));
   }
   std::optional<Checkpoint> read(const std::string& past = "hash") {
     refused.clear();
-    return read_checkpoint(folder.path(), past, refused);
+    return read_checkpoint(folder.path(), past, refused, alone);
+  }
+  void write_third_in_haste() {
+    CheckpointWriter hasty(folder.path(), read()->trail, {.in_haste = always}, alone);
+    hasty.write("hash", 3, 30, some_particles(7, 1), state_of("third", {"one", "two"}));
   }
   const ScratchFolder folder;
+  const InHaste always = [] { return true; };
+  CheckpointWriter writer = writer_to(folder);
   const Particles older = some_particles(5, 0), newer = some_particles(3, 7);
   std::vector<std::string> refused;
 };
@@ -56,24 +75,103 @@ TEST_F(TwoCheckpoints, TheNewerCountsWithAllItsBits) {
   ASSERT_TRUE(checkpoint);
   EXPECT_EQ(checkpoint->facts.time, 2);
   EXPECT_EQ(checkpoint->facts.steps, 20u);
-  EXPECT_EQ(checkpoint->state, std::string("sec\0nd", 6));
+  EXPECT_EQ(checkpoint->state, state_of(std::string("sec\0nd", 6), {"one", "two"}));
   EXPECT_EQ(checkpoint->facts.bytes, 8 * 3 * 6 + 6);
   expect_same(checkpoint->particles, newer);
   EXPECT_TRUE(refused.empty());
 }
 
 TEST_F(TwoCheckpoints, AThirdTakesThePlaceOfTheOlder) {
-  write_checkpoint(folder.path(), "hash", 3, 30, some_particles(2, 1), "third");
+  writer.write("hash", 3, 30, some_particles(2, 1), state_of("third", {"one", "two", "three"}));
   EXPECT_EQ(read()->facts.time, 3);
+  EXPECT_EQ(read()->state, state_of("third", {"one", "two", "three"}));
   fs::remove(folder / "state/0/manifest.json");
   EXPECT_EQ(read()->facts.time, 2);
+  EXPECT_EQ(read()->state, state_of(std::string("sec\0nd", 6), {"one", "two"}));
 }
 
-const InHaste always = [] { return true; };
+/// The one that the run goes on from is kept, not the one that calls itself newer.
+TEST_F(TwoCheckpoints, TheNextOneReplacesADamagedOne) {
+  write_file(folder / "state/1/particles_0000.raw", "damaged");
+  auto checkpoint = read();
+  EXPECT_EQ(checkpoint->facts.time, 1);
+  CheckpointWriter next(folder.path(), checkpoint->trail, {}, alone);
+  next.write("hash", 1.5, 15, some_particles(2, 1), state_of("next", {"one", "other"}));
+  EXPECT_EQ(read()->facts.time, 1.5);
+  EXPECT_EQ(read()->state, state_of("next", {"one", "other"}));
+  fs::remove(folder / "state/1/manifest.json");
+  EXPECT_EQ(read()->facts.time, 1);
+  EXPECT_EQ(read()->state, state_of("first", {"one"}));
+}
+
+/// Of a process that was killed while it wrote.
+TEST_F(TwoCheckpoints, ATornEndOfTheOutputsIsOfNobody) {
+  const std::string whole = read_file(folder / "state/outputs.raw");
+  write_file(folder / "state/outputs.raw", whole + "torn");
+  auto checkpoint = read();
+  EXPECT_EQ(checkpoint->state, state_of(std::string("sec\0nd", 6), {"one", "two"}));
+  CheckpointWriter next(folder.path(), checkpoint->trail, {}, alone);
+  next.write("hash", 3, 30, newer, state_of("third", {"one", "two"}));
+  EXPECT_EQ(read_file(folder / "state/outputs.raw"), whole);
+  EXPECT_EQ(read()->facts.time, 3);
+}
+
+/// The last output is shown again by a run that goes on from its end, and takes other seconds.
+TEST_F(TwoCheckpoints, AnOutputThatIsShownAgainReplacesTheEarlierOne) {
+  CheckpointWriter next(folder.path(), read()->trail, {}, alone);
+  next.write("hash", 3, 30, newer, state_of("without", {"one"}));
+  EXPECT_EQ(read()->state, state_of("without", {"one"}));
+  next.write("hash", 3, 31, newer, state_of("again", {"one", "TWO", "three"}));
+  EXPECT_EQ(read()->state, state_of("again", {"one", "TWO", "three"}));
+  fs::remove(folder / "state/1/manifest.json");
+  EXPECT_EQ(read()->state, state_of("without", {"one"}));
+}
+
+TEST_F(TwoCheckpoints, OutputsThatAreGoneAreWrittenAgain) {
+  fs::remove(folder / "state/outputs.raw");
+  EXPECT_FALSE(read());
+  EXPECT_NE(refused.at(0).find("outputs.raw is missing"), std::string::npos) << refused[0];
+  writer.write("hash", 3, 30, newer, state_of("third", {"one", "two"}));
+  EXPECT_EQ(read()->state, state_of("third", {"one", "two"}));
+}
+
+TEST_F(TwoCheckpoints, DamagedOutputsAreRefused) {
+  const fs::path file = folder / "state/outputs.raw";
+  const std::string whole = read_file(file);
+  std::string damaged = whole;
+  damaged.back() = '?';
+  write_file(file, damaged);
+  EXPECT_EQ(read()->facts.time, 1) << "which needs the first row alone";
+  EXPECT_NE(refused.at(0).find("outputs.raw is damaged: its check sum is wrong"), std::string::npos) << refused[0];
+  write_file(file, whole.substr(0, whole.size() - 1));
+  EXPECT_EQ(read()->facts.time, 1);
+  EXPECT_NE(refused.at(0).find("bytes, must have"), std::string::npos) << refused[0];
+}
+
+TEST(Checkpoints, OfManyOutputsWriteEachOfThemOnce) {
+  std::vector<std::uintmax_t> bytes;
+  for (const std::size_t outputs : {50u, 100u, 200u}) {
+    const ScratchFolder folder;
+    CheckpointWriter writer = writer_to(folder);
+    std::vector<std::string> rows;
+    std::uintmax_t written = 0, log = 0;
+    for (std::size_t i = 0; i < outputs; ++i) {
+      rows.push_back(std::string(200, 'x') + std::to_string(i));
+      writer.write("hash", static_cast<double>(i), i, some_particles(2, 0), state_of("run", rows));
+      for (const auto& entry : fs::directory_iterator(folder / ("state/" + std::to_string(i % 2))))
+        written += entry.file_size();
+      const std::uintmax_t grown = fs::file_size(folder / "state/outputs.raw");
+      written += grown - log, log = grown;
+    }
+    bytes.push_back(written);
+  }
+  EXPECT_NEAR(static_cast<double>(bytes[1]) / static_cast<double>(bytes[0]), 2, 0.05);
+  EXPECT_NEAR(static_cast<double>(bytes[2]) / static_cast<double>(bytes[1]), 2, 0.05);
+}
 
 /// The system has the files, so it is whole when the process ends.
 TEST_F(TwoCheckpoints, OneInHasteIsWhole) {
-  write_checkpoint(folder.path(), "hash", 3, 30, some_particles(7, 1), "third", 1, always);
+  write_third_in_haste();
   EXPECT_FALSE(force_checkpoints(folder.path(), always));
   EXPECT_EQ(read()->facts.time, 3);
   expect_same(read()->particles, some_particles(7, 1));
@@ -82,7 +180,7 @@ TEST_F(TwoCheckpoints, OneInHasteIsWhole) {
 
 /// What a file system may have of it after a loss of power: a name with nothing behind it, or with zeros.
 TEST_F(TwoCheckpoints, OneInHasteThatLostItsPowerIsRefusedAndTheOlderTaken) {
-  write_checkpoint(folder.path(), "hash", 3, 30, some_particles(7, 1), "third", 1, always);
+  write_third_in_haste();
   for (const char* name : {"manifest.json", "particles_0000.raw", "run.raw"}) {
     const fs::path file = folder / "state/0" / name;
     const std::string whole = read_file(file);
@@ -112,12 +210,12 @@ TEST(LargeCheckpoint, HasTheSameFilesFromAnyNumberOfThreads) {
   for (std::size_t j = 0; j < count; ++j) particles.position[0].push_back(static_cast<double>(j));
   particles.alpha.assign(count, 0.5);
   particles.id.assign(count, 1);
-  write_checkpoint(one.path(), "hash", 1, 10, particles, "");
-  write_checkpoint(two.path(), "hash", 1, 10, particles, "", 2);
+  writer_to(one).write("hash", 1, 10, particles, state_of(""));
+  writer_to(two, {.threads = 2}).write("hash", 1, 10, particles, state_of(""));
   for (const char* name : {"manifest.json", "particles_0000.raw", "particles_0001.raw", "run.raw"})
     EXPECT_TRUE(read_file(one / "state/0" / name) == read_file(two / "state/0" / name)) << name;
   std::vector<std::string> refused;
-  expect_same(read_checkpoint(two.path(), "hash", refused)->particles, particles);
+  expect_same(read_checkpoint(two.path(), "hash", refused, alone)->particles, particles);
 }
 
 TEST_F(TwoCheckpoints, WhatIsDamagedIsRefusedAndTheOlderTaken) {
@@ -176,7 +274,7 @@ TEST_F(TwoCheckpoints, AnotherCaseAndANewerFormatAreRefusedByTheirReason) {
   EXPECT_NE(refused[0].find("a case with other settings or data"), std::string::npos) << refused[0];
   const fs::path file = folder / "state/1/manifest.json";
   std::string text = read_file(file);
-  text.replace(text.find("\"version\": 1"), 12, "\"version\": 2");
+  text.replace(text.find("\"version\": 2"), 12, "\"version\": 3");
   std::ofstream(file, std::ios::binary) << text;
   EXPECT_EQ(read()->facts.time, 1);
   EXPECT_NE(refused[0].find("newer gaussdrift"), std::string::npos) << refused[0];
@@ -210,6 +308,10 @@ TEST_F(TwoCheckpoints, ACraftedManifestIsRefusedByItsReason) {
       {"/pieces", {piece, piece}, "its pieces are wrong"},
       {"/pieces/0/particles", std::uint64_t{1} << 63, "its pieces are wrong"},
       {"/spread", "nan", "spread is no width"},
+      {"/outputs/count", 3, "its outputs are wrong"},
+      {"/outputs/bytes", std::uint64_t{1} << 60, "bytes, must have"},
+      {"/outputs/bytes", 20, "outputs.raw is damaged: its check sum is wrong"},
+      {"/outputs", nullptr, "count is no count"},
       {"/version", -1, "version is no count"}};
   for (const auto& [place, value, why] : crafted) {
     json manifest = honest;
@@ -234,19 +336,41 @@ TEST_F(TwoCheckpoints, AManifestThatIsNestedDeeplyIsRefused) {
 TEST(Checkpoint, WhereThereIsNoneNothingIsRefused) {
   const ScratchFolder folder;
   std::vector<std::string> refused;
-  EXPECT_FALSE(read_checkpoint(folder.path(), "hash", refused));
+  EXPECT_FALSE(read_checkpoint(folder.path(), "hash", refused, alone));
   EXPECT_TRUE(refused.empty());
 }
 
 TEST(Checkpoint, AFullDiskLeavesTheOneBefore) {
   const ScratchFolder folder;
-  write_checkpoint(folder.path(), "hash", 1, 10, some_particles(5, 0), "first");
+  CheckpointWriter writer = writer_to(folder);
+  writer.write("hash", 1, 10, some_particles(5, 0), state_of("first", {"one"}));
   {
     const FileSizeLimit limit(100);
-    EXPECT_THROW(write_checkpoint(folder.path(), "hash", 2, 20, some_particles(500, 0), "second"), FileError);
+    EXPECT_THROW(writer.write("hash", 2, 20, some_particles(500, 0), state_of("second", {"one"})), FileError);
+    EXPECT_THROW(writer.write("hash", 2, 20, some_particles(1, 0), state_of("second", {"one", std::string(200, 'x')})),
+                 FileError);
   }
   std::vector<std::string> refused;
-  EXPECT_EQ(read_checkpoint(folder.path(), "hash", refused)->facts.time, 1);
+  EXPECT_EQ(read_checkpoint(folder.path(), "hash", refused, alone)->facts.time, 1);
+  EXPECT_EQ(read_checkpoint(folder.path(), "hash", refused, alone)->state, state_of("first", {"one"}));
+}
+
+/// Format 1 had no file of outputs: run.raw had all.
+TEST(Checkpoint, OfFormat1IsRead) {
+  const ScratchFolder folder;
+  writer_to(folder).write("hash", 1, 10, some_particles(5, 0), state_of("all of it"));
+  const fs::path file = folder / "state/0/manifest.json";
+  nlohmann::ordered_json manifest = nlohmann::ordered_json::parse(read_file(file));
+  manifest["version"] = 1;
+  manifest.erase("outputs");
+  write_manifest(file, std::move(manifest));
+  fs::remove(folder / "state/outputs.raw");
+  std::vector<std::string> refused;
+  const auto checkpoint = read_checkpoint(folder.path(), "hash", refused, alone);
+  ASSERT_TRUE(checkpoint);
+  const RunState parts = parted(checkpoint->state);
+  EXPECT_FALSE(parts.outputs_apart);
+  EXPECT_EQ(parts.run, "all of it");
 }
 
 }  // namespace
