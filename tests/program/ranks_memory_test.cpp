@@ -66,6 +66,17 @@ TEST(RanksMemory, OfOneHostCountsTogether) {
   EXPECT_EQ(said[3], said[0]);
 }
 
+/// With checkpoints, a page and a budget, as by default.
+TEST(RanksMemory, OfRank0DoesNotGrowWithAllParticles) {
+  Case spec = large_case();
+  spec.output.report = true, spec.output.checkpoint.reset(), spec.accuracy.budget = AccuracySpec{}.budget;
+  const auto of_rank_0 = [&](int ranks) { return accuracy::forecast_ranks(spec, 3.1e6, 0, ranks).memory[0].particles; };
+  spec.output.piece_particles = 1e5;
+  EXPECT_LT(of_rank_0(4), 0.4 * of_rank_0(1));
+  spec.output.piece_particles = 1e7;
+  EXPECT_GT(of_rank_0(4), 0.9 * of_rank_0(1)) << "so many are brought together";
+}
+
 TEST(RanksMemory, OfOneRankIsAsEver) {
   const Case spec = large_case();
   const std::vector<std::string> said = refusals(spec, accuracy::memory_of_this_process() + 1e7, 1, 1);

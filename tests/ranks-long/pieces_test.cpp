@@ -47,9 +47,9 @@ class Pieces : public testing::Test {
   /// Faults at calls that are spread over the run. What was written is whole and the run goes on, with the same bits.
   void suffer(const std::string& error, int exit_code, std::size_t messages) {
     std::set<std::string> struck;
-    for (int part = 1; part <= 12; ++part) {
+    for (int part = 1; part <= 8; ++part) {
       fs::remove_all(folder / "part");
-      const Outcome outcome = call("FAULTS_AT=" + std::to_string(calls * part / 13) + " FAULTS_ERROR=" + error);
+      const Outcome outcome = call("FAULTS_AT=" + std::to_string(calls * part / 9) + " FAULTS_ERROR=" + error);
       const std::string report = read_file(folder / "report.txt");
       SCOPED_TRACE(report);
       ASSERT_TRUE(report.starts_with("struck")) << outcome.err;

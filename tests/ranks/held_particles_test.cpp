@@ -45,12 +45,12 @@ class Watched : public base::Communicator {
   double& most_;
 };
 
-/// The largest part of the bytes of all particles that a rank of four ever got at once. 4000 particles, 80 bytes each with
-/// velocities; the grid has as many bytes as 250 of them.
+/// The largest part of the bytes of all particles that a rank of four ever got at once. 18 000 particles of 32 bytes; the grid has as many
+/// bytes as 2500 of them.
 double largest_part(const std::string& piece_particles) {
-  const Case spec = scene_of({"particles.per_axis=501", "density.shape=\"wendland\"", "density.center=[0.4, 0.05]",
+  const Case spec = scene_of({"particles.per_axis=1001", "density.shape=\"wendland\"", "density.center=[0.4, 0.05]",
                               "density.radius=0.15", "velocity.u=[\"-y\", \"x\"]", "output.times=[0, 0.3, 0.5]",
-                              "evaluate.per_axis=40", "evaluate.tile_particles=100", "particles.overlap=1",
+                              "evaluate.per_axis=100", "evaluate.tile_particles=500", "particles.overlap=1",
                               "reference.kind=\"characteristics\"", "output.piece_particles=" + piece_particles});
   const ScratchFolder folder;
   std::vector<double> most(4, 0.0);
@@ -58,7 +58,8 @@ double largest_part(const std::string& piece_particles) {
   std::size_t particles = 0, checkpoints = 0;
   on_ranks(4, [&](base::Communicator& ranks) {
     Watched watched(ranks, most[static_cast<std::size_t>(ranks.rank())]);
-    write::CheckpointWriter writer(folder.path(), {}, {.piece_particles = 300}, watched);
+    const write::InHaste always = [] { return true; };  // the disk is slow
+    write::CheckpointWriter writer(folder.path(), {}, {.in_haste = always, .piece_particles = 1000}, watched);
     Simulation simulation(spec, 1, watched);
     const bool first = ranks.rank() == 0;
     if (first)
@@ -73,8 +74,8 @@ double largest_part(const std::string& piece_particles) {
     EXPECT_TRUE(simulation.run().complete);
     if (first) particles = simulation.particle_count();
   });
-  EXPECT_GT(checkpoints, 2u);
-  EXPECT_GT(particles, 3000u);
+  EXPECT_GE(checkpoints, 2u);
+  EXPECT_GT(particles, 10'000u);
   EXPECT_EQ(last.kept.any, !last.too_many);
   EXPECT_EQ(last.kept.particles.size(), last.too_many ? 0 : particles);
   on_ranks(4, [&](base::Communicator& ranks) {

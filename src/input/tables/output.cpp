@@ -95,7 +95,8 @@ Section output_section() {
         .range = {100, 134217728},
         .meaning =
             "most particles of a file. More are written in pieces, none of which has more particles, in the order "
-            "of their ids"},
+            "of their ids. Several ranks bring no more together on one of them, so that more particles get no error "
+            "budget there"},
        {.name = "checkpoint",
         .type = Type::duration,
         .range = {0, infinity},
