@@ -14,6 +14,22 @@ std::string without_particle_files(std::string text) {
   return text.insert(text.find("images = ["), "vtk = [\"density\"]\n");
 }
 
+class BytesWritten : public Faults {};
+
+/// With a checkpoint at each of them. They would grow with the square if a checkpoint had all outputs.
+TEST_F(BytesWritten, GrowWithTheOutputs) {
+  write_file(folder / "small.toml", apart);
+  const auto bytes_of = [&](int outputs) {
+    std::string times;
+    for (int i = 0; i < outputs; ++i) times += (i ? "," : "") + std::to_string(0.3 * i / (outputs - 1));
+    const auto bytes =
+        static_cast<double>(begin_with("run small.toml --set output.vtk=[] --set output.times=[" + times + "]").bytes);
+    fs::remove_all(folder / "whole");
+    return bytes;
+  };
+  EXPECT_LT(bytes_of(160) / bytes_of(80), 2.2);
+}
+
 TEST_F(Faults, ACallThatFindsTheDiskFull) {
   const long calls = begin(apart).calls;
   for (const long at : spread(0, calls, faults_of_a_test(40))) suffer(at_call(at, ENOSPC), of_files);

@@ -70,7 +70,7 @@ inline std::string killed_at(long call) { return "FAULTS_ERROR=kill FAULTS_AT=" 
 class Faults : public testing::Test {
  protected:
   struct Counts {
-    long calls = 0, allocations = 0;
+    long calls = 0, allocations = 0, bytes = 0;
   };
 
   /// Runs it without a fault: what the others are compared with.
@@ -157,7 +157,7 @@ class Faults : public testing::Test {
     Counts counts;
     std::istringstream report(read_file(folder / "report.txt"));
     std::string word;
-    report >> word >> counts.calls >> word >> counts.allocations;
+    report >> word >> counts.calls >> word >> counts.allocations >> word >> counts.bytes;
     EXPECT_GT(counts.calls, 50) << "the library that makes faults was not there";
     EXPECT_GT(counts.allocations, 100);
     return counts;

@@ -7,7 +7,8 @@
 //   FAULTS_LASTING  set: all later calls fail too, but those that close or remove, as on a disk that stays full
 //   FAULTS_NEW_AT   which allocation of the program itself fails, from 1 after the first call that is counted
 //   FAULTS_NEW_ALL  set: allocations are counted from the start of the program
-//   FAULTS_REPORT   file that takes "struck <call> <file>" at the fault and "calls <n> allocations <n>" at the exit
+//   FAULTS_REPORT   file that takes "struck <call> <file>" at the fault and "calls <n> allocations <n> bytes <n>"
+//                   at the exit, with the bytes that were written
 //   FAULTS_SERVE    set: the program does not begin. It reads lines of three parts from standard input, parted by tabs: a
 //                   folder, variables, arguments. For each it begins in a new process there, and then writes how that
 //                   ended, as the shell tells it, to standard output. To load VTK and Mesa takes longer than a small run.
@@ -66,7 +67,7 @@ Plan& plan() {
   return the_plan;
 }
 
-std::atomic<long> calls{0}, allocations{0};
+std::atomic<long> calls{0}, allocations{0}, bytes{0};
 
 /// Without stdio and without operator new, which are counted.
 void report(const char* line) {
@@ -128,6 +129,13 @@ bool strikes(const char* call, const char* path, Kind kind, const Half& half) {
 
 bool strikes(const char* call, const char* path, Kind kind = Kind::writes) {
   return strikes(call, path, kind, [] {});
+}
+
+/// What went into a file, if it is counted.
+ssize_t wrote(const char* path, ssize_t size) {
+  const int before = errno;
+  if (size > 0 && is_counted(path)) bytes += size;
+  return errno = before, size;
 }
 
 bool opens_to_write(int flags) { return (flags & O_CREAT) || (flags & O_ACCMODE) != O_RDONLY; }
@@ -196,7 +204,7 @@ void redirect(int descriptor, const char* file) {
   for (size_t i = 0; i < words.we_wordc; ++i) putenv(words.we_wordv[i]);
   unsetenv("FAULTS_SERVE");
   plan() = Plan();
-  calls = 0, allocations = 0;
+  calls = 0, allocations = 0, bytes = 0;
   std::exit(program(static_cast<int>(arguments.we_wordc), arguments.we_wordv, environ));
 }
 
@@ -215,8 +223,9 @@ int serve(int argc, char** argv, char** environment) {
 }
 
 [[gnu::destructor]] void tell_counts() {
-  char line[100];
-  std::snprintf(line, sizeof line, "calls %ld allocations %ld\n", calls.load(), allocations.load());
+  char line[150];
+  std::snprintf(line, sizeof line, "calls %ld allocations %ld bytes %ld\n", calls.load(), allocations.load(),
+                bytes.load());
   report(line);
 }
 
@@ -295,14 +304,14 @@ ssize_t write(int descriptor, const void* data, size_t size) {
   static const auto real = next<ssize_t(int, const void*, size_t)>("write");
   const auto half = [&] { (void)!real(descriptor, data, size / 2); };
   if (strikes("write", NameOf(descriptor).name, Kind::writes, half)) return -1;
-  return real(descriptor, data, size);
+  return wrote(NameOf(descriptor).name, real(descriptor, data, size));
 }
 
 ssize_t pwrite(int descriptor, const void* data, size_t size, off_t place) {
   static const auto real = next<ssize_t(int, const void*, size_t, off_t)>("pwrite");
   const auto half = [&] { (void)!real(descriptor, data, size / 2, place); };
   if (strikes("pwrite", NameOf(descriptor).name, Kind::writes, half)) return -1;
-  return real(descriptor, data, size, place);
+  return wrote(NameOf(descriptor).name, real(descriptor, data, size, place));
 }
 
 size_t fwrite(const void* data, size_t size, size_t count, std::FILE* stream) {
@@ -313,7 +322,9 @@ size_t fwrite(const void* data, size_t size, size_t count, std::FILE* stream) {
     flush(stream);
   };
   if (strikes("fwrite", NameOf(fileno(stream)).name, Kind::writes, half)) return count / 2;
-  return real(data, size, count, stream);
+  const size_t written = real(data, size, count, stream);
+  wrote(NameOf(fileno(stream)).name, static_cast<ssize_t>(written * size));
+  return written;
 }
 
 int fflush(std::FILE* stream) {
