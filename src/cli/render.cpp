@@ -140,7 +140,9 @@ ExitCode render(const RenderOptions& options) {
   auto name = names.begin();
   for (const std::size_t i : wanted) {
     const fs::path png = place.folder() / *name++;
-    draw(*style, read::read_density(outputs[i].file, options.field),
+    DensityGrid density = read::read_density(outputs[i].file, options.field);
+    if (style->about.shows_velocity) density.fields = {read::read_vector(outputs[i].file, "velocity")};
+    draw(*style, density,
          {.title = named.stem().string(),
           .quantity = options.field == "rho" ? "density" : options.field,
           .time = outputs[i].time,

@@ -122,9 +122,21 @@ std::size_t StoredDensity::components() {
   return components_;
 }
 
-DensityGrid read_density(const fs::path& file, const std::string& array) {
-  if (file.extension() != ".pvti") return read_image(file, array).density;
-  StoredDensity stored(file, array);
+FieldOnGrid read_vector(const fs::path& file, const std::string& array) {
+  FieldOnGrid field{.name = array, .components = 1, .values = {}};
+  for (int c = 0; c < field.components; ++c) {
+    const DensityGrid one = read_density(file, array, static_cast<std::size_t>(c));
+    field.components = one.lattice.dimension;
+    const auto components = static_cast<std::size_t>(field.components);
+    field.values.resize(one.rho.size() * components);
+    for (std::size_t j = 0; j < one.rho.size(); ++j) field.values[j * components + static_cast<std::size_t>(c)] = one.rho[j];
+  }
+  return field;
+}
+
+DensityGrid read_density(const fs::path& file, const std::string& array, std::optional<std::size_t> component) {
+  if (file.extension() != ".pvti") return read_image(file, array, component).density;
+  StoredDensity stored(file, array, component);
   const std::size_t every = thinning(stored.lattice());
   DensityGrid thin{thinned(stored.lattice(), every), {}};
   thin.rho.resize(thin.lattice.size());

@@ -46,6 +46,10 @@ class StoredDensity {
 };
 
 /// The density of a .vti, or every k-th point of a .pvti (thinning()). Throws FileError.
-DensityGrid read_density(const std::filesystem::path& file, const std::string& array);
+DensityGrid read_density(const std::filesystem::path& file, const std::string& array,
+                         std::optional<std::size_t> component = {});
+
+/// The components of a vector that has as many as the grid has dimensions, at the same points. Throws FileError.
+FieldOnGrid read_vector(const std::filesystem::path& file, const std::string& array);
 
 }  // namespace gaussdrift::read

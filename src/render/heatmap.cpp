@@ -6,9 +6,8 @@
 #include "render/plane.hpp"
 
 namespace gaussdrift::render {
-namespace {
 
-void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options) {
+Rectangle draw_map(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options) {
   const Scale scale(canvas);
   const Rectangle room{scale(130), scale(100), canvas.width() - scale(130 + 190), canvas.height() - scale(100 + 116)};
   const Rectangle panel = panel_in(room, field);
@@ -27,13 +26,12 @@ void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, co
                       bar_height};
   draw_colour_bar(canvas, bar, true, {options.quantity, range.min, range.max, 6}, {}, range.map);
   draw_heading(canvas, options, field);
+  return panel;
 }
-
-}  // namespace
 
 Painting heatmap(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
   return [field = make_height_field(density, range, most_plane_points), range, options](Canvas& canvas) {
-    draw(canvas, field, range, options);
+    draw_map(canvas, field, range, options);
   };
 }
 

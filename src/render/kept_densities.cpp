@@ -106,7 +106,7 @@ void KeptDensities::remove_files(std::size_t outputs) const {
   fs::remove(folder.parent_path(), ignored);
 }
 
-DensityGrid KeptDensities::read_back(bool error, std::size_t output, double time) {
+fs::path KeptDensities::density_file(std::size_t output, double time) {
   const std::string_view series = write::density_output().about.name;
   if (!files_) files_ = read::written_outputs(folder_, series);
   // A file of another time was left by an earlier part of the run that had other outputs.
@@ -115,11 +115,20 @@ DensityGrid KeptDensities::read_back(bool error, std::size_t output, double time
   });
   if (file == files_->end())
     throw FileError(fmt::format("{} has no file of t = {:g} (output.vtk)", (folder_ / series).string(), time));
-  DensityGrid density = read::read_density(file->file, error ? "error" : "rho");
+  return file->file;
+}
+
+DensityGrid KeptDensities::read_back(bool error, std::size_t output, double time) {
+  const fs::path file = density_file(output, time);
+  DensityGrid density = read::read_density(file, error ? "error" : "rho");
   if (density.lattice.points != lattice.points)
-    throw FileError(fmt::format("the grid of {} is not that of the run", file->file.string()));
+    throw FileError(fmt::format("the grid of {} is not that of the run", file.string()));
   density.lattice = lattice;  // coordinates of files are rounded
   return density;
+}
+
+FieldOnGrid KeptDensities::velocity(std::size_t output, double time) {
+  return read::read_vector(density_file(output, time), "velocity");
 }
 
 }  // namespace gaussdrift::render

@@ -28,6 +28,9 @@ class KeptDensities {
   /// In single precision, and thinned in space. Throws FileError if it is neither kept nor in a file of this output.
   DensityGrid get(bool error, std::size_t output, double time);
 
+  /// The velocity of that output, from its file. Throws FileError.
+  FieldOnGrid velocity(std::size_t output, double time);
+
   /// Removes the files of so many outputs, unless a checkpoint stands beside them: a run that goes on needs them.
   void remove_files(std::size_t outputs) const;
 
@@ -44,6 +47,7 @@ class KeptDensities {
   /// None if there is no whole file of this output.
   std::optional<Kept> read_file(bool error, std::size_t output, double time) const;
   DensityGrid read_back(bool error, std::size_t output, double time);
+  std::filesystem::path density_file(std::size_t output, double time);
 
   std::filesystem::path folder_;
   std::size_t most_bytes_, bytes_ = 0;

@@ -19,6 +19,9 @@ Axis y_axis(const HeightField& field, const Rectangle& window, double pixels, co
 /// widened.
 Rectangle panel_in(const Rectangle& room, const HeightField& field);
 
+/// Draws colours from above, with axes, colour bar and heading; returns where the plane lies on the canvas.
+Rectangle draw_map(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options);
+
 /// Colours from above.
 Painting heatmap(const DensityGrid& density, const ColourRange& range, const PictureOptions& options);
 

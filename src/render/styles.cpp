@@ -9,6 +9,8 @@ namespace gaussdrift::render {
 Style surface_style();
 Style contour_style();
 Style heatmap_style();
+Style arrows_style();
+Style streamlines_style();
 Style slices_style();
 Style projection_style();
 Style isosurface_style();
@@ -19,8 +21,8 @@ Style error_style();
 template <>
 std::vector<gaussdrift::render::Style>& gaussdrift::base::catalogue<gaussdrift::render::Style>() {
   using namespace gaussdrift::render;
-  static std::vector<Style> all{surface_style(),    contour_style(),    heatmap_style(), slices_style(),
-                                projection_style(), isosurface_style(), error_style()};
+  static std::vector<Style> all{surface_style(), contour_style(),    heatmap_style(),    arrows_style(), streamlines_style(),
+                                slices_style(),  projection_style(), isosurface_style(), error_style()};
   return all;
 }
 

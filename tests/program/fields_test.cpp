@@ -42,6 +42,29 @@ TEST(FieldsOfARun, AreInItsFilesAndAreDrawnAndCompared) {
   EXPECT_TRUE(fs::exists(folder / "one/images/gradient_heatmap_0001.png"));
 }
 
+// The largest value grows, so that the pictures of all outputs are drawn again with the velocity from the files.
+TEST(PicturesOfTheVelocity, AreDrawnAndDrawnAgain) {
+  const ScratchFolder folder;
+  write_case(folder / "sink.toml", {.velocity = velocity_of({"-3*x", "-3*y"}),
+                                    .density = shape_of("gaussian", "0, 0", "0.3"),
+                                    .output = "frames = 2\nvtk = [\"density\"]\nreport = \"none\"\n"
+                                              "fields = [\"velocity\"]\nimages = [\"arrows\", \"streamlines\"]"});
+  const Outcome unnamed = gaussdrift_in(folder, "check sink.toml --set 'output.fields=[\"gradient\"]'");
+  EXPECT_EQ(unnamed.exit_code, 3);
+  EXPECT_NE(unnamed.err.find("shows the velocity, which output.fields does not name"), std::string::npos) << unnamed.err;
+  const Outcome unkept = gaussdrift_in(folder, "check sink.toml --set 'output.vtk=[]'");
+  EXPECT_EQ(unkept.exit_code, 3) << unkept.err;
+  if (!draws_pictures) GTEST_SKIP() << without_pictures;
+  const Outcome run = gaussdrift_in(folder, "run sink.toml --out there");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"arrows_0000.png", "arrows_0001.png", "streamlines_0001.png"})
+    EXPECT_TRUE(fs::exists(folder / "there/images" / name)) << name;
+  const std::string drawn = read_file(folder / "there/images/arrows_0000.png");
+  // `render` takes the range of all outputs, too.
+  ASSERT_EQ(gaussdrift_in(folder, "render there --style streamlines --out again").exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder / "again/streamlines_0001.png"));
+}
+
 TEST(FieldsOfARun, AreMissedByThoseWhoAskForThem) {
   const ScratchFolder folder;
   write_case(folder / "one.toml", {.output = "frames = 2\nvtk = [\"density\"]\nimages = []\nreport = \"none\""});

@@ -174,6 +174,25 @@ void check_images(Reader& in, std::vector<PictureStyle>& images) {
   std::erase_if(images, [&](const PictureStyle& style) { return !style.shows(in.facts.dimension); });
 }
 
+/// Pictures of the velocity are drawn from what density files have.
+void check_velocity_of_images(Reader& in, const OutputSpec& output) {
+  const Entry* images = in.find("output", "images");
+  const auto shows_it = std::find_if(output.images.begin(), output.images.end(),
+                                     [](const PictureStyle& style) { return style.shows_velocity; });
+  if (!images || shows_it == output.images.end()) return;
+  const bool has_it = std::any_of(output.fields.begin(), output.fields.end(),
+                                  [](const GridField& field) { return field.name == "velocity"; });
+  if (!has_it)
+    in.diagnostics.error(images->value.place,
+                         fmt::format("\"{}\" shows the velocity, which output.fields does not name", shows_it->name),
+                         "fields = [\"velocity\"]");
+  else if (!base::has_one(output.files, &OutputFile::shows_density))
+    in.diagnostics.error(images->value.place,
+                         fmt::format("\"{}\" shows the velocity, which density files keep, and none are written",
+                                     shows_it->name),
+                         "have \"density\" in output.vtk");
+}
+
 }  // namespace
 
 void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
@@ -195,6 +214,7 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   output.checkpoint = in.duration("output", "checkpoint");
   if (const auto most = in.number("output", "piece_particles")) output.piece_particles = most->number;
   if (in.facts.dimension) check_images(in, output.images);
+  check_velocity_of_images(in, output);
   const Entry* fields = in.find("output", "fields");
   if (fields && !base::has_one(output.files, &OutputFile::shows_density))
     in.diagnostics.warning(fields->value.place, "output.fields are shown by density files, and none are written",
