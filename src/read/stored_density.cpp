@@ -129,7 +129,8 @@ FieldOnGrid read_vector(const fs::path& file, const std::string& array) {
     field.components = one.lattice.dimension;
     const auto components = static_cast<std::size_t>(field.components);
     field.values.resize(one.rho.size() * components);
-    for (std::size_t j = 0; j < one.rho.size(); ++j) field.values[j * components + static_cast<std::size_t>(c)] = one.rho[j];
+    for (std::size_t j = 0; j < one.rho.size(); ++j)
+      field.values[j * components + static_cast<std::size_t>(c)] = one.rho[j];
   }
   return field;
 }

@@ -23,8 +23,7 @@ std::vector<Point> head(const Point& tip, double c, double s, double length) {
 
 }  // namespace
 
-FlowPlane::FlowPlane(const DensityGrid& density)
-    : nx_(density.lattice.points[0]), ny_(density.lattice.points[1]) {
+FlowPlane::FlowPlane(const DensityGrid& density) : nx_(density.lattice.points[0]), ny_(density.lattice.points[1]) {
   const auto velocity = std::find_if(density.fields.begin(), density.fields.end(),
                                      [](const FieldOnGrid& field) { return field.name == "velocity"; });
   if (velocity == density.fields.end() || velocity->components != 2 || velocity->values.size() != 2 * nx_ * ny_)
@@ -52,7 +51,7 @@ Point FlowPlane::at(const Point& place) const {
 std::vector<std::vector<Point>> arrows(const FlowPlane& flow, int along) {
   std::vector<std::vector<Point>> list;
   const double cell = std::max(flow.width(), flow.height()) / along, longest = flow.largest_speed();
-  if (!(longest > 0)) return list;
+  if (!(longest > 0) || flow.width() == 0 || flow.height() == 0) return list;
   const int columns = std::max(1, static_cast<int>(flow.width() / cell + 0.5)),
             rows = std::max(1, static_cast<int>(flow.height() / cell + 0.5));
   for (int j = 0; j < rows; ++j)
@@ -168,7 +167,7 @@ class Streamlines {
 }  // namespace
 
 std::vector<std::vector<Point>> streamlines(const FlowPlane& flow, double apart) {
-  if (!(flow.largest_speed() > 0)) return {};
+  if (!(flow.largest_speed() > 0) || flow.width() == 0 || flow.height() == 0) return {};
   return Streamlines(flow, apart).all();
 }
 

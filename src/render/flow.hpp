@@ -27,7 +27,7 @@ class FlowPlane {
 };
 
 /// Arrows at the middles of a mesh of cells, so many along the longer side. The longest, of the largest speed, is nine
-/// tenths of a cell long. Each is a polyline with its head, in the coordinates of the plane.
+/// tenths of a cell long. A plane of one row of points has none. Each is a polyline with its head, in the coordinates of the plane.
 std::vector<std::vector<Point>> arrows(const FlowPlane& flow, int along);
 
 /// Lines along the flow, about `apart` from each other everywhere and none shorter than three times that. Each second

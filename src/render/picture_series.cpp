@@ -150,7 +150,8 @@ class PictureSeries : public Observer {
       DensityGrid density;
       try {
         density = kept_.get(error, index, times_[index]);
-        if (std::any_of(wide.begin(), wide.end(), [](const auto& one) { return one.first->style.about.shows_velocity; }))
+        if (std::any_of(wide.begin(), wide.end(),
+                        [](const auto& one) { return one.first->style.about.shows_velocity; }))
           density.fields = {kept_.velocity(index, times_[index])};
       } catch (const FileError& failure) {
         if (++missing == 1) why = failure.what();

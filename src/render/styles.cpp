@@ -21,8 +21,9 @@ Style error_style();
 template <>
 std::vector<gaussdrift::render::Style>& gaussdrift::base::catalogue<gaussdrift::render::Style>() {
   using namespace gaussdrift::render;
-  static std::vector<Style> all{surface_style(), contour_style(),    heatmap_style(),    arrows_style(), streamlines_style(),
-                                slices_style(),  projection_style(), isosurface_style(), error_style()};
+  static std::vector<Style> all{surface_style(),    contour_style(),     heatmap_style(),
+                                arrows_style(),     streamlines_style(), slices_style(),
+                                projection_style(), isosurface_style(),  error_style()};
   return all;
 }
 

@@ -166,7 +166,8 @@ const std::vector<Wrong> wrongs = {
     {"images = [\"surface\"]", "images = [\"png\"]", 42, "\"png\"",
      "unknown value \"png\" for entry 1 of output.images",
      "output.vtk writes files for ParaView, series.csv has numbers for every output time, pictures are PNG; known "
-     "values: \"surface\", \"contour\", \"heatmap\", \"slices\", \"projection\", \"isosurface\", \"error\""},
+     "values: \"surface\", \"contour\", \"heatmap\", \"arrows\", \"streamlines\", \"slices\", \"projection\", "
+     "\"isosurface\", \"error\""},
     {"gaussdrift = 1", "gaussdrift = 1\nstep = 0.1", 2, "step",
      "unknown key \"step\" at the top of the file; it belongs in [time]", tables_note},
     {"[evaluate]", "[evaluation]", 34, "evaluation", "unknown table [evaluation]; did you mean [evaluate]?",
@@ -386,14 +387,16 @@ const std::vector<Wrong> wrongs = {
     {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"density\"]", 41, "\"density\"",
      "\"density\" appears twice in output.vtk"},
     {"images = [\"surface\"]", "images = \"surface\"", 42, "\"surface\"",
-     "output.images must be a list of some of \"surface\", \"contour\", \"heatmap\", \"slices\", \"projection\", "
+     "output.images must be a list of some of \"surface\", \"contour\", \"heatmap\", \"arrows\", \"streamlines\", "
+     "\"slices\", \"projection\", "
      "\"isosurface\", \"error\", found the string \"surface\""},
     {"images = [\"surface\"]", "images = [\"colour\"]", 42, "\"colour\"",
      "unknown value \"colour\" for entry 1 of output.images; did you mean \"contour\"?",
-     "known values: \"surface\", \"contour\", \"heatmap\", \"slices\", \"projection\", \"isosurface\", \"error\""},
+     "known values: \"surface\", \"contour\", \"heatmap\", \"arrows\", \"streamlines\", \"slices\", \"projection\", "
+     "\"isosurface\", \"error\""},
     {"images = [\"surface\"]", "images = [\"surface\", \"slices\"]", 42, "\"slices\"",
      "\"slices\" shows scenes in 3D; the domain has 2 dimensions",
-     "pictures in 2D: \"surface\", \"contour\", \"heatmap\", \"error\""},
+     "pictures in 2D: \"surface\", \"contour\", \"heatmap\", \"arrows\", \"streamlines\", \"error\""},
 };
 
 TEST(CaseFile, RefusesEachWrongInputWithPlaceRuleAndRemedy) {

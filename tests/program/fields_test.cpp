@@ -51,7 +51,8 @@ TEST(PicturesOfTheVelocity, AreDrawnAndDrawnAgain) {
                                               "fields = [\"velocity\"]\nimages = [\"arrows\", \"streamlines\"]"});
   const Outcome unnamed = gaussdrift_in(folder, "check sink.toml --set 'output.fields=[\"gradient\"]'");
   EXPECT_EQ(unnamed.exit_code, 3);
-  EXPECT_NE(unnamed.err.find("shows the velocity, which output.fields does not name"), std::string::npos) << unnamed.err;
+  EXPECT_NE(unnamed.err.find("shows the velocity, which output.fields does not name"), std::string::npos)
+      << unnamed.err;
   const Outcome unkept = gaussdrift_in(folder, "check sink.toml --set 'output.vtk=[]'");
   EXPECT_EQ(unkept.exit_code, 3) << unkept.err;
   if (!draws_pictures) GTEST_SKIP() << without_pictures;

@@ -62,9 +62,10 @@ TEST(Streamlines, OfARotationAreCirclesThatKeepTheirDistance) {
     const double r = radius(list[k].front());
     for (const Point& p : list[k]) {
       EXPECT_NEAR(radius(p), r, 0.02);
-      for (std::size_t other = 0; other < list.size(); other += 2)
-        if (other != k)
-          for (const Point& q : list[other]) ASSERT_GE(std::hypot(p.x - q.x, p.y - q.y), apart / 2 - 1e-9);
+      for (std::size_t other = 0; other < list.size(); other += 2) {
+        if (other == k) continue;
+        for (const Point& q : list[other]) ASSERT_GE(std::hypot(p.x - q.x, p.y - q.y), apart / 2 - 1e-9);
+      }
     }
     covered += 0.5 * static_cast<double>(list[k].size());
     EXPECT_EQ(list[k + 1].size(), 3u) << "the head of an arrow";

@@ -48,6 +48,15 @@ DensityGrid sampled(const Vector& min, const Vector& max, int per_axis,
   for (std::size_t j = 0; j < lattice.points[1]; ++j)
     for (std::size_t i = 0; i < lattice.points[0]; ++i)
       density.rho.push_back(rho(lattice.coordinate(0, i), lattice.coordinate(1, j)));
+  // A rotation about the middle, for the styles that show a velocity.
+  FieldOnGrid velocity{"velocity", 2, {}};
+  const auto from_middle = [&](std::size_t k, std::size_t i) {
+    return static_cast<double>(i) - 0.5 * static_cast<double>(lattice.points[k] - 1);
+  };
+  for (std::size_t j = 0; j < lattice.points[1]; ++j)
+    for (std::size_t i = 0; i < lattice.points[0]; ++i)
+      velocity.values.push_back(-from_middle(1, j)), velocity.values.push_back(from_middle(0, i));
+  density.fields = {velocity};
   return density;
 }
 

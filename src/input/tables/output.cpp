@@ -187,10 +187,10 @@ void check_velocity_of_images(Reader& in, const OutputSpec& output) {
                          fmt::format("\"{}\" shows the velocity, which output.fields does not name", shows_it->name),
                          "fields = [\"velocity\"]");
   else if (!base::has_one(output.files, &OutputFile::shows_density))
-    in.diagnostics.error(images->value.place,
-                         fmt::format("\"{}\" shows the velocity, which density files keep, and none are written",
-                                     shows_it->name),
-                         "have \"density\" in output.vtk");
+    in.diagnostics.error(
+        images->value.place,
+        fmt::format("\"{}\" shows the velocity, which density files keep, and none are written", shows_it->name),
+        "have \"density\" in output.vtk");
 }
 
 }  // namespace
