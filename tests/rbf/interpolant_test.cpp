@@ -224,6 +224,22 @@ TEST(Interpolant, ByIterationEqualsThatByFactorisation) {
   krylov_equals_dense<3>({rbf::Kernel::thin_plate}, cube<3>(1550, 11));
 }
 
+// A third of the points even, a third in a small cluster, a third along a curve: close points have large weights.
+TEST(Interpolant, ByIterationTakesTheValuesAtClusteredPoints) {
+  rbf::Points<2> points = cube<2>(1800, 26);
+  for (Index i = 0; i < points.cols(); ++i) {
+    if (i % 3 == 1) points.col(i) = 0.01 * points.col(i) + Eigen::Vector2d(0.3, 0.6);
+    if (i % 3 == 2) points(1, i) = 0.5 + 0.3 * std::sin(6 * points(0, i)) + 1e-3 * points(1, i);
+  }
+  const Eigen::MatrixXd values = smooth<2>(points);
+  const rbf::Interpolant<2> fit({rbf::Kernel::thin_plate}, points, values);
+  EXPECT_EQ(fit.report().solver, rbf::Solver::krylov);
+  const rbf::Interpolant<2> pairs({rbf::Kernel::thin_plate}, points, values, {.solver = rbf::Solver::dense});
+  const rbf::Points<2> targets = cube<2>(100, 27);
+  EXPECT_LE((fit.evaluate(points) - values).cwiseAbs().maxCoeff(), 2e-7 * values.cwiseAbs().maxCoeff());
+  EXPECT_LE((fit.evaluate(targets) - pairs.evaluate(targets)).cwiseAbs().maxCoeff(), 1e-5) << fit.report();
+}
+
 TEST(Interpolant, ApproachesTheFunctionAtTheKernelsRate) {
   // Near the boundary splines of order m = 2 are less accurate; in the root mean square the order is m + 1/2.
   const rbf::Points<2> targets = cube<2>(2000, 14);

@@ -26,10 +26,11 @@ constexpr double smallest_reciprocal = 100 * std::numeric_limits<double>::epsilo
 constexpr double comfortable_dense = 1e-12, comfortable_krylov[] = {1e-13, 1e-10, 1e-8};
 constexpr double rough = 0.02;  // times that for Matern kernels: measured, they still converge
 
-// A cycle of the iteration goes this far; sums in it are right to `tolerance`, and exact enough between cycles.
+// A cycle of the iteration goes this far. Sums in it are right to a tolerance that is lowered if a cycle gains little: close
+// points have large weights that cancel.
 constexpr double cycle_factor = 1e-3;
 constexpr int cycle_iterations = 50;
-constexpr double cycle_tolerance = 1e-7;
+constexpr double cycle_tolerance = 1e-7, lowered_by = 1e-2;
 constexpr double part_of_sums = 0.25;  // of the accuracy, for the sum that measures the residual
 
 SchwarzParameters parameters_of(int dimension) {
@@ -38,6 +39,80 @@ SchwarzParameters parameters_of(int dimension) {
   if (dimension == 3) how.around = 350;
   return how;
 }
+
+/// What an iteration has reached.
+struct Solved {
+  Coefficients coefficients;
+  double residual = 0;  // largest |error| of an equation
+  int iterations = 0;
+};
+
+/// The iteration, in cycles: from the residual a correction by flexible GMRES, then the residual anew.
+template <int d>
+class Cycles {
+ public:
+  Cycles(const Function& function, const Points<d>& points, const Frame<d>& frame, const Schwarz<d>& preconditioner,
+         const FitOptions& options)
+      : function_(function),
+        points_(points),
+        polynomials_(frame.values(points)),
+        options_(options),
+        in_cycles_(plan(cycle_tolerance)),
+        operators_{[&](const Eigen::VectorXd& of) { return preconditioner.solve(of); },
+                   [this](const Coefficients& of) { return product(in_cycles_, of); }} {}
+  Cycles(const Cycles&) = delete;
+  Cycles& operator=(const Cycles&) = delete;
+
+  /// Coefficients with errors of at most `allowed`, or the best that were found.
+  Solved solve(const Eigen::VectorXd& values, double allowed) {
+    Solved best{{Eigen::VectorXd::Zero(values.size()), Eigen::VectorXd::Zero(polynomials_.cols())}};
+    best.residual = values.cwiseAbs().maxCoeff();
+    Eigen::VectorXd left = values;
+    for (;;) {
+      const bool last = best.residual * cycle_factor <= allowed;
+      const double factor = last ? std::min(0.5, 0.3 * allowed / best.residual) : cycle_factor;
+      const int most = std::min(cycle_iterations, options_.most_iterations - best.iterations);
+      Coefficients sum = flexible_gmres(operators_, left, factor, most, best.iterations);
+      sum.weights += best.coefficients.weights;
+      sum.polynomial += best.coefficients.polynomial;
+      if (!sum.weights.allFinite()) return best;
+      const double wanted = last ? part_of_sums * allowed : 0.01 * factor * best.residual;
+      Plan<d> exact = plan(wanted / (in_cycles_.choice().largest * sum.weights.cwiseAbs().sum()));
+      const Eigen::VectorXd now_left = values - product(exact, sum);
+      const double before = best.residual, after = now_left.cwiseAbs().maxCoeff();
+      if (after < before) {
+        best.coefficients = std::move(sum);
+        best.residual = after;
+        left = now_left;
+      }
+      if ((last && after <= allowed) || best.iterations >= options_.most_iterations) return best;
+      if (after <= 0.3 * before) continue;
+      if (in_cycles_.choice().tolerance <= smallest_tolerance) return best;
+      in_cycles_ = plan(in_cycles_.choice().tolerance * lowered_by);
+    }
+  }
+
+ private:
+  /// The sum, for weights that are set later.
+  Plan<d> plan(double tolerance) const {
+    return Plan<d>(function_, points_, Eigen::VectorXd::Zero(points_.cols()),
+                   {.tolerance = std::min(cycle_tolerance, std::max(smallest_tolerance, tolerance)),
+                    .threads = options_.threads,
+                    .memory_limit = options_.memory_limit});
+  }
+  Eigen::VectorXd product(Plan<d>& sum, const Coefficients& coefficients) const {
+    sum.set_weights(coefficients.weights);
+    return sum.evaluate(points_).col(0) + polynomials_ * coefficients.polynomial.col(0) +
+           sign_of(function_.kernel) * options_.regularisation * coefficients.weights.col(0);
+  }
+
+  Function function_;
+  const Points<d>& points_;
+  Eigen::MatrixXd polynomials_;
+  FitOptions options_;
+  Plan<d> in_cycles_;
+  Operators operators_;
+};
 
 }  // namespace
 
@@ -159,20 +234,7 @@ void Fitted<d>::solve_by_krylov(const Eigen::MatrixXd& values) {
   if (reciprocal < smallest_reciprocal)
     refuse(reciprocal > 0 ? "parts of the matrix have a condition of about " + text(1 / reciprocal)
                           : std::string("parts of the matrix are not definite to rounding"));
-  const Eigen::MatrixXd polynomials = frame_.values(points_);
-  const auto plan = [&](double tolerance) {
-    return Plan<d>(function, points_, Eigen::VectorXd::Zero(count),
-                   {.tolerance = tolerance, .threads = options_.threads, .memory_limit = options_.memory_limit});
-  };
-  const auto product = [&](Plan<d>& sum, const Coefficients& coefficients) -> Eigen::VectorXd {
-    sum.set_weights(coefficients.weights);
-    return sum.evaluate(points_).col(0) + polynomials * coefficients.polynomial.col(0) +
-           sign_of(function.kernel) * options_.regularisation * coefficients.weights.col(0);
-  };
-  Plan<d> cycle_sum = plan(cycle_tolerance);
-  const Operators operators{[&](const Eigen::VectorXd& of) { return preconditioner.solve(of); },
-                            [&](const Coefficients& of) { return product(cycle_sum, of); }};
-
+  Cycles<d> cycles(function, points_, frame_, preconditioner, options_);
   coefficients_.weights.setZero(count, values.cols());
   coefficients_.polynomial.setZero(frame_.size(), values.cols());
   left_out_.setZero(count, values.cols());
@@ -181,35 +243,16 @@ void Fitted<d>::solve_by_krylov(const Eigen::MatrixXd& values) {
   for (Index k = 0; k < values.cols(); ++k) {
     if (!(largest_[k] > 0)) continue;
     left_out_.col(k) = preconditioner.left_out(values.col(k));
-    const double allowed = options_.accuracy * largest_[k];
-    Eigen::VectorXd left = values.col(k);
-    Coefficients sum{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(frame_.size())};
-    int iterations = 0;
-    for (bool last = false;;) {
-      const double before = left.cwiseAbs().maxCoeff();
-      last = before * cycle_factor <= allowed;
-      const double factor = last ? std::min(0.5, 0.3 * allowed / before) : cycle_factor;
-      const Coefficients more =
-          flexible_gmres(operators, left, factor, std::min(cycle_iterations, options_.most_iterations), iterations);
-      sum.weights += more.weights;
-      sum.polynomial += more.polynomial;
-      const double wanted = last ? part_of_sums * allowed : 0.01 * factor * before;
-      const double tolerance = wanted / (cycle_sum.choice().largest * sum.weights.cwiseAbs().sum());
-      Plan<d> exact = plan(std::clamp(tolerance, smallest_tolerance, cycle_tolerance));
-      left = values.col(k) - product(exact, sum);
-      const double after = left.cwiseAbs().maxCoeff();
-      if (last && after <= allowed) {
-        report_.residual = std::max(report_.residual, after / largest_[k]);
-        break;
-      }
-      if (!(after <= 0.3 * before) || iterations >= options_.most_iterations)
-        refuse("after " + std::to_string(iterations) + " iterations the equations are met to " +
-               text(after / largest_[k]) + " only, FitOptions::accuracy is " + text(options_.accuracy) +
-               "; parts of the matrix have a condition of about " + text(1 / reciprocal));
-    }
-    report_.iterations += iterations;
-    coefficients_.weights.col(k) = sum.weights;
-    coefficients_.polynomial.col(k) = sum.polynomial;
+    const Solved found = cycles.solve(values.col(k), options_.accuracy * largest_[k]);
+    const double residual = found.residual / largest_[k];
+    if (!(residual <= options_.accuracy))
+      refuse("after " + std::to_string(found.iterations) + " iterations the equations are met to " + text(residual) +
+             " only, FitOptions::accuracy is " + text(options_.accuracy) +
+             "; parts of the matrix have a condition of about " + text(1 / reciprocal));
+    report_.residual = std::max(report_.residual, residual);
+    report_.iterations += found.iterations;
+    coefficients_.weights.col(k) = found.coefficients.weights;
+    coefficients_.polynomial.col(k) = found.coefficients.polynomial;
   }
 }
 
