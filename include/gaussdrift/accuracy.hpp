@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,9 @@ void refuse_what_does_not_fit(const Case& spec, int threads = 0,
                               double most_memory = std::numeric_limits<double>::infinity());
 
 /// Facts about a finished run that its numbers do not show by themselves: blobs that no longer overlap, mass that left
-/// the domain, a tolerance that cannot be promised. Sentences for people; empty: none.
-std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary);
+/// the domain, a tolerance that cannot be promised. Sentences for people; empty: none. quadrature: what gaps between
+/// blobs add to the error of the last output, relative to the largest density, where that was measured.
+std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary,
+                                     std::optional<double> quadrature = std::nullopt);
 
 }  // namespace gaussdrift

@@ -147,30 +147,13 @@ class Run {
   bool complete() const { return summary_.complete; }
 
   void explain_errors() {
-    warnings_ = warnings_of(spec_, summary_);
-    warnings_.insert(warnings_.end(), of_observers_.begin(), of_observers_.end());
-    if (!complete()) return;
-    if (last_.kept.any || last_.seen || spec_.output.times.empty())
-      look_back_unless_stopped();
-    else if (last_.too_many)
-      warnings_.push_back(fmt::format(
-          "no error budget and no accuracy table: they need all particles of the last output on one rank, and "
-          "several ranks bring at most output.piece_particles = {:.0f} together. A run on one rank has both.",
-          spec_.output.piece_particles));
-    else if (looks_back(spec_))
-      warnings_.push_back(
-          "no error budget and no accuracy table: an earlier part of this run wrote the last output when it was not "
-          "yet "
-          "the last one, or did not want them, and they need it");
-    if (const auto target = task_.asked.accuracy.target; target && !summary_.frames.empty()) {
-      const auto& error = summary_.frames.back().second.error;
-      const bool known = error && std::isfinite(error->linf);
-      more_["accuracy"] = {{"target", *target},
-                           {"achieved", known ? nlohmann::ordered_json(error->linf) : nlohmann::ordered_json()},
-                           {"met", known && error->linf <= *target}};
-      if (const std::string& why = summary_.frames.back().second.no_norms; !why.empty())
-        more_["accuracy"]["not_known"] = why;
-    }
+    if (complete()) judge_errors();
+    // The budget tells whether gaps between blobs matter.
+    std::optional<double> quadrature;
+    if (budget_ && budget_->known()) quadrature = budget_->quadrature;
+    std::vector<std::string> warnings = warnings_of(spec_, summary_, quadrature);
+    warnings.insert(warnings.end(), of_observers_.begin(), of_observers_.end());
+    warnings_.insert(warnings_.begin(), warnings.begin(), warnings.end());
   }
 
   /// After the last word: what was written in haste goes to the disk, as far as there is time. The system writes the
@@ -311,6 +294,31 @@ class Run {
 
   /// A signal's sender does not wait for the disk.
   bool in_haste() const { return stop_->by_signal() || stop_code_ != ExitCode::stopped; }
+
+  /// Of a complete run: where they come from, and whether the target is met.
+  void judge_errors() {
+    if (last_.kept.any || last_.seen || spec_.output.times.empty())
+      look_back_unless_stopped();
+    else if (last_.too_many)
+      warnings_.push_back(fmt::format(
+          "no error budget and no accuracy table: they need all particles of the last output on one rank, and "
+          "several ranks bring at most output.piece_particles = {:.0f} together. A run on one rank has both.",
+          spec_.output.piece_particles));
+    else if (looks_back(spec_))
+      warnings_.push_back(
+          "no error budget and no accuracy table: an earlier part of this run wrote the last output when it was not "
+          "yet "
+          "the last one, or did not want them, and they need it");
+    if (const auto target = task_.asked.accuracy.target; target && !summary_.frames.empty()) {
+      const auto& error = summary_.frames.back().second.error;
+      const bool known = error && std::isfinite(error->linf);
+      more_["accuracy"] = {{"target", *target},
+                           {"achieved", known ? nlohmann::ordered_json(error->linf) : nlohmann::ordered_json()},
+                           {"met", known && error->linf <= *target}};
+      if (const std::string& why = summary_.frames.back().second.no_norms; !why.empty())
+        more_["accuracy"]["not_known"] = why;
+    }
+  }
 
   void look_back_unless_stopped() {
     const base::AbandonWanted wanted = [this] { return stop_->by_signal(); };

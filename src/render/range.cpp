@@ -5,6 +5,20 @@
 
 namespace gaussdrift::render {
 
+namespace {
+
+/// The next of 1, 2 and 5 times a power of ten, and at most `most`.
+double rounded_up(double x, double most) {
+  const double exponent = std::floor(std::log10(x)), power = std::pow(10., std::fabs(exponent));
+  for (const double factor : {1., 2., 5.}) {
+    const double round = exponent < 0 ? factor / power : factor * power;  // 2 / 100 is 0.02
+    if (round >= x) return std::min(round, most);
+  }
+  return most;
+}
+
+}  // namespace
+
 std::pair<double, double> rounded_range(double minimum, double maximum) {
   if (!std::isfinite(minimum) || !std::isfinite(maximum)) return {0, 1};
   if (minimum > maximum) std::swap(minimum, maximum);
@@ -28,8 +42,13 @@ std::pair<double, double> rounded_range(double minimum, double maximum) {
   const auto times_step = [&](double count) {  // 3 * 0.1 as 3 / 10, which is 0.3
     return step < 1 ? count / std::round(1 / step) : count * step;
   };
-  if (step < 1e-15) return {std::floor(minimum / step + slack) * step, std::ceil(maximum / step - slack) * step};
-  return {times_step(std::floor(minimum / step + slack)), times_step(std::ceil(maximum / step - slack))};
+  double low = std::floor(minimum / step + slack), high = std::ceil(maximum / step - slack);
+  if (step < 1e-15) return {low * step, high * step};
+  low = times_step(low), high = times_step(high);
+  // A side that crosses 0 by less than a step ends sooner: most of its colours would show nothing.
+  if (low < 0 && minimum > -step && maximum > 0) low = -rounded_up(-minimum, -low);
+  if (high > 0 && maximum < step && minimum < 0) high = rounded_up(maximum, high);
+  return {low, high};
 }
 
 std::pair<double, double> symmetric_range(double minimum, double maximum) {

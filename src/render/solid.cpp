@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gaussdrift/error.hpp"
 
@@ -33,11 +34,32 @@ void check_solid(const DensityGrid& density) {
 std::array<std::size_t, 3> largest_point(const DensityGrid& density) {
   const auto& points = density.lattice.points;
   double largest = 0;
-  std::size_t at = density.rho.size();
-  for (std::size_t i = 0; i < density.rho.size(); ++i)
-    if (std::isfinite(density.rho[i]) && std::abs(density.rho[i]) > largest) largest = std::abs(density.rho[i]), at = i;
-  if (at == density.rho.size()) return {points[0] / 2, points[1] / 2, points[2] / 2};
-  return {at % points[0], at / points[0] % points[1], at / points[0] / points[1]};
+  for (const double value : density.rho)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  if (largest == 0) return {points[0] / 2, points[1] / 2, points[2] / 2};
+
+  // On a plateau rounding decides which value is the largest. Nobody sees less than this in a picture.
+  constexpr double plateau = 1e-3;
+  using Point = std::array<std::size_t, 3>;
+  const auto for_each_highest = [&](const auto& use) {
+    for (std::size_t i = 0; i < density.rho.size(); ++i)
+      if (std::isfinite(density.rho[i]) && std::abs(density.rho[i]) >= (1 - plateau) * largest)
+        use(Point{i % points[0], i / points[0] % points[1], i / points[0] / points[1]});
+  };
+  std::array<double, 3> middle{};
+  double count = 0;
+  for_each_highest([&](const Point& at) {
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += static_cast<double>(at[k]);
+    ++count;
+  });
+  Point nearest{};
+  double least = std::numeric_limits<double>::infinity();
+  for_each_highest([&](const Point& at) {
+    double distance = 0;
+    for (std::size_t k = 0; k < 3; ++k) distance += std::pow(static_cast<double>(at[k]) - middle[k] / count, 2);
+    if (distance < least) least = distance, nearest = at;
+  });
+  return nearest;
 }
 
 Plane slice(const DensityGrid& density, int across, int up, std::size_t index) {

@@ -13,7 +13,8 @@ namespace gaussdrift::render {
 /// Throws Error(ExitCode::internal) unless the density has three dimensions and a value at every point.
 void check_solid(const DensityGrid& density);
 
-/// Lattice point of the value largest in size; the middle where all are 0 or not finite.
+/// Lattice point of the value largest in size, and of a plateau its middle. The middle of the lattice where all are 0 or
+/// not finite.
 std::array<std::size_t, 3> largest_point(const DensityGrid& density);
 
 /// Values where the index along the third axis is `index`; `across` and `up` are two different axes.

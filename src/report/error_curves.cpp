@@ -82,7 +82,9 @@ std::string times(const Panel& panel) {
         "text-anchor=middle>{4:.6g}</text>",
         panel.x(k * step), bottom, bottom + 5, bottom + 20, k == 0 ? 0 : k * step);
   }
-  return svg + fmt::format("<text x={} y={} text-anchor=middle>t</text>", Panel::left + Panel::width / 2, bottom + 40);
+  return svg + fmt::format("<text x={} y={} text-anchor=middle>t</text>", Panel::left + Panel::width / 2, bottom + 40) +
+         fmt::format("<text transform=\"translate(14 {}) rotate(-90)\" text-anchor=middle>relative error</text>",
+                     Panel::top + Panel::height / 2);
 }
 
 /// With its name at the height `key`.

@@ -146,7 +146,7 @@ class Page {
   void add_absent(const std::vector<std::string>& absent) {
     if (absent.empty()) return;
     text_ += "<h2>What is not on this page</h2><ul>";
-    for (const std::string& what : absent) text_ += "<li>" + escaped(what);
+    for (const std::string& what : absent) text_ += "<li>" + escaped(what) + (what.ends_with('.') ? "" : ".");
     text_ += "</ul>\n";
   }
 

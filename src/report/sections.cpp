@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,9 +28,9 @@ std::string verdict(const json& summary) {
                         number(last.at("t"), "{:.4g}"), number(last.at("Linf"), "{:.2e}"),
                         number(last.at("L1"), "{:.2e}"), number(last.at("L2"), "{:.2e}"));
   if (const json worst = get(summary, "worst"); worst.is_object() && worst.at("t") != get(last, "t"))
-    text += fmt::format(" The worst output is that at t = {}: {} (L1 {}, L2 {}).", number(worst.at("t"), "{:.4g}"),
-                        number(worst.at("Linf"), "{:.2e}"), number(worst.at("L1"), "{:.2e}"),
-                        number(worst.at("L2"), "{:.2e}"));
+    text += fmt::format(" The output with the largest L1 is that at t = {}: L1 {}, L2 {}, Linf {}.",
+                        number(worst.at("t"), "{:.4g}"), number(worst.at("L1"), "{:.2e}"),
+                        number(worst.at("L2"), "{:.2e}"), number(worst.at("Linf"), "{:.2e}"));
   if (target.is_object())
     text += fmt::format(" Target {}: {}.", number(target.at("target"), "{:g}"),
                         !target.at("achieved").is_number() ? "not known whether it is met"
@@ -43,7 +44,9 @@ std::string verdict(const json& summary) {
     text += failed && checks.size() == 1 ? " <b class=bad>The check failed.</b>"
             : failed ? fmt::format(" <b class=bad>{} of {} checks failed.</b>", failed, checks.size())
                      : fmt::format(" {} passed.", checks.size() == 1 ? "The check" : "All checks");
-  if (!advice.empty()) text += "<br>Advice: " + escaped(advice.front().get<std::string>()) + ".";
+  for (std::size_t i = 0; i < advice.size(); ++i)
+    text += (i == 0 ? "<br>Advice: " : "; ") + escaped(advice[i].get<std::string>());
+  if (!advice.empty()) text += ".";
   return text;
 }
 
@@ -103,6 +106,10 @@ std::string budget_table(const json& budget) {
                         number(get(predicted, key), "{:.1e}"), number(get(measured, key), "{:.1e}"));
   }
   text += "</table>";
+  for (const auto& [numbers, name] : {std::pair{predicted, "predicted"}, {measured, "measured"}})
+    if (numbers.contains("not_covered"))
+      text +=
+          fmt::format("<p class=quiet>Not {}: {}.</p>", name, escaped(numbers.at("not_covered").get<std::string>()));
   if (const json advice = get(budget, "advice"); !advice.empty()) {
     text += "<ul>";
     for (const json& line : advice) text += "<li>" + escaped(line.get<std::string>());
@@ -203,16 +210,42 @@ std::string particles(const json& summary) {
   return text + "</p>\n";
 }
 
+namespace {
+
+/// Digits with which a value lies below, on or above each of its limits as it does with all of them.
+int telling_digits(const json& check) {
+  constexpr int fewest = 4, all = 17;
+  const auto side = [](double value, double limit) { return (value > limit) - (value < limit); };
+  for (int digits = fewest; digits < all; ++digits) {
+    const auto rounded = [&](double x) { return std::stod(fmt::format("{:.{}g}", x, digits)); };
+    bool same = true;
+    for (const char* limit : {"min", "max"})
+      if (check.at("value").is_number() && check.at(limit).is_number()) {
+        const double value = check.at("value").get<double>(), bound = check.at(limit).get<double>();
+        same &= side(value, bound) == side(rounded(value), rounded(bound));
+      }
+    if (same) return digits;
+  }
+  return all;
+}
+
+}  // namespace
+
 std::string checks_table(const json& checks) {
   std::string text =
       "<h2>Checks</h2><div class=scroll><table class=numbers><tr><th class=l>what<th>value<th>at t<th>at least<th>at "
       "most<th>";
-  for (const json& check : checks)
+  for (const json& check : checks) {
+    const std::string shown = fmt::format("{{:.{}g}}", telling_digits(check));
     text += fmt::format("<tr><td>{}<td class=n>{}<td class=n>{}<td class=n>{}<td class=n>{}<td>{}",
-                        escaped(check.at("what").get<std::string>()), number(check.at("value"), "{:.4g}"),
-                        number(check.at("t"), "{:.4g}"), number(check.at("min")), number(check.at("max")),
+                        escaped(check.at("what").get<std::string>()), number(check.at("value"), shown.c_str()),
+                        number(check.at("t"), "{:.4g}"), number(check.at("min"), shown.c_str()),
+                        number(check.at("max"), shown.c_str()),
                         check.at("passed").get<bool>() ? "passed" : "<b class=bad>failed</b>");
-  return text + "</table></div>\n";
+  }
+  return text +
+         "</table></div><p class=quiet>A check without <code>at</code> is made at every output. Its row shows the "
+         "output that is nearest to a limit, or farthest beyond one.</p>\n";
 }
 
 std::string how_to_make_again(const json& provenance) {

@@ -46,7 +46,7 @@ std::string conclusion_of(const Experiment& experiment) {
       last = &sample;
     }
   if (first && last && first != last && last->error < first->error)
-    text = fmt::format("From {:.1g} to {:.1g} a digit costs {:.2g} times the time each", first->error, last->error,
+    text = fmt::format("From {:.1g} to {:.1g} each further digit takes {:.2g} times as long", first->error, last->error,
                        std::pow(last->seconds / first->seconds, 1 / std::log10(first->error / last->error)));
   if (as_it_is.failure.empty()) {
     const Sample* same = cheapest_below(experiment, as_it_is.error);

@@ -92,6 +92,36 @@ TEST(Page, TellsWhatIsNotOnItAndWhy) {
   EXPECT_FALSE(report["not_on_the_page"].empty());
 }
 
+TEST(Page, ShowsTheLimitsOfACheckWithDigitsThatTellThemFromItsValue) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", small_case + "[[check]]\nwhat = \"mass\"\nmin = 0.999999\nmax = 1.000001\n");
+  const Outcome out = gaussdrift_in(folder, "run a.toml --set time.end=1 --set 'output.times=[0, 1]'");
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const std::string page = read_file(folder / "output/a/report.html");
+  EXPECT_NE(page.find("<td class=n>0.999999<td class=n>1.000001<td>passed"), std::string::npos);
+  EXPECT_NE(page.find("A check without <code>at</code> is made at every output"), std::string::npos);
+}
+
+TEST(Page, TellsAllAdviceWhatItsCurvesShowAndWhatIsNotPredicted) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", small_case);
+  const Outcome out = gaussdrift_in(folder, "run a.toml --set time.end=1 --set 'output.times=[0, 1]'");
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const fs::path run = folder / "output/a";
+  const std::string page = read_file(run / "report.html");
+  EXPECT_NE(page.find("relative error</text>"), std::string::npos);
+  EXPECT_NE(page.find("(output.images); gaussdrift report draws them all the same.</ul>"), std::string::npos);
+
+  auto summary = parsed_json(read_file(run / "summary.json"));
+  summary["budget"]["advice"] = {"a longer step is as accurate", "more overlap helps"};
+  summary["budget"]["predicted"] = {{"not_covered", "it would take too long"}};
+  write_file(run / "summary.json", summary.dump());
+  ASSERT_EQ(gaussdrift_in(folder, "report output/a").exit_code, 0);
+  const std::string changed = read_file(run / "report.html");
+  EXPECT_NE(changed.find("Advice: a longer step is as accurate; more overlap helps."), std::string::npos);
+  EXPECT_NE(changed.find("Not predicted: it would take too long."), std::string::npos);
+}
+
 TEST(Page, TellsAboutPointsWhoseExactDensityIsNotKnown) {
   const ScratchFolder folder;
   write_file(folder / "a.toml", small_case);

@@ -28,7 +28,15 @@ TEST(RoundedRange, LeavesOutOvershootsOfOnePercentOnly) {
   EXPECT_EQ(rounded_range(-0.003, 0.99), Range(0, 1));
   EXPECT_EQ(rounded_range(0, 1.004), Range(0, 1));
   EXPECT_EQ(rounded_range(0, 1.04), Range(0, 1.2));
-  EXPECT_EQ(rounded_range(-0.04, 0.99), Range(-0.2, 1));
+}
+
+TEST(RoundedRange, CrossesZeroNoFartherThanItMust) {
+  EXPECT_EQ(rounded_range(-0.017, 1), Range(-0.02, 1));
+  EXPECT_EQ(rounded_range(-0.04, 0.99), Range(-0.05, 1));
+  EXPECT_EQ(rounded_range(-0.07, 0.99), Range(-0.1, 1));
+  EXPECT_EQ(rounded_range(-0.12, 0.99), Range(-0.2, 1)) << "no farther than to the next multiple of its steps";
+  EXPECT_EQ(rounded_range(-100, 3), Range(-100, 5));
+  EXPECT_EQ(rounded_range(-0.3, 1), Range(-0.4, 1)) << "more than a step";
 }
 
 TEST(RoundedRange, KeepsEndsFarFromZero) {

@@ -69,6 +69,15 @@ TEST(Solid, SlicesAndProjectionsAreWhatTheyAreCalled) {
   EXPECT_EQ(projection(density, 0, 1).value[1], 103) << "one that is not a number hides no others";
 }
 
+TEST(Solid, TheLargestPointOfAPlateauIsItsMiddle) {
+  // Noise of rounding, largest in a corner of the plateau.
+  const DensityGrid plateau = sampled({0, 0, 0}, {1, 1, 1}, 21, [](double x, double y, double z) {
+    const bool inside = std::abs(x - 0.5) < 0.26 && std::abs(y - 0.6) < 0.26 && std::abs(z - 0.4) < 0.26;
+    return inside ? 1 + 1e-9 * (x + y + z) : 0.;
+  });
+  EXPECT_EQ(largest_point(plateau), (std::array<std::size_t, 3>{10, 12, 8}));
+}
+
 TEST(Solid, ThinningKeepsPlacesAndValues) {
   const auto density =
       sampled({-1, 0, 2}, {1, 1, 4}, 41, [](double x, double y, double z) { return x + 10 * y + 100 * z; });
