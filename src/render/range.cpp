@@ -10,7 +10,7 @@ namespace {
 /// The next of 1, 2 and 5 times a power of ten, and at most `most`.
 double rounded_up(double x, double most) {
   const double exponent = std::floor(std::log10(x)), power = std::pow(10., std::fabs(exponent));
-  for (const double factor : {1., 2., 5.}) {
+  for (const double factor : {1., 2., 5., 10.}) {
     const double round = exponent < 0 ? factor / power : factor * power;  // 2 / 100 is 0.02
     if (round >= x) return std::min(round, most);
   }
