@@ -28,7 +28,7 @@ RunSummary stretched(double first_error, double last_error) {
 
 /// The time of the output that is said to have gaps, as "t = 1"; empty: none.
 std::string gaps_at(const RunSummary& summary, std::optional<double> quadrature = std::nullopt) {
-  const Case spec = parse_case(case_text(), "case.toml");
+  const Case spec = parse_case(case_text(), "case.toml").spec;
   for (const std::string& warning : warnings_of(spec, summary, quadrature))
     if (warning.find("may have false gaps") != std::string::npos) return warning.substr(3, 5);
   return "";
