@@ -149,6 +149,10 @@ class Bursting : public NamedVelocityField {
   void add_divergence(double, const PointsView& x, double* values) const override {
     for (std::size_t i = 0; i < x.count; ++i) values[i] += rate_ * x.dimension;
   }
+  void add_gradient(double, const PointsView& x, const GradientsView& g) const override {
+    for (int k = 0; k < x.dimension; ++k)
+      for (std::size_t i = 0; i < x.count; ++i) g.slope[k][k][i] += rate_;
+  }
 
  private:
   double rate_;
