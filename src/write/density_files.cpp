@@ -36,7 +36,7 @@ FileKind density_files() {
           .index = density_index_text,
           .index_ending = ".pvti",
           .bytes = bytes,
-          .memory = [](const Extent& extent) { return 2 * bytes(extent) / extent.pieces; },  // as arrays and as text
+          .memory = [](const Extent& extent) { return bytes(extent) / extent.pieces; },
           .view = view};
 }
 

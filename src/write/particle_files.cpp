@@ -9,9 +9,9 @@ namespace {
 // Three coordinates, three components of the velocity, weight, id, and two numbers that make each a cell.
 double bytes(const Extent& extent) { return bytes_as_text(10) * extent.particles + 2500 * extent.particle_pieces; }
 
-// Eight numbers a particle as arrays, and all as text. Those of a piece are brought together before.
+// The text. Particles of a piece are brought together before.
 double memory(const Extent& extent) {
-  const double all = 64 * extent.particles + 2.2 * bytes(extent);
+  const double all = bytes(extent);
   return extent.particle_pieces > 1 ? (all + 256 * extent.particles) / extent.particle_pieces : all;
 }
 

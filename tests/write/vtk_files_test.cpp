@@ -16,8 +16,10 @@
 #include "message_of.hpp"
 #include "particle/subset.hpp"
 #include "scratch_folder.hpp"
+#include "write/atomic_file.hpp"
 #include "write/disk.hpp"
 #include "write/output_files.hpp"
+#include "write/vtk_array.hpp"
 
 namespace gaussdrift::write {
 namespace {
@@ -288,6 +290,52 @@ TEST(VtkFiles, AreWellFormedXmlThroughout) {
   EXPECT_EQ(text.find("compressor"), std::string::npos);
   EXPECT_TRUE(
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return c == '\n' || (c >= ' ' && c < 127); }));
+}
+
+TEST(VtkFiles, HaveTheLettersOfVtksOwnWriter) {
+  const std::string python = python_with_vtk();
+  if (python.empty()) GTEST_SKIP() << "no Python with VTK (Debian: python3-vtk9)";
+  const ScratchFolder folder;
+  // Blocks of 3072 numbers are encoded at once: 3071 of them stand behind the length.
+  for (const std::size_t count : {0u, 1u, 2u, 3u, 1024u, 3071u, 3072u, 3073u}) {
+    const auto particles = some_particles(count % 2 == 0 ? 2 : 3, count);
+    write_particles(folder / (std::to_string(count) + ".vtp"), particles, some_velocity(particles), awkward(count));
+  }
+  auto density = some_density(2, {1e6 + 1 / 7., -2e-9, 0}, {1e6 + 1 / 7. + 2, 1, 0}, 40);
+  write_density(folder / "rho.vti", density, -1e22);
+  std::vector<double> exact(density.rho.size(), 1 / 3.);
+  exact[3] = exact[500] = std::nan("");
+  density.rho[7] = 1e-320, density.rho[8] = 1e21, density.rho[9] = -0.;
+  write_density(folder / "error.vti", density, 1e-7, &exact);
+  std::vector<double> pairs;
+  for (const double value : density.rho) pairs.push_back(value), pairs.push_back(-value / 3);
+  density.fields = {{"velocity", 2, pairs}, {"stretch", 1, density.rho}};
+  write_density(folder / "fields.vti", density, 1);
+  write_text(folder / "alone.vti", fields_text("alone.vti", density.lattice, density.fields, 1));
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    const std::string vtk =
+        output_of(python + " " SOURCE_DIR "/tests/write/written_by_vtk.py '" + entry.path().string() + "' 2>&1");
+    EXPECT_TRUE(read_file(entry.path()) == vtk) << entry.path().filename() << "\n" << vtk.substr(0, 1500);
+  }
+}
+
+TEST(VtkArray, NumbersHaveTheShortestTextThatGivesThemBack) {
+  for (const auto& [value, text] : {std::pair{0.1, "0.1"},
+                                    {-0., "0"},
+                                    {-2.5, "-2.5"},
+                                    {1e20, "100000000000000000000"},
+                                    {1e21, "1e+21"},
+                                    {-1.5e300, "-1.5e+300"},
+                                    {5e-324, "5e-324"},
+                                    {1e-6, "0.000001"},
+                                    {1.25e-7, "1.25e-7"},
+                                    {1 / 3., "0.3333333333333333"},
+                                    {123456789.0, "123456789"},
+                                    {9007199254740993.0, "9007199254740992"},
+                                    {static_cast<double>(INFINITY), "Infinity"},
+                                    {-static_cast<double>(INFINITY), "-Infinity"},
+                                    {std::nan(""), "NaN"}})
+    EXPECT_EQ(shortest_text(value), text);
 }
 
 TEST(VtkFiles, RefuseArraysOfTheWrongLength) {
