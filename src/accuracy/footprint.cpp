@@ -46,15 +46,6 @@ RunMemory memory_of_file(const write::FileKind& kind, const Extent& extent) {
   return {.particles = all - grid, .grid = grid};
 }
 
-bool changes_particles(const Case& spec) {
-  const auto all = effects_of(spec.effects);
-  return std::any_of(all.begin(), all.end(), [&](const auto& one) {
-    const EffectTraits& traits = one.first->traits;
-    return traits.adds_particles.of(one.second, spec.domain.dimension) ||
-           traits.replaces_particles.of(one.second, spec.domain.dimension);
-  });
-}
-
 /// What files hold: pieces of a density show layers that others have, too, and of exact densities formulas alone.
 Extent in_files(const Case& spec, Extent extent) {
   extent.particle_pieces = std::max(1.0, std::ceil(extent.particles / spec.output.piece_particles));
@@ -97,6 +88,15 @@ double bytes_of_particle(const Case& spec) { return bytes_of_particle(spec, memo
 
 RunMemory operator+(const RunMemory& a, const RunMemory& b) {
   return {a.particles + b.particles, a.grid + b.grid, a.pictures + b.pictures};
+}
+
+bool changes_particles(const Case& spec) {
+  const auto all = effects_of(spec.effects);
+  return std::any_of(all.begin(), all.end(), [&](const auto& one) {
+    const EffectTraits& traits = one.first->traits;
+    return traits.adds_particles.of(one.second, spec.domain.dimension) ||
+           traits.replaces_particles.of(one.second, spec.domain.dimension);
+  });
 }
 
 double particles_at_most(const Case& spec, Trial& trial) {

@@ -29,6 +29,9 @@ double bytes_of_particle(const Case& spec);
 /// At one stage of a run, or on several ranks.
 RunMemory operator+(const RunMemory& a, const RunMemory& b);
 
+/// Whether an effect adds particles, or replaces them by others.
+bool changes_particles(const Case& spec);
+
 /// The particles at most: those that effects add are found by steps of a part of them.
 double particles_at_most(const Case& spec, Trial& trial);
 

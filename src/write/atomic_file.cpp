@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 void write_atomically(const fs::path& file, const std::function<void(std::FILE*)>& write, const InHaste& in_haste) {
   try {
-    if (file.has_parent_path()) fs::create_directories(file.parent_path());
+    if (file.has_parent_path()) make_folder(file.parent_path(), in_haste);
     PartFile part(file);
     write(part.stream());
     part.flush(in_haste);

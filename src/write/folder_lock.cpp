@@ -14,6 +14,7 @@
 
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
+#include "write/part_file.hpp"
 
 namespace gaussdrift::write {
 
@@ -54,10 +55,21 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
+bool is_in_use(const fs::path& folder) {
+  const int descriptor =
+      ::open((folder / lock_name).c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0) return false;  // it is removed with the lock
+  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return held;
+}
+
 FolderLock::FolderLock(fs::path folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) refuse(folder, problem.value());
+  try {
+    make_folder(folder);
+  } catch (const std::system_error& error) {
+    refuse(folder, error.code().value());
+  }
   file_ = folder / lock_name;
   for (;;) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
@@ -81,7 +93,7 @@ FolderLock::FolderLock(fs::path folder) {
   const std::string words = fmt::format("process {} on {}\n", getpid(), host_name());
   if (::ftruncate(descriptor_, 0) != 0 ||  // what it says is for people: a full disk is met by others
       ::pwrite(descriptor_, words.data(), words.size(), 0) < 0)
-    problem.clear();
+    errno = 0;
   clear(folder, deepest);
 }
 

@@ -22,6 +22,9 @@ class FolderLock {
   int descriptor_ = -1;
 };
 
+/// Whether a process, or this one, holds the lock of a folder.
+bool is_in_use(const std::filesystem::path& folder);
+
 /// The name of the file that is locked.
 constexpr const char* lock_name = ".gaussdrift.lock";
 

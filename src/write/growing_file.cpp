@@ -22,7 +22,7 @@ std::string beginning_of(const PartFile& file, long size) {
 
 void GrowingFile::begin(std::string_view body) {
   try {
-    if (file_.has_parent_path()) fs::create_directories(file_.parent_path());
+    if (file_.has_parent_path()) make_folder(file_.parent_path());
     Twin next{std::make_unique<PartFile>(file_), static_cast<long>(body.size())};
     next.file->write_at(0, std::string(body) + end_);
     next.file->flush();

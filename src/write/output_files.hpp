@@ -56,6 +56,9 @@ const FileKind& density_output();
 /// Bytes that numbers take as text in a ParaView file: four letters for three bytes.
 constexpr double bytes_as_text(double numbers) { return 4. / 3 * 8 * numbers; }
 
+/// Files of the first outputs of a run that are not there, pieces among them, as seen from its folder.
+std::vector<std::string> missing_files(const FileKind& kind, const std::filesystem::path& folder, std::size_t outputs);
+
 /// Writes NAME.pvd and NAME/NAME_0000.vti, ...; where density or particles come in pieces NAME/NAME_0000.pvti, ... and
 /// NAME/NAME_0000/0000.vti, ...
 std::unique_ptr<Observer> file_series(const FileKind& kind, const std::filesystem::path& folder);

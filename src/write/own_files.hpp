@@ -10,8 +10,8 @@
 namespace gaussdrift::write {
 
 /// Names as seen from the folder of the run, in one of three forms: "series.csv"; "density/density_{0000..0012}.vti", a
-/// range as shells write it; "state/", all that is in a folder, or in a range of folders as
-/// "density/density_{0000..0012}/". Names that lead out of the folder are not taken.
+/// range as shells write it, or "density/density_{0000..0012}/{0000..0007}.vti", one in each folder of a range;
+/// "state/0/", all that is in a folder. Names that lead out of the folder are not taken.
 class OwnFiles {
  public:
   OwnFiles() = default;
@@ -34,6 +34,8 @@ class OwnFiles {
   std::unordered_set<std::string> single_;  // of them, those of one file: a stranger's list may be long
   std::vector<std::string> many_;           // ranges and folders
 };
+
+constexpr std::size_t most_pieces = 1'000'000;  // of an output, where it is not known how many there will be
 
 /// "density/density_{0000..0012}.vti"; `count` files from 0.
 std::string numbered_names(std::string_view before, std::size_t count, std::string_view ending);

@@ -11,6 +11,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/seam.hpp"
 #include "gaussdrift/error.hpp"
@@ -104,6 +105,14 @@ void flush_folder(const fs::path& folder) {
   const int problem = ::fsync(descriptor) == 0 || errno == EINVAL ? 0 : errno;
   ::close(descriptor);
   if (problem) throw std::system_error(problem, std::generic_category());
+}
+
+void make_folder(const fs::path& folder, const InHaste& in_haste) {
+  std::vector<fs::path> made;
+  for (fs::path name = folder; !name.empty() && !fs::exists(name); name = name.parent_path()) made.push_back(name);
+  fs::create_directories(folder);
+  for (const fs::path& name : made)
+    if (!is_in(in_haste)) flush_folder(folder_of(name));
 }
 
 bool is_part_name(std::string_view name) {

@@ -18,6 +18,10 @@ void flush_folder(const std::filesystem::path& folder);
 /// Says that there is no time to wait for the disk any longer. Several threads may ask.
 using InHaste = std::function<bool()>;
 
+/// Makes a folder, and those around it, where they are not there. Returns when the disk has their names, or at once where
+/// `in_haste` says so. Throws std::system_error.
+void make_folder(const std::filesystem::path& folder, const InHaste& in_haste = {});
+
 /// Waits until the disk has all of an open file. Large files are waited for piece by piece: each is a seam (base/seam.hpp),
 /// and is left where `in_haste` says so. Returns whether the disk has all. Throws std::system_error.
 bool force_to_disk(int descriptor, const InHaste& in_haste = {});

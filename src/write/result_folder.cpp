@@ -11,6 +11,7 @@
 #include "base/json_file.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
+#include "write/part_file.hpp"
 #include "write/provenance.hpp"
 
 namespace gaussdrift::write {
@@ -101,6 +102,13 @@ ResultFolder::ResultFolder(fs::path folder, std::string kind, Earlier earlier, c
 }
 
 ResultFolder::~ResultFolder() {
+  if (begun_ && !complete_) {
+    try {
+      tell("failed");
+    } catch (const std::exception&) {
+      // A disk that is full: status.json still says "running", and no process holds the lock.
+    }
+  }
   std::error_code not_empty;
   if (!made_ || begun_) return;
   fs::remove(folder_ / lock_name, not_empty);
@@ -112,9 +120,11 @@ void ResultFolder::set_aside() {
   if (aside_)
     if (const auto before = status_in(aside)) remove_results(aside, before->files);
   write_status(folder_, {{"kind", kind_}, {"set_aside", true}, {"files", earlier_.names()}});
-  std::error_code problem;
-  fs::create_directory(aside, problem);
-  if (problem) refuse(folder_, fmt::format("earlier in it cannot be made: {}", problem.message()));
+  try {
+    make_folder(aside);
+  } catch (const std::system_error& error) {
+    refuse(folder_, fmt::format("earlier in it cannot be made: {}", error.code().message()));
+  }
   earlier_.move(folder_, aside);
   OwnFiles({status_name}).move(folder_, aside);
   aside_ = true;
@@ -154,7 +164,10 @@ void ResultFolder::has_result() {
   aside_ = false;
 }
 
-void ResultFolder::complete() { tell("complete"); }
+void ResultFolder::complete() {
+  tell("complete");
+  complete_ = true;
+}
 
 void ResultFolder::tell(const std::string& state) const {
   write_status(folder_, {{"kind", kind_},

@@ -22,6 +22,7 @@ class ResultFolder {
   /// Locks the folder; it stays as it is until the first result. `kind`: "study". `without_list`: files of earlier
   /// results in folders of versions that wrote no list.
   ResultFolder(std::filesystem::path folder, std::string kind, Earlier earlier, const OwnFiles& without_list = {});
+  /// What has begun and is not complete has failed.
   ~ResultFolder();
   ResultFolder(const ResultFolder&) = delete;
   ResultFolder& operator=(const ResultFolder&) = delete;
@@ -44,7 +45,7 @@ class ResultFolder {
   const bool made_;  // the folder was not there before
   FolderLock lock_;
   OwnFiles earlier_, own_;
-  bool replaces_ = false, begun_ = false, aside_ = false, has_result_ = false;
+  bool replaces_ = false, begun_ = false, aside_ = false, has_result_ = false, complete_ = false;
 };
 
 }  // namespace gaussdrift::write

@@ -32,9 +32,14 @@ constexpr const char* status_name = "status.json";
 constexpr const char* earlier_name = "earlier";
 constexpr std::size_t most_names = 40'000;  // in status.json, and as many as most_json_of_names has room for
 
-/// The files that a run writes: series of these kinds, `most` files each. `in_pieces`: where its grid has several.
+/// In how many pieces an output may be written.
+struct Pieces {
+  std::size_t of_density = 1, of_particles = 1;
+};
+
+/// The files that a run writes: series of these kinds, `most` files each.
 OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<std::string>& picture_styles,
-                      std::size_t most, bool in_pieces) {
+                      std::size_t most, const Pieces& pieces) {
   OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
                   "state/0/", "state/1/", "state/outputs.raw", "state/pictures/", "summary.json", "summary.png",
                   "view.py"});
@@ -42,28 +47,29 @@ OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<s
     files.add(name + ".pvd");
     const FileKind& kind = find_output_file(name);
     const std::string numbered = name + "/" + name + "_";
-    const bool pieces_for_certain = in_pieces && kind.piece;
+    const bool pieces_for_certain = kind.piece && pieces.of_density > 1;
     if (!pieces_for_certain) files.add(numbered_names(numbered, most, kind.ending));
-    if (!pieces_for_certain && !kind.particle_piece) continue;  // how many particles there will be is not known yet
+    const std::size_t count = pieces_for_certain ? pieces.of_density : kind.particle_piece ? pieces.of_particles : 1;
+    if (count <= 1) continue;
     files.add(numbered_names(numbered, most, kind.index_ending));
-    files.add(numbered_names(numbered, most, "/"));
+    files.add(numbered_names(numbered_names(numbered, most, "/"), count, kind.ending));
   }
   for (const std::string& style : picture_styles) files.add(numbered_names("images/" + style + "_", most, ".png"));
   return files;
 }
 
-OwnFiles files_of(const Case& spec) {
+OwnFiles files_of(const Case& spec, std::size_t particle_pieces) {
   std::vector<std::string> kinds, styles;
   for (const OutputFile& file : spec.output.files) kinds.emplace_back(file.name);
   for (const PictureStyle& style : spec.output.images) styles.emplace_back(style.name);
-  return files_of_run(kinds, styles, spec.output.times.size(), pieces_of_grid(spec).count() > 1);
+  return files_of_run(kinds, styles, spec.output.times.size(), {pieces_of_grid(spec).count(), particle_pieces});
 }
 
-/// Of a version that wrote no list.
+/// Of a version that wrote no list, and no pieces.
 OwnFiles files_without_list(const std::vector<std::string>& picture_styles) {
   std::vector<std::string> kinds;
   for (const FileKind& kind : output_files()) kinds.emplace_back(kind.about.name);
-  return files_of_run(kinds, picture_styles, 1'000'000'000, false);
+  return files_of_run(kinds, picture_styles, 1'000'000'000, {});
 }
 
 /// What status.json says. The folder may be a stranger's. Throws FileError if the file is damaged: which files are the
@@ -190,7 +196,7 @@ std::string view_script(const Case& spec) {
 }  // namespace
 
 RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& options)
-    : folder_(std::move(folder)), own_(files_of(spec)) {
+    : folder_(std::move(folder)), own_(files_of(spec, options.particle_pieces)) {
   std::error_code problem;
   const fs::file_status status = fs::status(folder_, problem);
   if (fs::exists(status) && !fs::is_directory(status)) refuse(folder_, "it is a file");
@@ -206,6 +212,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
     for (const std::string& name : files.names()) own_.add(name);
     outputs_ = run.outputs, time_ = run.time;
     check_space(folder_, options.bytes, own_.bytes_in(folder_));
+    keep_room_for_last_word();
     tell("running", "wait, or look at what is there: every file is whole");
     return;
   }
@@ -234,6 +241,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
     refuse(folder_, "earlier in it is not of a run, and an earlier run would be kept there; move it away");
   refuse_strangers(files, "the earlier run");
   check_space(folder_, options.bytes, files.bytes_in(folder_));
+  keep_room_for_last_word();                       // without it the earlier run stays where it is
   fs::remove(folder_ / "run.toml.part", problem);  // of earlier versions, killed at once
   if (killed_at_once)
     remove_run(folder_, files);
@@ -261,9 +269,11 @@ void RunFolder::set_aside(const OwnFiles& earlier, bool has_outputs, bool lists_
   list["files"] = earlier.names();
   if (!list.contains("last_output")) list["last_output"] = nullptr;
   write_text(folder_ / status_name, text_of(list));
-  std::error_code problem;
-  fs::create_directory(aside, problem);
-  if (problem) refuse(folder_, fmt::format("earlier in it cannot be made: {}", problem.message()));
+  try {
+    make_folder(aside);
+  } catch (const std::system_error& error) {
+    refuse(folder_, fmt::format("earlier in it cannot be made: {}", error.code().message()));
+  }
   earlier.move(folder_, aside);
   OwnFiles({status_name}).move(folder_, aside);
   keeps_earlier_ = true;
@@ -275,27 +285,66 @@ RunFolder::~RunFolder() {
     const std::string next = "gaussdrift resume goes on, or run it again with --force";
     end("failed", keeps_earlier_ ? next + "; the earlier run is whole in the folder earlier" : next);
   } catch (const std::exception&) {
-    // A disk that is full: status.json still says "running", and no process holds the lock.
+    // A disk that takes nothing at all: status.json still says "running", and no process holds the lock.
   }
 }
 
 void RunFolder::end(const std::string& state, const std::string& next) {
-  tell(state, next);
+  try {
+    tell(state, next);
+  } catch (const FileError&) {
+    if (!tell_without_room(state, next)) throw;
+  }
+  spare_.reset();
   ended_ = true;
 }
 
+std::string RunFolder::status_text(const std::string& state, const std::string& next) const {
+  return text_of({{"kind", "run"},
+                  {"format", 1},
+                  {"state", state},
+                  {"next", next},
+                  {"outputs", outputs_},
+                  {"last_output", time_ ? json(*time_) : json()},
+                  {"written", now()},
+                  {"version", program_version()},
+                  {"pid", getpid()},
+                  {"host", host_name()},
+                  {"files", own_.names()}});
+}
+
 void RunFolder::tell(const std::string& state, const std::string& next) const {
-  write_text(folder_ / status_name, text_of({{"kind", "run"},
-                                             {"format", 1},
-                                             {"state", state},
-                                             {"next", next},
-                                             {"outputs", outputs_},
-                                             {"last_output", time_ ? json(*time_) : json()},
-                                             {"written", now()},
-                                             {"version", program_version()},
-                                             {"pid", getpid()},
-                                             {"host", host_name()},
-                                             {"files", own_.names()}}));
+  write_text(folder_ / status_name, status_text(state, next));
+}
+
+/// A disk that fills up has no room for another status.json, and the old one says "running". So there is a hidden file of
+/// that size, which is filled in its place and takes the name.
+void RunFolder::keep_room_for_last_word() {
+  const std::size_t longest_next = 1000 + 6 * folder_.string().size();  // a letter may become \u0012
+  const std::string room(status_text("running", "").size() + longest_next, '\n');
+  try {
+    spare_.emplace(folder_ / status_name);
+    spare_->write_at(0, room);
+    spare_->flush();
+    spare_bytes_ = room.size();
+  } catch (const std::system_error& error) {
+    fail_to_write(folder_ / status_name, error.code().value());
+  }
+}
+
+/// False if there is no room either.
+bool RunFolder::tell_without_room(const std::string& state, const std::string& next) {
+  std::string text = status_text(state, next);
+  if (!spare_ || text.size() > spare_bytes_) return false;
+  text.append(spare_bytes_ - text.size(), '\n');
+  try {
+    spare_->write_at(0, text);
+    spare_->flush();
+    spare_->take_name(folder_ / status_name);
+    return true;
+  } catch (const std::system_error&) {
+    return false;
+  }
 }
 
 void RunFolder::seen(double time) {

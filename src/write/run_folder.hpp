@@ -12,6 +12,7 @@
 #include "gaussdrift/frame.hpp"
 #include "write/folder_lock.hpp"
 #include "write/own_files.hpp"
+#include "write/part_file.hpp"
 
 namespace gaussdrift::write {
 
@@ -19,6 +20,7 @@ struct RunFolderOptions {
   bool force = false;                         // an earlier run is replaced
   bool go_on = false;                         // the run in the folder goes on: nothing is replaced
   double bytes = 0;                           // that the run will write, as predicted
+  std::size_t particle_pieces = 1;            // of an output, at most
   std::vector<std::string> picture_styles{};  // that there are: runs of versions without status.json are known by them
 };
 
@@ -46,7 +48,10 @@ class RunFolder {
   void set_aside(const OwnFiles& earlier, bool has_outputs, bool lists_itself);
   void seen(double time);
   void end(const std::string& state, const std::string& next);
+  std::string status_text(const std::string& state, const std::string& next) const;
   void tell(const std::string& state, const std::string& next) const;
+  void keep_room_for_last_word();
+  bool tell_without_room(const std::string& state, const std::string& next);
 
   const std::filesystem::path folder_;
   std::optional<FolderLock> lock_;
@@ -54,6 +59,8 @@ class RunFolder {
   std::size_t outputs_ = 0;
   std::optional<double> time_;  // of the last output
   bool keeps_earlier_ = false, ended_ = false;
+  std::optional<PartFile> spare_;  // room for the last status.json, on a disk that is full by then
+  std::size_t spare_bytes_ = 0;
 };
 
 /// Puts more files onto the list of the run in that folder, before they are written. Throws FileError where one is there

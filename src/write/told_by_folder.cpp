@@ -41,6 +41,13 @@ std::string told_state(const fs::path& folder) {
   return text_in(folder / "status.json", base::most_json_of_names, "state");
 }
 
+std::size_t told_outputs(const fs::path& folder) {
+  const auto status =
+      base::json_if_there(folder / "status.json", base::most_json_of_names, "remove it: resume goes on without it");
+  const auto outputs = status ? status->value("outputs", nlohmann::ordered_json()) : nlohmann::ordered_json();
+  return outputs.is_number_unsigned() ? outputs.get<std::size_t>() : 0;
+}
+
 std::string told_name(const fs::path& folder) {
   return text_in(folder / "provenance.json", base::most_json_of_numbers, "name");
 }

@@ -1,6 +1,7 @@
 // What the files of a folder tell about the run or the study that left them. The folder may be a stranger's.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -15,6 +16,9 @@ bool says_complete(const std::filesystem::path& folder);
 
 /// "running", "complete", ... of status.json; empty if there is none: earlier versions wrote none.
 std::string told_state(const std::filesystem::path& folder);
+
+/// How many outputs are whole, by status.json; 0 if there is none.
+std::size_t told_outputs(const std::filesystem::path& folder);
 
 /// Of the case as it was run, from provenance.json; empty if there is none.
 std::string told_name(const std::filesystem::path& folder);

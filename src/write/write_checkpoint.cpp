@@ -208,7 +208,8 @@ bool force_checkpoints(const fs::path& folder, const InHaste& in_haste, int rank
     }
   }
   try {
-    for (const fs::path& inner : {checkpoint_slot(folder, 0), checkpoint_slot(folder, 1), folder / checkpoints_folder})
+    for (const fs::path& inner :
+         {checkpoint_slot(folder, 0), checkpoint_slot(folder, 1), folder / checkpoints_folder, folder})
       if (fs::exists(inner)) flush_folder(inner);
   } catch (const std::system_error& error) {
     fail_to_write(folder / checkpoints_folder, error.code().value());

@@ -9,11 +9,6 @@ namespace {
 /// Else nine of ten allocations are made for it, after the run.
 const std::string without_budget = "\n[accuracy]\nbudget = \"none\"\n";
 
-/// VTK's writer of particles frees what it has not, where its memory runs out (docs/reliability.md).
-std::string without_particle_files(std::string text) {
-  return text.insert(text.find("images = ["), "vtk = [\"density\"]\n");
-}
-
 class BytesWritten : public Faults {};
 
 /// With a checkpoint at each of them. They would grow with the square if a checkpoint had all outputs.
@@ -43,6 +38,15 @@ TEST_F(Faults, ADiskThatStaysFull) {
   tell("calls found the disk full, and so did all later ones", calls);
 }
 
+/// What needs no room goes on: so the folder can say how the run ended.
+TEST_F(Faults, ADiskThatStaysFullForWhatNeedsRoom) {
+  tells_its_end = true;
+  const long calls = begin(apart).calls;
+  for (const long at : spread(0, calls, faults_of_a_test(30)))
+    suffer("FAULTS_LASTING=room " + at_call(at, ENOSPC), of_files);
+  tell("calls found the disk full, and so did all later ones that need room", calls);
+}
+
 TEST_F(Faults, ACallThatFailsWithAnErrorOfTheDisk) {
   const long calls = begin(apart).calls;
   for (const long at : spread(0, calls, faults_of_a_test(30))) suffer(at_call(at, EIO), of_files);
@@ -62,6 +66,16 @@ TEST_F(Faults, ASignal) {
   tell("calls in which SIGTERM came, in a run with pictures and a page", calls);
 }
 
+/// One at every call from this one on: the second ends the program at once, in the middle of its last checkpoint mostly.
+TEST_F(Faults, ASecondSignal) {
+  const long calls = begin(drawn).calls;
+  for (const long at : spread(0, calls - 1, faults_of_a_test(10))) {
+    suffer("FAULTS_LASTING=1 " + signalled_at(at), of_second_signals);
+    EXPECT_EQ(last_.err.find("resume with"), std::string::npos) << "it went on to its last word";
+  }
+  tell("calls from which on SIGTERM came, in a run with pictures and a page", calls);
+}
+
 /// Before main, while the command line is read, and while the tables of keys are made.
 TEST_F(Faults, EachOfTheFirstAllocations) {
   from_its_loading = true;
@@ -73,7 +87,7 @@ TEST_F(Faults, EachOfTheFirstAllocations) {
 
 TEST_F(Faults, ALaterAllocation) {
   constexpr long first = 500;
-  const long allocations = begin(without_particle_files(apart) + without_budget, "FAULTS_NEW_ALL=1").allocations;
+  const long allocations = begin(apart + without_budget, "FAULTS_NEW_ALL=1").allocations;
   for (const long at : spread(first, allocations, faults_of_a_test(200)))
     suffer("FAULTS_NEW_ALL=1 FAULTS_NEW_AT=" + std::to_string(at), of_memory);
   tell("later allocations failed", allocations - first);
@@ -93,7 +107,7 @@ TEST_F(Faults, AnAllocationBeforeItWrites) {
 /// Some of them while threads share work. Which one comes at which number is left to chance; what is promised is not.
 TEST_F(Faults, AnAllocationWithTwoThreads) {
   threads = 2;
-  const long allocations = begin(without_particle_files(small(150, "", "none")) + without_budget).allocations;
+  const long allocations = begin(small(150, "", "none") + without_budget).allocations;
   for (const long at : spread(0, allocations, faults_of_a_test(10)))
     suffer("FAULTS_NEW_AT=" + std::to_string(at), of_memory);
   tell("allocations failed in a run on two threads, once it wrote", allocations);

@@ -41,7 +41,7 @@ inline const std::string drawn = small(30, draws_pictures ? "\"heatmap\"" : "", 
 
 /// The program may go on to its end (0) where nothing is lost.
 inline const std::set<int> of_files{0, 6}, of_memory{0, 3, 6}, of_kills{128 + 9},  // as the shell tells it
-    of_signals{0, 128 + 15};
+    of_signals{0, 128 + 15}, of_second_signals{128 + 15};
 
 /// How many faults a test makes: GAUSSDRIFT_FAULTS (tools/torture), else `usual`.
 inline long faults_of_a_test(long usual) {
@@ -112,7 +112,7 @@ class Faults : public testing::Test {
   /// One fault, and all that is promised after it.
   void suffer(const std::string& faults, const std::set<int>& documented) {
     take_place();
-    const Outcome outcome = call(command_, faults);
+    const Outcome outcome = last_ = call(command_, faults);
     const std::string report = read_file(folder / "report.txt");
     SCOPED_TRACE(faults + ", which " + report.substr(0, report.find('\n')));
     ++exits_[outcome.exit_code];
@@ -124,6 +124,7 @@ class Faults : public testing::Test {
     const std::string unreadable = unreadable_in(folder / "part");
     EXPECT_EQ(unreadable, "");
     unreadable_ += std::count(unreadable.begin(), unreadable.end(), '\n');
+    if (tells_its_end && outcome.exit_code == 6) expect_end_is_told();
     if (!before_.empty()) expect_nothing_lost();
     // A run that could not begin has nothing to go on from, and nothing in the way of the next.
     if (fs::exists(folder / "part")) go_on(outcome);
@@ -151,6 +152,8 @@ class Faults : public testing::Test {
   const ScratchFolder folder;
   int threads = 1;
   bool from_its_loading = false;  // faults before main, too
+  bool tells_its_end = false;     // where files fail, the folder says so
+  Outcome last_;                  // of the command that suffered last
 
  private:
   Counts counts() const {
@@ -171,6 +174,12 @@ class Faults : public testing::Test {
     const auto at = err.find("out of memory");
     EXPECT_NE(at, std::string::npos) << err;
     EXPECT_EQ(err.find("out of memory", at + 1), std::string::npos) << err;
+  }
+
+  /// A run that has begun to write says that it is no longer running.
+  void expect_end_is_told() const {
+    if (!fs::exists(folder / "part/status.json")) return;
+    EXPECT_NE(status_of("part").at("state"), "running");
   }
 
   /// What was in part/ is there or in part/earlier/, until the new run has an output.

@@ -73,6 +73,14 @@ TEST(ResultFolder, ResultsOfSeveralCallsMayJoin) {
   EXPECT_EQ(read_file(folder / "s/b.csv"), "first");
 }
 
+TEST(ResultFolder, TellsHowItEnded) {
+  const ScratchFolder folder;
+  results_in(folder / "s", "first", Earlier::refuse);
+  EXPECT_NE(read_file(folder / "s/status.json").find("\"state\": \"complete\""), std::string::npos);
+  results_in(folder / "s", "second", Earlier::replace, false);
+  EXPECT_NE(read_file(folder / "s/status.json").find("\"state\": \"failed\""), std::string::npos);
+}
+
 TEST(ResultFolder, IsOfOneProcessAndGoesAwayIfNothingIsWritten) {
   const ScratchFolder folder;
   {

@@ -12,6 +12,7 @@
 #include "message_of.hpp"
 #include "scratch_folder.hpp"
 #include "write/atomic_file.hpp"
+#include "write/disk.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::write {
@@ -274,6 +275,73 @@ TEST(RunFolder, RefusesARunThatTheDiskCannotTakeWithBothNumbers) {
   EXPECT_FALSE(fs::exists(folder / "new"));
 }
 
+/// Pieces are the run's own by their names, and what others put beside them is not.
+TEST(RunFolder, LeavesWhatOthersHavePutBesideItsPieces) {
+  const ScratchFolder folder;
+  Case spec = some_case();
+  for (const FileKind& kind : output_files())
+    if (kind.particle_piece) spec.output.files.push_back(kind.about);
+  {
+    RunFolder run(folder / "r", spec, {.particle_pieces = 2});
+    for (const char* file : {"particles/particles_0000/0000.vtp", "particles/particles_0000/0001.vtp",
+                             "particles/particles_0000.pvtp", "density/density_0000.vti"})
+      write_text(folder / "r" / file, "its own");
+    run.watch()->frame(Frame{.index = 0, .time = 0, .numbers = {}});
+    run.complete();
+  }
+  const std::vector<std::string> of_others{"particles/particles_0000/notes.txt", "particles/particles_0000/0002.vtp",
+                                           "particles/particles_0002/notes.txt", "density/density_0001/0000.vti",
+                                           "density/density_0001/x/y.txt"};
+  for (const std::string& file : of_others) write_text(folder / "r" / file, "mine");
+  {
+    const RunFolder run(folder / "r", spec, {.force = true});
+    EXPECT_EQ(read_file(folder / "r/earlier/particles/particles_0000/0001.vtp"), "its own");
+    EXPECT_EQ(read_file(folder / "r/earlier/particles/particles_0000.pvtp"), "its own");
+  }
+  {
+    RunFolder run(folder / "r", spec, {.force = true});
+    run.watch()->frame(Frame{.index = 0, .time = 0, .numbers = {}});
+    run.complete();
+  }
+  EXPECT_FALSE(fs::exists(folder / "r/earlier"));
+  EXPECT_FALSE(fs::exists(folder / "r/particles/particles_0000/0000.vtp"));
+  for (const std::string& file : of_others) EXPECT_EQ(read_file(folder / "r" / file), "mine") << file;
+}
+
+TEST(RunFolder, SaysThatItFailedOnADiskThatIsFull) {
+  const ScratchFolder folder;
+  const SmallDisk disk(folder.path());
+  if (!disk.mounted()) GTEST_SKIP() << "this user may not mount a small file system";
+  {
+    RunFolder run(folder / "r", some_case(), {});
+    std::string fill(1 << 20, 'x');
+    while (!fill.empty()) {
+      try {
+        write_text(folder / ("fill" + std::to_string(fill.size())), fill);
+        fill.resize(fill.size() / 2 + 1 == fill.size() ? 0 : fill.size() / 2);
+      } catch (const FileError&) {
+        fill.resize(fill.size() / 2);
+      }
+    }
+    EXPECT_EQ(state_in(folder / "r"), "running");
+    EXPECT_THROW(write_text(folder / "more", "x"), FileError) << "the disk is full";
+  }
+  EXPECT_EQ(state_in(folder / "r"), "failed");
+  EXPECT_TRUE(is_in_use(folder / "r") == false);
+  for (const auto& entry : fs::directory_iterator(folder / "r")) EXPECT_EQ(entry.path().filename(), "status.json");
+}
+
+TEST(FolderLock, IsSeenByOthers) {
+  const ScratchFolder folder;
+  EXPECT_FALSE(is_in_use(folder.path()));
+  {
+    const FolderLock lock(folder.path());
+    EXPECT_TRUE(is_in_use(folder.path()));
+  }
+  write_text(folder / lock_name, "process 1 on nowhere\n");  // left by a process that was killed
+  EXPECT_FALSE(is_in_use(folder.path()));
+}
+
 TEST(OwnFiles, HasRangesAndFolders) {
   const OwnFiles files({"a.csv", numbered_names("d/d_", 12, ".vti"), "state/"});
   for (const char* name : {"a.csv", "d/d_0000.vti", "d/d_0011.vti", "state/x"}) EXPECT_TRUE(files.has(name)) << name;
@@ -281,6 +349,14 @@ TEST(OwnFiles, HasRangesAndFolders) {
                            "d/d_{0000..0011}.vtix"})
     EXPECT_FALSE(files.has(name)) << name;
   EXPECT_TRUE(OwnFiles({numbered_names("d_", 20000, "")}).has("d_12345"));
+  const OwnFiles pieces({numbered_names(numbered_names("d/d_", 12, "/"), 3, ".vti")});
+  for (const char* name : {"d/d_0000/0000.vti", "d/d_0011/0002.vti"}) EXPECT_TRUE(pieces.has(name)) << name;
+  for (const char* name :
+       {"d/d_0012/0000.vti", "d/d_0011/0003.vti", "d/d_0011/0002.vtp", "d/d_0011", "d/d_0011/", "d/0002.vti"})
+    EXPECT_FALSE(pieces.has(name)) << name;
+  const OwnFiles of_earlier_version({"d/d_{0000..0011}/"});
+  EXPECT_TRUE(of_earlier_version.has("d/d_0003/0123.vti"));
+  EXPECT_FALSE(of_earlier_version.has("d/d_0003/notes.txt"));
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 //   FAULTS_AT       which call fails, from 1
 //   FAULTS_ERROR    with which errno; "kill": the process is killed there by SIGKILL; "term": it gets SIGTERM there, and
 //                   the call is done
-//   FAULTS_LASTING  set: all later calls fail too, but those that close or remove, as on a disk that stays full
+//   FAULTS_LASTING  set: all later calls fail too, but those that close or remove, as on a disk that takes nothing more;
+//                   "room": only those that need room do, as on a disk that stays full. A later signal comes at each call
+//   FAULTS_LOG      file that takes a line for each write, fsync, rename and new folder: "<call> <inode> <file>". A new name
+//                   has the inode of the file that gets it, a folder 0
 //   FAULTS_NEW_AT   which allocation of the program itself fails, from 1 after the first call that is counted
 //   FAULTS_NEW_ALL  set: allocations are counted from the start of the program
 //   FAULTS_REPORT   file that takes "struck <call> <file>" at the fault and "calls <n> allocations <n> bytes <n>"
@@ -52,14 +55,16 @@ struct Plan {
       signal = std::strcmp(text, "kill") == 0 ? SIGKILL : std::strcmp(text, "term") == 0 ? SIGTERM : 0;
     report = std::getenv("FAULTS_REPORT");
     at = number_of("FAULTS_AT"), error = static_cast<int>(number_of("FAULTS_ERROR"));
-    lasting = std::getenv("FAULTS_LASTING") != nullptr;
+    if (const char* text = std::getenv("FAULTS_LASTING")) lasting = true, room = std::strcmp(text, "room") == 0;
+    log = std::getenv("FAULTS_LOG");
     new_at = number_of("FAULTS_NEW_AT"), new_all = std::getenv("FAULTS_NEW_ALL") != nullptr;
   }
   const char* folder = nullptr;
   const char* report = nullptr;
+  const char* log = nullptr;
   long at = 0, new_at = 0;
   int error = 0, signal = 0;
-  bool lasting = false, new_all = false;
+  bool lasting = false, room = false, new_all = false;
 };
 
 Plan& plan() {
@@ -70,15 +75,23 @@ Plan& plan() {
 std::atomic<long> calls{0}, allocations{0}, bytes{0};
 
 /// Without stdio and without operator new, which are counted.
-void report(const char* line) {
+void add_line(const char* file, const char* line) {
   static const auto open_it = next<int(const char*, int, ...)>("open");
   static const auto write_it = next<ssize_t(int, const void*, size_t)>("write");
   static const auto close_it = next<int(int)>("close");
-  if (!plan().report) return;
-  const int descriptor = open_it(plan().report, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (!file) return;
+  const int descriptor = open_it(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor < 0) return;
   if (write_it(descriptor, line, std::strlen(line)) < 0) std::abort();
   close_it(descriptor);
+}
+
+void report(const char* line) { add_line(plan().report, line); }
+
+void log(const char* call, unsigned long inode, const char* file) {
+  char line[4200];
+  std::snprintf(line, sizeof line, "%s %lu %s\n", call, inode, file);
+  add_line(plan().log, line);
 }
 
 bool is_counted(const char* path) {
@@ -105,7 +118,25 @@ struct NameOf {
   char name[4096];
 };
 
-enum class Kind { writes, closes };
+void log_open(const char* call, int descriptor) {
+  struct stat facts {};
+  const NameOf file(descriptor);
+  if (plan().log && is_counted(file.name) && ::fstat(descriptor, &facts) == 0) log(call, facts.st_ino, file.name);
+}
+
+void log_name(const char* call, const char* from, const char* to) {
+  struct stat facts {};
+  if (plan().log && is_counted(to)) log(call, ::lstat(from, &facts) == 0 ? facts.st_ino : 0, to);
+}
+
+/// `stays`: needs no room that the file has not already.
+enum class Kind { writes, stays, closes };
+
+/// Of bytes that are written at a place of a file.
+Kind kind_of(int descriptor, off_t end) {
+  struct stat facts {};
+  return ::fstat(descriptor, &facts) == 0 && end <= facts.st_size ? Kind::stays : Kind::writes;
+}
 
 /// Counts a call. True: this one is to fail, after `half` of its work. It does not return where the process is to die.
 template <class Half>
@@ -114,7 +145,8 @@ bool strikes(const char* call, const char* path, Kind kind, const Half& half) {
   if (!is_counted(path)) return errno = before, false;
   const long number = ++calls;
   const bool first = number == plan().at;
-  const bool later = plan().lasting && plan().at > 0 && number > plan().at && kind == Kind::writes;
+  const bool fails_later = plan().signal || kind == Kind::writes || (kind == Kind::stays && !plan().room);
+  const bool later = plan().lasting && plan().at > 0 && number > plan().at && fails_later;
   if (!first && !later) return errno = before, false;
   if (plan().signal != SIGTERM) half();
   if (first) {
@@ -303,14 +335,18 @@ std::FILE* fdopen(int descriptor, const char* mode) noexcept {
 ssize_t write(int descriptor, const void* data, size_t size) {
   static const auto real = next<ssize_t(int, const void*, size_t)>("write");
   const auto half = [&] { (void)!real(descriptor, data, size / 2); };
-  if (strikes("write", NameOf(descriptor).name, Kind::writes, half)) return -1;
+  const Kind kind = kind_of(descriptor, ::lseek(descriptor, 0, SEEK_CUR) + static_cast<off_t>(size));
+  log_open("write", descriptor);
+  if (strikes("write", NameOf(descriptor).name, kind, half)) return -1;
   return wrote(NameOf(descriptor).name, real(descriptor, data, size));
 }
 
 ssize_t pwrite(int descriptor, const void* data, size_t size, off_t place) {
   static const auto real = next<ssize_t(int, const void*, size_t, off_t)>("pwrite");
   const auto half = [&] { (void)!real(descriptor, data, size / 2, place); };
-  if (strikes("pwrite", NameOf(descriptor).name, Kind::writes, half)) return -1;
+  const Kind kind = kind_of(descriptor, place + static_cast<off_t>(size));
+  log_open("pwrite", descriptor);
+  if (strikes("pwrite", NameOf(descriptor).name, kind, half)) return -1;
   return wrote(NameOf(descriptor).name, real(descriptor, data, size, place));
 }
 
@@ -321,7 +357,9 @@ size_t fwrite(const void* data, size_t size, size_t count, std::FILE* stream) {
     real(data, 1, size * count / 2, stream);
     flush(stream);
   };
-  if (strikes("fwrite", NameOf(fileno(stream)).name, Kind::writes, half)) return count / 2;
+  const Kind kind = kind_of(fileno(stream), std::ftell(stream) + static_cast<off_t>(size * count));
+  log_open("fwrite", fileno(stream));
+  if (strikes("fwrite", NameOf(fileno(stream)).name, kind, half)) return count / 2;
   const size_t written = real(data, size, count, stream);
   wrote(NameOf(fileno(stream)).name, static_cast<ssize_t>(written * size));
   return written;
@@ -329,7 +367,7 @@ size_t fwrite(const void* data, size_t size, size_t count, std::FILE* stream) {
 
 int fflush(std::FILE* stream) {
   static const auto real = next<int(std::FILE*)>("fflush");
-  if (stream && strikes("fflush", NameOf(fileno(stream)).name)) return EOF;
+  if (stream && strikes("fflush", NameOf(fileno(stream)).name, Kind::stays)) return EOF;
   return real(stream);
 }
 
@@ -350,17 +388,21 @@ int close(int descriptor) {
 int fsync(int descriptor) {
   static const auto real = next<int(int)>("fsync");
   const NameOf file(descriptor);
-  if (strikes("fsync", file.name)) return -1;
+  log_open("fsync", descriptor);
+  if (strikes("fsync", file.name, Kind::stays)) return -1;
   return is_counted(file.name) ? 0 : real(descriptor);
 }
 
-#define TAKES_TWO_NAMES(name)                                            \
-  int name(const char* from, const char* to) noexcept {                  \
-    static const auto real = next<int(const char*, const char*)>(#name); \
-    return strikes(#name, to) ? -1 : real(from, to);                     \
-  }
-TAKES_TWO_NAMES(rename)
-TAKES_TWO_NAMES(link)
+int rename(const char* from, const char* to) noexcept {
+  static const auto real = next<int(const char*, const char*)>("rename");
+  log_name("rename", from, to);
+  return strikes("rename", to, Kind::stays) ? -1 : real(from, to);
+}
+
+int link(const char* from, const char* to) noexcept {
+  static const auto real = next<int(const char*, const char*)>("link");
+  return strikes("link", to) ? -1 : real(from, to);
+}
 
 int linkat(int a, const char* from, int b, const char* to, int flags) noexcept {
   static const auto real = next<int(int, const char*, int, const char*, int)>("linkat");
@@ -369,6 +411,7 @@ int linkat(int a, const char* from, int b, const char* to, int flags) noexcept {
 
 int mkdir(const char* path, mode_t mode) noexcept {
   static const auto real = next<int(const char*, mode_t)>("mkdir");
+  log_name("mkdir", path, path);
   return strikes("mkdir", path) ? -1 : real(path, mode);
 }
 
@@ -382,6 +425,7 @@ REMOVES(remove)
 
 int ftruncate(int descriptor, off_t length) noexcept {
   static const auto real = next<int(int, off_t)>("ftruncate");
+  log_open("ftruncate", descriptor);
   return strikes("ftruncate", NameOf(descriptor).name) ? -1 : real(descriptor, length);
 }
 
