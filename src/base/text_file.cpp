@@ -25,10 +25,15 @@ std::string kind_of(const struct stat& facts) {
   return "";
 }
 
-std::string megabytes(std::size_t bytes) {
+std::string size_in_words(std::size_t bytes) {
   char text[32];
   const double mb = static_cast<double>(bytes) / 1e6;
-  std::snprintf(text, sizeof text, mb < 10 ? "%.1f MB" : "%.0f MB", mb);
+  if (bytes < 10'000)
+    std::snprintf(text, sizeof text, "%zu bytes", bytes);
+  else if (mb < 1)
+    std::snprintf(text, sizeof text, "%.0f kB", 1e3 * mb);
+  else
+    std::snprintf(text, sizeof text, mb < 10 ? "%.1f MB" : "%.0f MB", mb);
   return text;
 }
 
@@ -89,8 +94,8 @@ class Reading {
   }
 
   [[noreturn]] void refuse_size(std::size_t bytes) const {
-    throw InputError(file_.string() + " has " + megabytes(bytes) + " or more; " + std::string(kind_) + " has at most " +
-                     megabytes(most_));
+    throw InputError(file_.string() + " has " + size_in_words(bytes) + " or more; " + std::string(kind_) +
+                     " has at most " + size_in_words(most_));
   }
 
   void wait() const {

@@ -36,6 +36,7 @@
 #include "input/data_files.hpp"
 #include "input/same_past.hpp"
 #include "render/styles.hpp"
+#include "sim/particle_pieces.hpp"
 #include "sim/scene.hpp"
 #include "write/atomic_file.hpp"
 #include "write/provenance.hpp"
@@ -69,6 +70,12 @@ double disk_of(const Case& spec, const Simulation& simulation, int threads) {
                                      .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
                                      .compared_everywhere = simulation.compares_everywhere()},
                                     simulation.rough_seconds() / base::resolve_threads(threads));
+}
+
+/// Files of particles that an output may have.
+std::size_t most_particle_pieces(const Case& spec, const Simulation& simulation) {
+  if (accuracy::changes_particles(spec)) return write::most_pieces;
+  return pieces_of_particles(simulation.particle_count(), spec.output.piece_particles);
 }
 
 class Run {
@@ -217,6 +224,7 @@ class Run {
  private:
   void prepare_to_write(Simulation& simulation) {
     prepare_folder(simulation);
+    note("{}", task_.told);
     add_observers(simulation, spec_, folder_, of_observers_);
     const auto& times = spec_.output.times;
     if (looks_back(spec_) && !times.empty()) {
@@ -348,6 +356,7 @@ class Run {
                         write::RunFolderOptions{.force = task_.force,
                                                 .go_on = goes_on,
                                                 .bytes = disk_of(spec_, simulation, task_.threads),
+                                                .particle_pieces = most_particle_pieces(spec_, simulation),
                                                 .picture_styles = render::style_names()});
     if (provenance.empty()) return;
     // First, because it has the name of the case: a run that has a run.toml can be resumed, and pictures show the name.
@@ -382,15 +391,23 @@ class Run {
     }
   }
 
+  /// A run that goes on has a checkpoint of an earlier process at least.
+  bool has_checkpoint() const { return task_.goes_on || (keeper_ && keeper_->written() > 0); }
+
   std::string how_to_go_on() const {
-    return fmt::format("resume with: gaussdrift resume {}", base::shell_word(folder_.string()));
+    const std::string resume = fmt::format("resume with: gaussdrift resume {}", base::shell_word(folder_.string()));
+    if (has_checkpoint()) return resume;
+    const bool wants_none = spec_.output.checkpoint && *spec_.output.checkpoint == 0;
+    return fmt::format(
+        "{}. It begins again from the start, because there is no checkpoint{}. What is written is kept until it has "
+        "its "
+        "first output",
+        resume, wants_none ? " (output.checkpoint = 0)" : "");
   }
 
   std::string stopped_text() const {
-    return fmt::format(
-        "stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end, reason_to_stop(stop_code()),
-        keeper_->written() > 0 ? how_to_go_on()
-                               : "There is no checkpoint, because output.checkpoint = 0: a resumed run begins again.");
+    return fmt::format("stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end,
+                       reason_to_stop(stop_code()), how_to_go_on());
   }
 
   std::string state_text() const {

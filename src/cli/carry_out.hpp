@@ -28,6 +28,7 @@ struct RunTask {
   std::string past{};                                            // past_of() the case, where it is known
   std::optional<ExitCode> done{};                                // nothing is left to do
   bool changed = false;                                          // going on: the case is another than before
+  std::string told{};                                            // lines to be told once nothing is refused any more
 };
 
 /// The hash of all that the particles of a case depend on: settings and the bytes of its data. Throws FileError.

@@ -5,22 +5,44 @@
 
 #include <algorithm>
 
+#include "base/shell_word.hpp"
 #include "base/suggest.hpp"
 #include "cli/terminal.hpp"
 #include "gaussdrift/error.hpp"
 #include "sim/grid_fields.hpp"
+#include "write/folder_lock.hpp"
 #include "write/output_files.hpp"
 #include "write/told_by_folder.hpp"
 
 namespace gaussdrift::cli {
 
-void tell_if_unfinished(const std::filesystem::path& folder) {
-  if (std::filesystem::exists(folder / "run.toml") && !write::says_complete(folder))
-    note("note: {0} is not complete; gaussdrift resume {0} goes on\n", folder.string());
+namespace {
+
+/// Of a damaged status.json nothing is known; what is looked at does not depend on it.
+bool says_running(const std::filesystem::path& folder) {
+  try {
+    return write::told_state(folder) == "running";
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
-std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place) {
-  tell_if_unfinished(place);
+}  // namespace
+
+void tell_if_unfinished(const std::filesystem::path& folder, bool locked) {
+  if (!std::filesystem::exists(folder / "run.toml") || write::says_complete(folder)) return;
+  const std::string go_on = fmt::format("gaussdrift resume {} goes on", base::shell_word(folder.string()));
+  if (!locked && write::is_in_use(folder))
+    note("note: {} is not complete: a process writes into it\n", folder.string());
+  else if (says_running(folder))
+    note("note: {} is not complete: its process was killed, or could not say how it ended; {}\n", folder.string(),
+         go_on);
+  else
+    note("note: {} is not complete; {}\n", folder.string(), go_on);
+}
+
+std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place, bool locked) {
+  tell_if_unfinished(place, locked);
   const std::string_view series = write::density_output().about.name;
   auto outputs = read::written_outputs(place, series);
   if (outputs.empty())

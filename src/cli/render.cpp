@@ -112,7 +112,7 @@ ExitCode render(const RenderOptions& options) {
   const bool into_the_run = options.out.empty() && fs::is_directory(options.folder);
   std::optional<write::FolderLock> lock;
   if (into_the_run) lock.emplace(options.folder);
-  const auto outputs = outputs_of(options.folder);
+  const auto outputs = outputs_of(options.folder, lock.has_value());
   std::set<std::size_t> wanted;
   for (const double time : options.times) wanted.insert(output_at(time, outputs, options.folder));
   for (std::size_t i = 0; options.times.empty() && i < outputs.size(); ++i) wanted.insert(i);

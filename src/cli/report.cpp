@@ -28,7 +28,7 @@ void declare(OptionList& options, ReportOptions& given) {
 ExitCode report(const ReportOptions& options) {
   std::optional<write::FolderLock> lock;
   if (std::error_code ignored; fs::is_directory(options.folder, ignored)) lock.emplace(options.folder);
-  tell_if_unfinished(options.folder);
+  tell_if_unfinished(options.folder, lock.has_value());
   const report::ReportFiles files = report::write_report(options.folder, true);
   if (options.json) {
     nlohmann::ordered_json written = nlohmann::ordered_json::array();

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "base/lies_in.hpp"
 #include "base/text_file.hpp"
 #include "cli/asked_case.hpp"
 #include "cli/carry_out.hpp"
+#include "cli/missing_files.hpp"
 #include "cli/shared_task.hpp"
 #include "cli/stop_request.hpp"
 #include "cli/terminal.hpp"
@@ -56,6 +58,11 @@ std::string name_of(const fs::path& folder) {
 }
 
 Case case_in(const fs::path& folder, const std::vector<std::string>& overrides, int threads) {
+  for (const char* name : {"run.toml", "case.toml"})
+    if (!base::lies_in(folder / name, folder))
+      throw FileError(fmt::format(
+          "{} is a link out of the folder of the run, and such links are not followed; put the file itself there",
+          (folder / name).string()));
   if (!fs::exists(folder / "run.toml"))
     throw FileError(fmt::format("{} holds no run that has begun (it has no run.toml), so there is nothing to resume",
                                 folder.string()));
@@ -78,14 +85,34 @@ void add_outputs(Case& spec, double old_end) {
   if (times.back() < end) times.push_back(end);
 }
 
-/// What was written stays; what is to come is that of the case as it is now.
-void keep_written_outputs(const Case& before, double now, Case& spec) {
-  std::vector<double> times;
-  for (const double time : before.output.times)
+/// What was written stays; what is to come is that of the case as it is now. Returns what was asked for and cannot come
+/// any more.
+std::vector<double> keep_written_outputs(const Case& before, double now, Case& spec) {
+  std::vector<double> times, too_late;
+  const std::vector<double>& written = before.output.times;
+  for (const double time : written)
     if (time < now) times.push_back(time);
   for (const double time : spec.output.times)
-    if (time >= now) times.push_back(time);
+    if (time >= now)
+      times.push_back(time);
+    else if (std::find(written.begin(), written.end(), time) == written.end())
+      too_late.push_back(time);
   spec.output.times = std::move(times);
+  return too_late;
+}
+
+std::string words_of_late_outputs(const std::vector<double>& times, double now) {
+  if (times.empty()) return "";
+  const bool one = times.size() == 1;
+  return fmt::format("warning: no output at t = {:.6g}{}: the run is at t = {:.6g} already\n", times.front(),
+                     one ? "" : fmt::format(" and at {} more times that were asked for", times.size() - 1), now);
+}
+
+/// Outputs that the run has, as far as its checkpoint knows of them.
+std::size_t outputs_until(const Case& spec, double now, const fs::path& folder) {
+  const auto& times = spec.output.times;
+  const auto past = std::count_if(times.begin(), times.end(), [&](double time) { return time <= now; });
+  return std::min(static_cast<std::size_t>(past), write::told_outputs(folder));
 }
 
 void refuse_changed_past(const input::ChangedKeys& changed) {
@@ -152,8 +179,10 @@ RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<
     if (spec.time.end < now)
       throw InputError(
           fmt::format("time.end = {:g} lies before t = {:g}, where the last checkpoint is", spec.time.end, now));
-    keep_written_outputs(before, now, spec);
+    task.told = words_of_late_outputs(keep_written_outputs(before, now, spec), now);
+    tell_missing_files(before, options.folder, outputs_until(before, now, options.folder));
   }
+  if (complete && !task.from) tell_missing_files(before, options.folder, write::told_outputs(options.folder));
   const input::ChangedKeys changed = input::changed_keys(before, spec);
   if (complete && changed.future.empty() && lacks_its_end(options.folder)) {
     note("all numbers are there; the page about them is made again\n");
@@ -170,12 +199,12 @@ RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<
         fmt::format("{} is complete, and it keeps no checkpoint to go on from. Set output.checkpoint in a new run.",
                     options.folder.string()));
   task.changed = !changed.future.empty();
-  if (task.changed) note("changed from now on: {}\n", fmt::join(changed.future, ", "));
+  if (task.changed) task.told += fmt::format("changed from now on: {}\n", fmt::join(changed.future, ", "));
   if (task.from)
-    note("goes on at t = {:.6g} of {:.6g}, after {} steps: the last checkpoint\n", task.from->facts.time, spec.time.end,
-         task.from->facts.steps);
+    task.told += fmt::format("goes on at t = {:.6g} of {:.6g}, after {} steps: the last checkpoint\n",
+                             task.from->facts.time, spec.time.end, task.from->facts.steps);
   else
-    note("there is no checkpoint; the run begins again\n");
+    task.told += "there is no checkpoint; the run begins again\n";
   task.force = !task.from;
   task.goes_on = task.from.has_value();
   if (!task.from && fs::exists(options.folder / "case.toml"))

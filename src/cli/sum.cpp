@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "accuracy/memory_limits.hpp"
+#include "base/size_text.hpp"
 #include "base/stopwatch.hpp"
 #include "base/suggest.hpp"
 #include "cli/asked_case.hpp"
@@ -209,7 +210,11 @@ double read_points(const SumOptions& options, sum::PointsRequest& request) {
   if (!options.grid.empty()) request.grid = sum::parse_grid(options.grid);
   const input::CoordinateNames coordinates = sum::parse_columns(options.columns);
   // Nearly all that a limit leaves; the rest is for the program.
-  const double left = std::max(0.0, 0.9 * accuracy::tightest_limit(most_memory(options.memory)).left());
+  const accuracy::MemoryLimit limit = accuracy::tightest_limit(most_memory(options.memory));
+  if (limit.left() <= 0)
+    throw InputError(fmt::format("{} {}, and the program itself takes {} before it reads a point; allow more memory",
+                                 limit.who, base::size_text(limit.bytes), base::size_text(limit.taken)));
+  const double left = 0.9 * limit.left();
   request.memory_limit = static_cast<std::size_t>(std::min(static_cast<double>(request.memory_limit), left));
   const base::Stopwatch reading;
   const auto read = [&](const fs::path& file, input::PointsRole role) {

@@ -55,9 +55,12 @@ void check_charges(const Eigen::Ref<const Eigen::VectorXd>& charges, std::size_t
 
 void check_memory(const char* what, double bytes, std::size_t limit) {
   if (bytes <= static_cast<double>(limit)) return;
-  throw MemoryLimitError("farfield: " + std::string(what) + " would need " + text(std::ceil(bytes / 1e6)) +
-                             " MB, Options::memory_limit allows " + text(std::floor(static_cast<double>(limit) / 1e6)) +
-                             " MB; raise it, or give fewer points",
+  const bool large = limit >= 10'000'000;
+  const double unit = large ? 1e6 : 1;
+  const std::string name = large ? " MB" : " bytes";
+  throw MemoryLimitError("farfield: " + std::string(what) + " would need " + text(std::ceil(bytes / unit)) + name +
+                             ", Options::memory_limit allows " + text(std::floor(static_cast<double>(limit) / unit)) +
+                             name + "; raise it, or give fewer points",
                          bytes, limit);
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/lies_in.hpp"
 #include "base/printable.hpp"
 #include "read/grid_description.hpp"
 #include "read/grid_file_error.hpp"
@@ -25,11 +26,7 @@ std::filesystem::path file_of(const FileBytes& bytes, const Element& piece, cons
     throw GridFileError(fmt::format("{}: this <Piece> has no Source", line_of(bytes, piece)));
   const fs::path folder = index.has_parent_path() ? index.parent_path() : fs::path(".");
   const fs::path file = folder / *source;
-  std::error_code problem;
-  const fs::path inside = source->find('\0') != source->npos
-                              ? fs::path()
-                              : fs::weakly_canonical(file, problem).lexically_relative(fs::weakly_canonical(folder));
-  if (problem || fs::path(*source).is_absolute() || inside.empty() || *inside.begin() == "..")
+  if (fs::path(*source).is_absolute() || !base::lies_in(file, folder))
     throw GridFileError(fmt::format("{}: the piece {} is not in the folder of {}", line_of(bytes, piece),
                                     base::in_quotes(*source, 60), bytes.name()));
   if (file.extension() != ".vti")

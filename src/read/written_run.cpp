@@ -6,6 +6,7 @@
 #include <charconv>
 #include <map>
 
+#include "base/lies_in.hpp"
 #include "gaussdrift/error.hpp"
 #include "read/grid_file.hpp"
 
@@ -26,6 +27,15 @@ std::optional<std::size_t> number_of(const fs::path& file) {
   return number;
 }
 
+/// A run has its files in its folder. What leads elsewhere was put there by somebody.
+void refuse_links_out(const fs::path& folder, const fs::path& file) {
+  if (!base::lies_in(file, folder))
+    throw FileError(
+        fmt::format("{} is a link out of the folder of the run, or lies behind one, and such links are not followed; "
+                    "put the file itself there, or name the file that you want to read",
+                    file.string()));
+}
+
 std::optional<double> time_in(const fs::path& file) { return StoredDensity(file, "rho").time(); }
 
 }  // namespace
@@ -38,11 +48,15 @@ std::vector<WrittenOutput> written_outputs(const fs::path& place, std::string_vi
   if (fs::is_directory(folder))
     for (const auto& entry : fs::directory_iterator(folder))
       if (const auto number = number_of(entry.path())) outputs.push_back({entry.path(), {}, *number});
+  for (const WrittenOutput& output : outputs) refuse_links_out(place, output.file);
   std::sort(outputs.begin(), outputs.end(),
             [](const WrittenOutput& a, const WrittenOutput& b) { return a.number < b.number; });
   std::vector<read::SeriesEntry> listed;
   try {
-    if (const fs::path list = place / fmt::format("{}.pvd", series); fs::exists(list)) listed = read::read_series(list);
+    if (const fs::path list = place / fmt::format("{}.pvd", series); fs::exists(list)) {
+      refuse_links_out(place, list);
+      listed = read::read_series(list);
+    }
   } catch (const read::GridFileError&) {  // the files say it themselves
   }
   std::map<fs::path, double> times;  // by name

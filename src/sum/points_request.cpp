@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/number.hpp"
+#include "base/size_text.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift::sum {
@@ -128,10 +129,9 @@ std::size_t memory_for_plan(const PointsRequest& request, std::size_t values) {
   const double bytes = sizeof(double) * doubles, limit = static_cast<double>(request.memory_limit);
   if (bytes < limit) return request.memory_limit - static_cast<std::size_t>(bytes);
   throw InputError(
-      fmt::format("{:.4g} targets with {} {} would take {:.4g} GB with the points; at most {:.4g} GB are used; ask for "
-                  "fewer targets "
-                  "at a time",
-                  targets, columns, columns == 1 ? "value" : "values", bytes / 1e9, limit / 1e9));
+      fmt::format("{:.4g} targets with {} {} would take {} with the points; at most {} may be used; ask for fewer "
+                  "targets at a time",
+                  targets, columns, columns == 1 ? "value" : "values", base::size_text(bytes), base::size_text(limit)));
 }
 
 SampleOfTargets sample_targets(const PointsRequest& request) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -160,6 +161,23 @@ TEST(Study, LeavesATableAndChartsAndAPage) {
   EXPECT_EQ(gaussdrift_in(folder, "study nowhere.toml --seconds 90.5").exit_code, 6) << "a fraction is no wrong word";
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.step").exit_code, 2);
   EXPECT_EQ(gaussdrift_in(folder, "study small.toml --vary time.stop=1,2").exit_code, 3);
+}
+
+TEST(Study, OfTwoProcessesIntoOneFolderIsThatOfOneOfThem) {
+  const ScratchFolder folder;
+  write_file(folder / "small.toml", small_case);
+  const std::string study = "'" PROGRAM "' study small.toml --repeats 1 --threads 1 --out st --vary time.step=";
+  const Outcome both = outcome_of(
+      folder, study + "0.2 >one.txt 2>&1 & " + study + "0.1 >two.txt 2>&1; echo second $?; wait $!; echo first $?");
+  const bool second = both.out.find("second 0") != std::string::npos;
+  EXPECT_NE(second, both.out.find("first 0") != std::string::npos) << both.out;
+  EXPECT_NE(both.out.find(second ? "first 6" : "second 6"), std::string::npos) << both.out;
+  const std::string refused = read_file(folder / (second ? "one.txt" : "two.txt"));
+  EXPECT_TRUE(refused.find("st is in use: process ") != std::string::npos ||
+              refused.find("st holds an earlier study") != std::string::npos)
+      << refused;
+  const std::string table = read_file(folder / "st/study.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2) << table;
 }
 
 TEST(Reproduce, ListsWhatItCan) {

@@ -63,6 +63,36 @@ TEST_F(CraftedFolder, AProvenanceIsRefusedByResumeAndNamedOnThePage) {
             std::string::npos);
 }
 
+/// What is behind it may be a file of the reader, and would come onto a page or into a picture.
+TEST_F(CraftedFolder, NoLinkThatLeadsOutOfItIsFollowed) {
+  fs::copy(folder / "r", folder / "honest", fs::copy_options::recursive);
+  for (const char* name : {"density/density_0001.vti", "density", "density.pvd"}) {
+    fs::remove_all(folder / "r"), fs::copy(folder / "honest", folder / "r", fs::copy_options::recursive);
+    fs::remove_all(folder / "r" / name);
+    fs::create_symlink(folder / "honest" / name, folder / "r" / name);
+    const std::string first = std::string(name) == "density" ? "density/density_000" : name;
+    for (const char* verb : {"compare r honest", "compare honest r"}) expect_refused(verb, first);
+    const Outcome compared = gaussdrift_in(folder, "compare r honest");
+    EXPECT_NE(compared.err.find("is a link out of the folder of the run, or lies behind one"), std::string::npos)
+        << compared.err;
+    if (!draws_pictures) continue;
+    expect_refused("render r --out drawn", first);
+    const Outcome page = gaussdrift_in(folder, "report r");
+    EXPECT_NE((page.out + page.err).find("is a link out of the folder of the run"), std::string::npos)
+        << page.out << page.err;
+  }
+  fs::remove_all(folder / "r"), fs::copy(folder / "honest", folder / "r", fs::copy_options::recursive);
+  fs::rename(folder / "r/density/density_0001.vti", folder / "r/mine.vti");
+  fs::create_symlink("../mine.vti", folder / "r/density/density_0001.vti");
+  EXPECT_EQ(gaussdrift_in(folder, "compare r honest").exit_code, 0) << "it leads to a file in the folder";
+  for (const char* name : {"run.toml", "case.toml"}) {
+    fs::remove_all(folder / "r"), fs::copy(folder / "honest", folder / "r", fs::copy_options::recursive);
+    fs::remove(folder / "r" / name);
+    fs::create_symlink(folder / "honest" / name, folder / "r" / name);
+    expect_refused("resume r", std::string(name) + " is a link out of the folder of the run");
+  }
+}
+
 TEST_F(CraftedFolder, AnEarlierStudyWhoseListIsDamagedIsNotMixedWithANewOne) {
   for (const std::string& text : {deep, std::string(R"({"experiments": [{"name": 3}]})"), std::string("{}")}) {
     write_file(folder / "r/study.json", text);

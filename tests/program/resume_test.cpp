@@ -157,6 +157,61 @@ TEST_F(Resume, RefusesToChangeThePastByName) {
       << refused.err;
 }
 
+/// What is refused changes nothing, so nothing is told to change.
+TEST_F(Resume, TellsWhatChangesOnceNothingIsRefused) {
+  ASSERT_EQ(gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1").exit_code, 7);
+  const std::string more = "resume part --set output.times=[0,0.00001,1.5,3,3.5,4]";
+  const Outcome refused = gaussdrift_in(folder, more + " --memory 1kB");
+  EXPECT_EQ(refused.exit_code, 3) << refused.err;
+  EXPECT_EQ(refused.err.find("changed from now on"), std::string::npos) << refused.err;
+  EXPECT_EQ(refused.err.find("goes on at"), std::string::npos) << refused.err;
+  const Outcome resumed = gaussdrift_in(folder, more);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_NE(resumed.err.find("warning: no output at t = 1e-05: the run is at t = "), std::string::npos) << resumed.err;
+  EXPECT_NE(resumed.err.find("changed from now on: output.times\n"), std::string::npos) << resumed.err;
+  EXPECT_NE(resumed.out.find("5 frames"), std::string::npos) << resumed.out;
+}
+
+TEST_F(Resume, TellsWhichFilesOfEarlierOutputsAreGone) {
+  ASSERT_EQ(gaussdrift_in(folder, "run turning.toml --out part --set output.piece_particles=100").exit_code, 0);
+  EXPECT_EQ(gaussdrift_in(folder, "resume part").err, "");
+  ASSERT_TRUE(fs::remove(folder / "part/particles/particles_0002/0001.vtp"));
+  const Outcome one = gaussdrift_in(folder, "resume part");
+  EXPECT_NE(one.err.find("warning: a file of earlier outputs is not there: part/particles/particles_0002/0001.vtp. "),
+            std::string::npos)
+      << one.err;
+  fs::remove_all(folder / "part/density");
+  const Outcome more = gaussdrift_in(folder, "resume part --until 4.1");
+  EXPECT_EQ(more.exit_code, 0) << more.err;
+  EXPECT_NE(
+      more.err.find("warning: 5 files of earlier outputs are not there: part/density/density_0000.vti and others. "),
+      std::string::npos)
+      << more.err;
+  EXPECT_NE(more.err.find("gaussdrift run part/run.toml --out DIR"), std::string::npos) << more.err;
+}
+
+/// It is told that nothing is kept to go on from, by the message and by the folder.
+TEST_F(Resume, WithoutCheckpointsBeginsAgainAndSaysSo) {
+  const Outcome stopped =
+      gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1 --set output.checkpoint=0");
+  ASSERT_EQ(stopped.exit_code, 7) << stopped.err;
+  const std::string words =
+      "resume with: gaussdrift resume part. It begins again from the start, because there is no checkpoint "
+      "(output.checkpoint = 0). What is written is kept until it has its first output";
+  EXPECT_NE(stopped.err.find(words), std::string::npos) << stopped.err;
+  EXPECT_NE(stopped.out.find(words), std::string::npos) << stopped.out;
+  const auto status = parsed_json(read_file(folder / "part/status.json"));
+  EXPECT_EQ(status.at("state"), "interrupted");
+  EXPECT_EQ(status.at("next"), words);
+  const Outcome resumed = gaussdrift_in(folder, "resume part");
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_NE(resumed.err.find("there is no checkpoint; the run begins again"), std::string::npos) << resumed.err;
+  for (const auto& [name, bytes] : bits_of(folder / "whole"))
+    if (name != "run.toml" && name != "case.toml") {
+      EXPECT_TRUE(bits_of(folder / "part")[name] == bytes) << name;
+    }
+}
+
 TEST_F(Resume, BeginsAgainWhereThereIsNoCheckpointAndTakesTheOlderOfADamagedOne) {
   gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1");
   const auto serial = [&](const char* slot) {
@@ -195,6 +250,22 @@ TEST_F(Resume, LooksBackAtUnfinishedRuns) {
     const Outcome looked = gaussdrift_in(folder, verb);
     EXPECT_EQ(looked.exit_code, 0) << verb << looked.err;
     EXPECT_NE((looked.out + looked.err).find("not complete"), std::string::npos) << verb << looked.out << looked.err;
+  }
+}
+
+/// status.json of a process that was killed says "running". Whoever looks at the run is told better.
+TEST_F(Resume, LooksBackAtRunsWhoseProcessIsGone) {
+  ASSERT_EQ(gaussdrift_in(folder, "run turning.toml --out part --stop-after 0.1").exit_code, 7);
+  auto status = parsed_json(read_file(folder / "part/status.json"));
+  status["state"] = "running";
+  write_file(folder / "part/status.json", status.dump());
+  for (const char* verb : {"report part", "compare part whole"}) {
+    const Outcome looked = gaussdrift_in(folder, verb);
+    EXPECT_EQ(looked.exit_code, 0) << verb << looked.err;
+    EXPECT_NE(looked.err.find("note: part is not complete: its process was killed, or could not say how it ended; "
+                              "gaussdrift resume part goes on"),
+              std::string::npos)
+        << verb << looked.err;
   }
 }
 

@@ -294,5 +294,34 @@ TEST(Sum, OfManyChargesByTreeAndSymmetricIsRightToTheTolerance) {
   }
 }
 
+TEST(Sum, OfTooLittleMemorySaysWhatTheProgramTakesItself) {
+  const ScratchFolder folder;
+  write_file(folder / "p.csv", csv("x,y,weight", points(10, 3)));
+  const Outcome out = gaussdrift_in(folder, "sum --sources p.csv --sigma 1 --memory '1 MB'");
+  EXPECT_EQ(out.exit_code, 3);
+  EXPECT_NE(out.err.find("--memory allows 1 MB, and the program itself takes "), std::string::npos) << out.err;
+  EXPECT_EQ(out.err.find(" 0"), std::string::npos) << out.err;
+}
+
+/// Two processes that write one table: it is that of one of them, from its first line to its last.
+TEST(Sum, OfTwoProcessesIntoOneFileIsThatOfOneOfThem) {
+  const ScratchFolder folder;
+  write_file(folder / "p.csv", csv("x,y,weight", points(3000, 3)));
+  const std::string sum = "'" PROGRAM "' sum --sources p.csv --method direct --threads 1 --sigma ";
+  for (const char* sigma : {"1", "2"})
+    ASSERT_EQ(outcome_of(folder, sum + sigma + " --out alone" + sigma + ".csv").exit_code, 0);
+  const std::string one = read_file(folder / "alone1.csv"), other = read_file(folder / "alone2.csv");
+  ASSERT_NE(one, other);
+  for (int time = 0; time < 5; ++time) {
+    const Outcome both =
+        outcome_of(folder, sum + "1 --out v.csv & " + sum + "2 --out v.csv; second=$?; wait $! && exit $second");
+    EXPECT_EQ(both.exit_code, 0) << both.err;
+    const std::string written = read_file(folder / "v.csv");
+    EXPECT_TRUE(written == one || written == other) << written.substr(0, 200);
+  }
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path();
+}
+
 }  // namespace
 }  // namespace gaussdrift

@@ -79,7 +79,7 @@ TEST_F(TextFile, APipeWithoutEndIsRefusedAtTheLimit) {
   ASSERT_GE(both, 0);
   const std::string much(2000, 'y');
   ASSERT_EQ(::write(both, much.data(), much.size()), static_cast<ssize_t>(much.size()));
-  EXPECT_EQ(refusal(pipe, 1000), "pipe has 0.0 MB or more; a table has at most 0.0 MB");
+  EXPECT_EQ(refusal(pipe, 1000), "pipe has 2000 bytes or more; a table has at most 1000 bytes");
   ::close(both);
 }
 
