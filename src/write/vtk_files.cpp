@@ -224,7 +224,8 @@ std::string particle_text(const fs::path& file, const Particles& particles, cons
   // One vertex cell a particle, not one for all: then thresholds and selections in ParaView take single particles.
   add_cells(text, "Verts", count);
   for (const char* kind : {"Lines", "Strips", "Polys"}) add_cells(text, kind, 0);
-  return text += "    </Piece>\n  </PolyData>\n</VTKFile>\n";
+  text += "    </Piece>\n  </PolyData>\n</VTKFile>\n";
+  return text;
 }
 
 void write_particles(const fs::path& file, const Particles& particles, const std::vector<double>& velocity,
