@@ -46,9 +46,22 @@ RunMemory memory_of_file(const write::FileKind& kind, const Extent& extent) {
   return {.particles = all - grid, .grid = grid};
 }
 
+bool changes_particles(const Case& spec) {
+  const auto all = effects_of(spec.effects);
+  return std::any_of(all.begin(), all.end(), [&](const auto& one) {
+    const EffectTraits& traits = one.first->traits;
+    return traits.adds_particles.of(one.second, spec.domain.dimension) ||
+           traits.replaces_particles.of(one.second, spec.domain.dimension);
+  });
+}
+
+double most_pieces(const Case& spec, double particles) {
+  return std::max(1.0, std::ceil(particles / spec.output.piece_particles));
+}
+
 /// What files hold: pieces of a density show layers that others have, too, and of exact densities formulas alone.
 Extent in_files(const Case& spec, Extent extent) {
-  extent.particle_pieces = std::max(1.0, std::ceil(extent.particles / spec.output.piece_particles));
+  extent.particle_pieces = most_pieces(spec, extent.particles);
   extent.field_numbers = field_numbers(spec.output, spec.domain.dimension);
   const LatticePieces pieces = pieces_of_grid(spec);
   if (pieces.count() == 1) return extent;
@@ -90,13 +103,9 @@ RunMemory operator+(const RunMemory& a, const RunMemory& b) {
   return {a.particles + b.particles, a.grid + b.grid, a.pictures + b.pictures};
 }
 
-bool changes_particles(const Case& spec) {
-  const auto all = effects_of(spec.effects);
-  return std::any_of(all.begin(), all.end(), [&](const auto& one) {
-    const EffectTraits& traits = one.first->traits;
-    return traits.adds_particles.of(one.second, spec.domain.dimension) ||
-           traits.replaces_particles.of(one.second, spec.domain.dimension);
-  });
+std::optional<std::size_t> pieces_of_particles(const Case& spec, std::size_t particles) {
+  if (changes_particles(spec)) return std::nullopt;
+  return static_cast<std::size_t>(most_pieces(spec, static_cast<double>(particles)));
 }
 
 double particles_at_most(const Case& spec, Trial& trial) {

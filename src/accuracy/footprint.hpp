@@ -1,6 +1,8 @@
 // The memory and disk space of a run, estimated from its numbers alone.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "accuracy/trial.hpp"
@@ -29,8 +31,8 @@ double bytes_of_particle(const Case& spec);
 /// At one stage of a run, or on several ranks.
 RunMemory operator+(const RunMemory& a, const RunMemory& b);
 
-/// Whether an effect adds particles, or replaces them by others.
-bool changes_particles(const Case& spec);
+/// In how many files an output has so many particles; none where effects change their number during the run.
+std::optional<std::size_t> pieces_of_particles(const Case& spec, std::size_t particles);
 
 /// The particles at most: those that effects add are found by steps of a part of them.
 double particles_at_most(const Case& spec, Trial& trial);

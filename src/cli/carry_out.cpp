@@ -36,7 +36,6 @@
 #include "input/data_files.hpp"
 #include "input/same_past.hpp"
 #include "render/styles.hpp"
-#include "sim/particle_pieces.hpp"
 #include "sim/scene.hpp"
 #include "write/atomic_file.hpp"
 #include "write/provenance.hpp"
@@ -70,12 +69,6 @@ double disk_of(const Case& spec, const Simulation& simulation, int threads) {
                                      .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
                                      .compared_everywhere = simulation.compares_everywhere()},
                                     simulation.rough_seconds() / base::resolve_threads(threads));
-}
-
-/// Files of particles that an output may have.
-std::size_t most_particle_pieces(const Case& spec, const Simulation& simulation) {
-  if (accuracy::changes_particles(spec)) return write::most_pieces;
-  return pieces_of_particles(simulation.particle_count(), spec.output.piece_particles);
 }
 
 class Run {
@@ -352,12 +345,15 @@ class Run {
   void prepare_folder(const Simulation& simulation) {
     const bool goes_on = task_.goes_on;
     const std::string provenance = goes_on && !task_.changed ? "" : provenance_of(task_);
-    own_folder_.emplace(folder_, spec_,
-                        write::RunFolderOptions{.force = task_.force,
-                                                .go_on = goes_on,
-                                                .bytes = disk_of(spec_, simulation, task_.threads),
-                                                .particle_pieces = most_particle_pieces(spec_, simulation),
-                                                .picture_styles = render::style_names()});
+    own_folder_.emplace(
+        folder_, spec_,
+        write::RunFolderOptions{
+            .force = task_.force,
+            .go_on = goes_on,
+            .bytes = disk_of(spec_, simulation, task_.threads),
+            .particle_pieces =
+                accuracy::pieces_of_particles(spec_, simulation.particle_count()).value_or(write::most_pieces),
+            .picture_styles = render::style_names()});
     if (provenance.empty()) return;
     // First, because it has the name of the case: a run that has a run.toml can be resumed, and pictures show the name.
     write::write_text(folder_ / "provenance.json", provenance);

@@ -122,9 +122,8 @@ std::string box_text(const fs::path& file, const Lattice& lattice, const Lattice
                      const std::vector<FieldOnGrid>& fields, double time) {
   check_size(file, "rho", rho.size(), box.size());
   if (exact) check_size(file, "rho_exact", exact->size(), box.size());
-  std::string text =
-      beginning_of_image(lattice, box, time, rho.size() * (exact ? 3 : 1) + numbers_in(fields, rho.size()),
-                         " Scalars=\"rho\"");
+  std::string text = beginning_of_image(
+      lattice, box, time, rho.size() * (exact ? 3 : 1) + numbers_in(fields, rho.size()), " Scalars=\"rho\"");
   add_array(text, {6, "rho"}, rho.size(), [&](std::size_t i) { return rho[i]; });
   if (exact) {
     add_array(text, {6, "rho_exact"}, rho.size(), [&](std::size_t i) { return (*exact)[i]; });
