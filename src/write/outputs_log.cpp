@@ -62,7 +62,7 @@ fs::path outputs_log(const fs::path& folder) { return folder / checkpoints_folde
 void append_outputs(const fs::path& folder, const std::vector<std::string>& outputs, OutputsMark& mark,
                     const InHaste& in_haste) {
   const fs::path name = outputs_log(folder);
-  make_folder(name.parent_path());
+  make_folder(name.parent_path(), in_haste);
   const Descriptor file(::open(name.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
   struct stat facts {};
   if (file.number < 0 || ::fstat(file.number, &facts) != 0) fail();
