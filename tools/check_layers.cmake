@@ -30,7 +30,7 @@ set(may_report base read sim render write case)
 set(may_study base expression fgtd field particle effect reference time sim accuracy write render input case)
 set(may_reproduce base fgtd farfield blockmatrix field particle time sim write render input case)
 set(may_sum base fgtd farfield input)
-set(may_cli base mpi core effect expression reference accuracy report reproduce study sum sim write render read input time case fgtd)
+set(may_cli base mpi core effect expression reference accuracy report reproduce study sum sim write render read input time case fgtd rbf)
 
 # The headers of include/gaussdrift/ belong to modules as those of src/ do.
 set(module_of_error base)

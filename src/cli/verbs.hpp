@@ -18,6 +18,7 @@ Verb render_verb();
 Verb compare_verb();
 Verb doctor_verb();
 Verb field_verb();
+Verb fit_verb();
 Verb sum_verb();
 Verb reproduce_verb();
 Verb explain_verb();
