@@ -24,7 +24,7 @@ constexpr double smallest_reciprocal = 100 * std::numeric_limits<double>::epsilo
 // A shape is chosen such that the condition is far from that. By dimension: the iteration converges in a few steps while
 // kernels reach over few points, and in more dimensions more points are near.
 constexpr double comfortable_dense = 1e-12, comfortable_krylov[] = {1e-13, 1e-10, 1e-8};
-constexpr double rough = 0.02;  // times that for Matern kernels: measured, they still converge
+constexpr double rough = 0.1;  // times that for Matern kernels: measured, they still converge
 
 // A cycle of the iteration goes this far. Sums in it are right to a tolerance that is lowered if a cycle gains little: close
 // points have large weights that cancel.
