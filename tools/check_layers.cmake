@@ -29,7 +29,7 @@ set(may_accuracy base expression fgtd field particle effect reference time sim w
 set(may_report base read sim render write case)
 set(may_study base expression fgtd field particle effect reference time sim accuracy write render input case)
 set(may_reproduce base fgtd farfield blockmatrix field particle time sim write render input case)
-set(may_sum base fgtd farfield input)
+set(may_sum base expression fgtd farfield input)
 set(may_cli base mpi core effect expression reference accuracy report reproduce study sum sim write render read input time case fgtd rbf)
 
 # The headers of include/gaussdrift/ belong to modules as those of src/ do.
@@ -72,8 +72,8 @@ set(public_blockmatrix block_matrix)
 set(public_accuracy accuracy_table budget footprint forecast memory_limits rank_forecast ranks_memory target would_run)
 set(public_report page)
 set(public_study study)
-set(public_reproduce claims cone coulomb fgtd figures logkernel)
-set(public_sum pairs points)
+set(public_reproduce claims cone coulomb fgtd figures kernels logkernel)
+set(public_sum general pairs points)
 
 cmake_policy(VERSION 3.25)
 get_filename_component(ROOT "${ROOT}" ABSOLUTE)

@@ -61,6 +61,12 @@ enum class GeneralMethod {
   interpolation  ///< an H2 matrix
 };
 
+/// Every method, `automatic` first.
+const std::vector<GeneralMethod>& general_methods();
+
+/// The name as it is written in files: "auto", "direct", "interpolation".
+std::string to_string(GeneralMethod method);
+
 /// What a GeneralPlan is asked for. The defaults are valid.
 struct GeneralOptions {
   double tolerance = 1e-6;                          ///< see GeneralPlan; 1e-10 <= tolerance < 1

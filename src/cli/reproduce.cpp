@@ -13,6 +13,7 @@
 #include "reproduce/coulomb.hpp"
 #include "reproduce/fgtd.hpp"
 #include "reproduce/figures.hpp"
+#include "reproduce/kernels.hpp"
 #include "reproduce/logkernel.hpp"
 
 namespace gaussdrift::cli {
@@ -107,6 +108,20 @@ ExitCode reproduce_logkernel(const ReproduceOptions& options) {
   return ExitCode::ok;
 }
 
+ExitCode reproduce_kernels(const ReproduceOptions& options) {
+  if (!options.table.empty()) throw CommandLineError("kernels has no tables to choose from; leave the number out");
+  reproduce::KernelsOptions kernels;
+  if (options.threads > 0) kernels.threads = options.threads;
+  if (options.full) kernels.points = 100'000;
+  reproduce::KernelsReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_kernels(kernels, [&](const std::string& what) { line.show(what); });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return result.kept() ? ExitCode::ok : ExitCode::check;
+}
+
 ExitCode reproduce_tables(reproduce::TableSet set, const ReproduceOptions& options) {
   reproduce::FgtdOptions fgtd = options.full ? reproduce::FgtdOptions::everything() : reproduce::FgtdOptions{};
   fgtd.set = set;
@@ -142,6 +157,7 @@ ExitCode reproduce(const ReproduceOptions& options) {
     throw CommandLineError("--out goes with: reproduce figures, logkernel");
   if (options.what == "figures") return reproduce_figures(options);
   if (options.what == "coulomb") return reproduce_coulomb(options);
+  if (options.what == "kernels") return reproduce_kernels(options);
   if (options.what == "logkernel") return reproduce_logkernel(options);
   if (options.what == "claims") return reproduce_claims(options);
   if (options.what == "cone") return reproduce_cone(options);
@@ -150,7 +166,7 @@ ExitCode reproduce(const ReproduceOptions& options) {
   if (!options.what.empty())
     throw CommandLineError(
         fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, claims, "
-                    "coulomb, logkernel",
+                    "coulomb, logkernel, kernels",
                     options.what));
   say("gaussdrift reproduce WHAT computes published numbers again. There are:\n"
       "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
@@ -159,7 +175,8 @@ ExitCode reproduce(const ReproduceOptions& options) {
       "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n"
       "  claims      what the text of Schroeder 2006 claims outside its tables, and whether it holds\n"
       "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n"
-      "  logkernel   ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project 6\n",
+      "  logkernel   ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project 6\n"
+      "  kernels     interpolation, recompression and orders by level for general kernels: rates, storage, sums\n",
       fmt::join(reproduce::table_numbers(reproduce::TableSet::fgtd), ", "),
       fmt::join(reproduce::table_numbers(reproduce::TableSet::divergence), " and "),
       fmt::join(reproduce::figure_numbers(), ", "));

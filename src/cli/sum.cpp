@@ -20,6 +20,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
+#include "sum/general.hpp"
 #include "sum/pairs.hpp"
 #include "sum/points.hpp"
 #include "write/atomic_file.hpp"
@@ -81,7 +82,8 @@ void declare(OptionList& options, SumOptions& given) {
   options.add("--seconds", given.seconds, "S",
               "refuse a sum that is predicted to take longer; 300 by default for a method that you name");
   options.add("--kernel", given.kernel, "NAME",
-              "gauss (the default), coulomb (2D, 3D) or log (1D, 2D). The last two give potential and field");
+              "gauss (the default), coulomb (2D, 3D) or log (1D, 2D). The last two give potential and field. Or an "
+              "expression of the distance r (2D, 3D): --kernel \"exp(-r)/r\"");
   options.add("--out", given.out, "FILE", "file for the values. By default, or as -, standard output");
   declare_memory(options, given.memory);
   options.threads(given.threads);
@@ -107,6 +109,8 @@ double tolerance_of(const SumOptions& options) { return options.tolerance.value_
 
 bool of_pairs(const SumOptions& options) { return options.kernel == "coulomb" || options.kernel == "log"; }
 
+bool of_expression(const SumOptions& options) { return sum::is_kernel_expression(options.kernel); }
+
 bool to_standard_output(const SumOptions& options) { return options.out.empty() || options.out == "-"; }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -115,12 +119,14 @@ bool same_file(const fs::path& a, const fs::path& b) {
 }
 
 void check_options(const SumOptions& options) {
-  if (of_pairs(options)) {
+  if (of_pairs(options) || of_expression(options)) {
     if (options.sigma)
       throw CommandLineError(fmt::format("--sigma belongs to the kernel gauss, not to {}", options.kernel));
     if (!options.derivatives.empty())
       throw CommandLineError(
-          fmt::format("--derivative belongs to the kernel gauss; {} gives potential and field", options.kernel));
+          of_pairs(options)
+              ? fmt::format("--derivative belongs to the kernel gauss; {} gives potential and field", options.kernel)
+              : fmt::format("--derivative belongs to the kernel gauss, not to {}", options.kernel));
     if (by_hand(options))
       throw CommandLineError(
           fmt::format("--r, --p and --n belong to the method hermite of the kernel gauss, not to {}", options.kernel));
@@ -136,7 +142,10 @@ void check_options(const SumOptions& options) {
     if (by_hand(options) && options.method != "auto" && options.method != to_string(fgtd::Method::hermite))
       throw CommandLineError(fmt::format("--r, --p and --n belong to the method hermite, not to {}", options.method));
   } else {
-    throw CommandLineError(fmt::format("--kernel: there is no \"{}\"; there are gauss, coulomb, log", options.kernel));
+    throw CommandLineError(
+        fmt::format("--kernel: there is no \"{}\"; there are gauss, coulomb, log and expressions of r, "
+                    "as in --kernel \"exp(-r)/r\"",
+                    options.kernel));
   }
   if (options.seconds && !(*options.seconds > 0))
     throw CommandLineError(fmt::format("--seconds {}: must be positive", *options.seconds));
@@ -272,10 +281,21 @@ ExitCode sum_pairs(const SumOptions& options) {
   return write(sums, options);
 }
 
+ExitCode sum_general(const SumOptions& options) {
+  sum::GeneralSumRequest request;
+  request.kernel = options.kernel;
+  request.method = named("--method", options.method, farfield::general_methods());
+  const double read_seconds = read_points(options, request);
+  sum::GeneralSums sums = sum::sum_general(request);
+  sums.read_seconds = read_seconds;
+  return write(sums, options);
+}
+
 ExitCode sum(const SumOptions& options) {
   check_table_name(options.out);
   check_options(options);
   try {
+    if (of_expression(options)) return sum_general(options);
     return of_pairs(options) ? sum_pairs(options) : sum_gaussians(options);
   } catch (const std::bad_alloc&) {
     throw InputError("out of memory; ask for fewer targets at a time, or give fewer sources");

@@ -21,23 +21,6 @@ namespace {
 
 constexpr double rounding = 1e-14;  // of the same sums that the tolerance is relative to
 
-template <int d>
-farfield::Points<d> nodes_as_points(const std::vector<GridAxis>& grid) {
-  const auto nodes = nodes_of(grid);
-  std::size_t count = 1;
-  for (const auto& axis : nodes) count *= axis.size();
-  farfield::Points<d> points(d, static_cast<Eigen::Index>(count));
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    std::size_t rest = static_cast<std::size_t>(i);
-    for (int l = 0; l < d; ++l) {
-      const auto& axis = nodes[static_cast<std::size_t>(l)];
-      points(l, i) = axis[rest % axis.size()];
-      rest /= axis.size();
-    }
-  }
-  return points;
-}
-
 /// The sums without signs that farfield's promise is relative to, at one target.
 struct Unsigned {
   double potential = 0, field = 0;

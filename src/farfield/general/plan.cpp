@@ -39,10 +39,22 @@ const GeneralChoice& GeneralPlan<d>::choice() const {
 template class GeneralPlan<2>;
 template class GeneralPlan<3>;
 
+const std::vector<GeneralMethod>& general_methods() {
+  static const std::vector<GeneralMethod> all{GeneralMethod::automatic, GeneralMethod::direct,
+                                              GeneralMethod::interpolation};
+  return all;
+}
+
+std::string to_string(GeneralMethod method) {
+  if (method == GeneralMethod::automatic) return "auto";
+  return method == GeneralMethod::direct ? "direct" : "interpolation";
+}
+
 std::ostream& operator<<(std::ostream& out, const GeneralChoice& choice) {
   using gaussdrift::core::text;
-  if (choice.method == GeneralMethod::direct) return out << "direct, " << text(choice.pairs) << " pairs";
-  out << "interpolation, " << text(choice.pairs) << " pairs, orders";
+  if (choice.method == GeneralMethod::direct)
+    return out << to_string(choice.method) << ", " << text(choice.pairs) << " pairs";
+  out << to_string(choice.method) << ", " << text(choice.pairs) << " pairs, orders";
   for (const GeneralLevel& level : choice.levels) out << " " << level.order;
   out << ", ranks";
   for (const GeneralLevel& level : choice.levels) out << " " << level.rank;
