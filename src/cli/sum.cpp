@@ -143,8 +143,8 @@ void check_options(const SumOptions& options) {
       throw CommandLineError(fmt::format("--r, --p and --n belong to the method hermite, not to {}", options.method));
   } else {
     throw CommandLineError(
-        fmt::format("--kernel: there is no \"{}\"; there are gauss, coulomb, log and expressions of r, "
-                    "as in --kernel \"exp(-r)/r\"",
+        fmt::format("--kernel: there is no \"{}\", and it is no expression of r as \"exp(-r)/r\"; there are gauss, "
+                    "coulomb, log",
                     options.kernel));
   }
   if (options.seconds && !(*options.seconds > 0))

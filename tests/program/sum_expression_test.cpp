@@ -79,8 +79,9 @@ TEST(SumOfAnExpression, IsRefusedWithAPlaceAndARemedy) {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"--sources S.csv --kernel 'exp(-r'", "--kernel \"exp(-r\", at character"},
       {"--sources S.csv --kernel 'exp(-s)/r'", "--kernel \"exp(-s)/r\", at character 6"},
-      {"--sources S.csv --kernel vortex", "there are gauss, coulomb, log and expressions of r"},
-      {"--sources S.csv --kernel inverse-vortex", "there are gauss, coulomb, log and expressions of r"},
+      {"--sources S.csv --kernel vortex", "it is no expression of r as \"exp(-r)/r\"; there are gauss, coulomb, log"},
+      {"--sources S.csv --kernel inverse-vortex",
+       "it is no expression of r as \"exp(-r)/r\"; there are gauss, coulomb, log"},
       {"--sources S.csv --kernel 1/r --sigma 2", "--sigma belongs to the kernel gauss, not to 1/r"},
       {"--sources S.csv --kernel 1/r --derivative 1,0", "--derivative belongs to the kernel gauss, not to 1/r"},
       {"--sources S.csv --kernel 1/r --p 9", "belong to the method hermite of the kernel gauss, not to 1/r"},
