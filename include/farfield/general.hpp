@@ -41,6 +41,8 @@ class KernelFunction {
   static KernelFunction inverse_power(int power);
   /// exp(-sigma r^2), sigma > 0
   static KernelFunction gaussian(double sigma);
+  /// A kernel of the distance.
+  /// @param function     its values at some distances
   /// @param nanoseconds  that a value takes, roughly; it decides how large the near field is
   static KernelFunction of_distance(OfDistance function, double nanoseconds = 10);
   /// As of_distance(). Nothing is known of its symmetries, so that more matrices are kept.
@@ -83,7 +85,7 @@ struct GeneralOptions {
 
 /// One level of the tree of clusters, from the root.
 struct GeneralLevel {
-  int level = 0;
+  int level = 0;              ///< 0: the root
   double side = 0;            ///< of its cubes
   int order = 0;              ///< degree of the polynomials
   std::size_t functions = 0;  ///< polynomials a cluster, before recompression
@@ -107,11 +109,11 @@ struct GeneralChoice {
   int separation = 0;        ///< sides between admissible cubes
   double pairs = 0;          ///< summed one by one
   std::size_t clusters = 0;  ///< of all levels
-  std::vector<GeneralLevel> levels;
-  double basis_bytes = 0;     ///< leaf matrices and transfer matrices
-  double coupling_bytes = 0;  ///< coupling matrices
-  double list_bytes = 0;      ///< points, clusters and lists of blocks
-  double build_seconds = 0;   ///< that the plan took
+  std::vector<GeneralLevel> levels;  ///< from the root
+  double basis_bytes = 0;            ///< leaf matrices and transfer matrices
+  double coupling_bytes = 0;         ///< coupling matrices
+  double list_bytes = 0;             ///< points, clusters and lists of blocks
+  double build_seconds = 0;          ///< that the plan took
 };
 
 /// One line: method, storage, ranks and error.
@@ -119,7 +121,10 @@ std::ostream& operator<<(std::ostream& out, const GeneralChoice& choice);
 
 /// Where the seconds of one evaluation went.
 struct GeneralSeconds {
-  double forward = 0, coupling = 0, backward = 0, near = 0;
+  double forward = 0;   ///< charges to coefficients of clusters
+  double coupling = 0;  ///< coefficients of clusters to those of others
+  double backward = 0;  ///< coefficients to values at points
+  double near = 0;      ///< pairs one by one
 };
 
 /// f_i = sum_j q_j k(x_i - y_j) for fixed points and any charges, in 2 or 3 dimensions. What is promised, with f~ the

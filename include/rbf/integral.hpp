@@ -10,9 +10,9 @@ namespace rbf {
 
 /// Integrals over a box, one for each column of values.
 struct Integral {
-  Eigen::VectorXd values;
-  Eigen::VectorXd
-      errors;  ///< at most so far from the integral of that interpolant; rounding adds about 1e-15 of its terms
+  Eigen::VectorXd values;  ///< of each column; values times length^d
+  /// They are at most so far from the integral of that interpolant; rounding adds about 1e-15 of its terms.
+  Eigen::VectorXd errors;
 };
 
 /// The integral of an interpolant over the box low <= y <= high, inside or outside the points. The kernel's part is a sum
@@ -27,6 +27,8 @@ Integral integral(const Interpolant<d>& interpolant, const Eigen::Matrix<double,
 /// values f(x_i), for every f. They solve the equations of interpolation for the integrals of the kernels.
 /// @param function  with its shape, where the kernel takes one: there are no values to choose it by
 /// @param nodes     d x N, as the points of an Interpolant
+/// @param low       lower corner of the box
+/// @param high      its upper corner
 /// @param options   as of an Interpolant; the accuracy is relative to the largest integral of a kernel
 /// @returns N weights; their sum is the volume for kernels whose polynomials have constants
 /// @throws  as Interpolant and integral()
