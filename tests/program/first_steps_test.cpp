@@ -2,6 +2,8 @@
 // are left out.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <utility>
 #include <vector>
 
@@ -191,8 +193,21 @@ std::string bay_with_eddy() {
                   {{"images = [\"heatmap\", \"error\"]", "images = []"}});
 }
 
+/// A hundred scattered points and a value, for the commands that read one.
+std::string scattered(const std::string& names, int columns) {
+  std::string text = names + "\n";
+  for (int point = 0; point < 100; ++point)
+    for (int column = 0; column < columns; ++column) {
+      const double number = std::fmod(0.37 * (point + 1) * (column + 1) + 0.11 * point * point, 1);
+      text += std::to_string(number) + (column + 1 < columns ? "," : "\n");
+    }
+  return text;
+}
+
 TEST(Pages, EveryCommandOfTroubleAndUsageRuns) {
   const ScratchFolder folder;
+  write_file(folder / "cloud.csv", scattered("x,y,rho", 3));
+  write_file(folder / "wind.csv", scattered("x,y,z,u", 4));
   write_file(folder / "cone.toml", coarse_cone());
   write_file(folder / "bay.toml", bay_with_eddy());
   for (const char* name : {"docs/trouble.md", "docs/usage.md"}) {
