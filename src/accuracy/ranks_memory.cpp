@@ -13,10 +13,10 @@
 #include "accuracy/memory_limits.hpp"
 #include "accuracy/rank_forecast.hpp"
 #include "accuracy/trial.hpp"
+#include "base/broadcast.hpp"
 #include "base/counted.hpp"
 #include "base/size_text.hpp"
 #include "base/state_bytes.hpp"
-#include "base/told_by_first.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/folder_lock.hpp"
@@ -35,26 +35,26 @@ struct Shared {
 };
 
 /// What a rank says of its memory.
-struct Told {
+struct RankMemory {
   int host = 0;
   std::string name;  // of the host
   double held = 0;   // bytes, by the program
   std::vector<MemoryLimit> limits;
 };
 
-void pass(base::StateBytes& bytes, Told& told) {
-  bytes(told.host, told.name, told.held);
-  std::uint64_t count = told.limits.size();
+void pass(base::StateBytes& bytes, RankMemory& rank) {
+  bytes(rank.host, rank.name, rank.held);
+  std::uint64_t count = rank.limits.size();
   bytes(count);
-  told.limits.resize(count);
-  for (MemoryLimit& limit : told.limits) bytes(limit.who, limit.bytes, limit.taken, limit.of_process);
+  rank.limits.resize(count);
+  for (MemoryLimit& limit : rank.limits) bytes(limit.who, limit.bytes, limit.taken, limit.of_process);
 }
 
-std::vector<Told> gathered(double asked, base::Communicator& ranks) {
-  Told own{ranks.host(), write::host_name(), memory_of_this_process(), memory_limits(asked)};
+std::vector<RankMemory> gathered(double asked, base::Communicator& ranks) {
+  RankMemory own{ranks.host(), write::host_name(), memory_of_this_process(), memory_limits(asked)};
   base::StateBytes said;
   pass(said, own);
-  std::vector<Told> all;
+  std::vector<RankMemory> all;
   for (const base::Bytes& bytes : ranks.gather(base::to_bytes(said.written()))) {
     const std::string text = base::to_text(bytes);
     base::StateBytes heard(text);
@@ -64,7 +64,7 @@ std::vector<Told> gathered(double asked, base::Communicator& ranks) {
 }
 
 /// Limits with the same words on one host are one, but for those of processes.
-std::vector<Shared> shared_limits(const std::vector<Told>& all) {
+std::vector<Shared> shared_limits(const std::vector<RankMemory>& all) {
   std::map<std::pair<int, std::string>, Shared> by_words;
   for (std::size_t rank = 0; rank < all.size(); ++rank)
     for (const MemoryLimit& limit : all[rank].limits) {
@@ -110,7 +110,8 @@ std::vector<RunMemory> predicted(const Case& spec, int threads, int ranks) {
   }
 }
 
-[[noreturn]] void refuse(const Shared& shared, const std::vector<RunMemory>& memory, const std::vector<Told>& told) {
+[[noreturn]] void refuse(const Shared& shared, const std::vector<RunMemory>& memory,
+                         const std::vector<RankMemory>& told) {
   RunMemory together;
   double programs = 0;
   for (const std::size_t rank : shared.ranks) together = together + memory[rank], programs += told[rank].held;
@@ -130,18 +131,18 @@ std::vector<RunMemory> predicted(const Case& spec, int threads, int ranks) {
 
 void refuse_what_does_not_fit(const Case& spec, int threads, double asked, base::Communicator& ranks) {
   if (ranks.size() == 1) return gaussdrift::refuse_what_does_not_fit(spec, threads, asked);
-  base::tell_all(ranks, [&](base::StateBytes& bytes) { bytes(asked); });  // rank 0 alone may know it
-  const std::vector<Told> told = gathered(asked, ranks);
+  base::broadcast_values(ranks, [&](base::StateBytes& bytes) { bytes(asked); });  // rank 0 alone may know it
+  const std::vector<RankMemory> of_ranks = gathered(asked, ranks);
   ranks.agree_on([&] {
     if (ranks.rank() != 0) return;
-    const std::vector<Shared> limits = shared_limits(told);
+    const std::vector<Shared> limits = shared_limits(of_ranks);
     const Domain& domain = spec.domain;
     const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis);
     const auto count = static_cast<std::size_t>(ranks.size());
     if (!exceeded(limits, std::vector<RunMemory>(count, at_most(spec, static_cast<double>(lattice.size()))))) return;
     const std::vector<RunMemory> memory = predicted(spec, threads, ranks.size());
     if (memory.empty()) return;
-    if (const Shared* limit = exceeded(limits, memory)) refuse(*limit, memory, told);
+    if (const Shared* limit = exceeded(limits, memory)) refuse(*limit, memory, of_ranks);
   });
 }
 

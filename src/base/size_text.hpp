@@ -15,7 +15,7 @@ namespace gaussdrift::base {
 /// "800 bytes", "12 kB", "3.07 GB".
 inline std::string size_text(double bytes) {
   if (bytes > 0 && bytes < 1e3) return fmt::format("{:.0f} bytes", bytes);
-  if (bytes < 1e6) return fmt::format("{:.0f} kB", bytes / 1e3);
+  if (bytes < 999.5e3) return fmt::format("{:.0f} kB", bytes / 1e3);
   if (bytes < 1e9) return fmt::format("{:.3g} MB", bytes / 1e6);
   return fmt::format("{:.3g} GB", bytes / 1e9);
 }

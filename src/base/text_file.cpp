@@ -30,7 +30,7 @@ std::string size_in_words(std::size_t bytes) {
   const double mb = static_cast<double>(bytes) / 1e6;
   if (bytes < 10'000)
     std::snprintf(text, sizeof text, "%zu bytes", bytes);
-  else if (mb < 1)
+  else if (mb < 0.9995)
     std::snprintf(text, sizeof text, "%.0f kB", 1e3 * mb);
   else
     std::snprintf(text, sizeof text, mb < 10 ? "%.1f MB" : "%.0f MB", mb);

@@ -10,9 +10,9 @@
 #include "cli/terminal.hpp"
 #include "gaussdrift/error.hpp"
 #include "sim/grid_fields.hpp"
+#include "write/folder_facts.hpp"
 #include "write/folder_lock.hpp"
 #include "write/output_files.hpp"
-#include "write/told_by_folder.hpp"
 
 namespace gaussdrift::cli {
 
@@ -21,7 +21,7 @@ namespace {
 /// Of a damaged status.json nothing is known; what is looked at does not depend on it.
 bool says_running(const std::filesystem::path& folder) {
   try {
-    return write::told_state(folder) == "running";
+    return write::state_of_folder(folder) == "running";
   } catch (const FileError&) {
     return false;
   }

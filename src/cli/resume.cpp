@@ -17,7 +17,7 @@
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
 #include "input/same_past.hpp"
-#include "write/told_by_folder.hpp"
+#include "write/folder_facts.hpp"
 
 namespace gaussdrift::cli {
 
@@ -53,7 +53,7 @@ void declare(OptionList& options, ResumeOptions& given) {
 
 /// Of the case as it was run, which run.toml does not say: pictures without a title show it.
 std::string name_of(const fs::path& folder) {
-  const std::string name = write::told_name(folder);
+  const std::string name = write::name_of_run(folder);
   return name.empty() ? fs::absolute(folder).filename().string() : name;
 }
 
@@ -112,7 +112,7 @@ std::string words_of_late_outputs(const std::vector<double>& times, double now) 
 std::size_t outputs_until(const Case& spec, double now, const fs::path& folder) {
   const auto& times = spec.output.times;
   const auto past = std::count_if(times.begin(), times.end(), [&](double time) { return time <= now; });
-  return std::min(static_cast<std::size_t>(past), write::told_outputs(folder));
+  return std::min(static_cast<std::size_t>(past), write::outputs_of_folder(folder));
 }
 
 void refuse_changed_past(const input::ChangedKeys& changed) {
@@ -125,7 +125,7 @@ void refuse_changed_past(const input::ChangedKeys& changed) {
 
 /// Its numbers are complete, and status.json says that what comes after them is not. Earlier versions wrote no status.json.
 bool lacks_its_end(const fs::path& folder) {
-  const std::string state = write::told_state(folder);
+  const std::string state = write::state_of_folder(folder);
   return !state.empty() && state != "complete";
 }
 
@@ -182,7 +182,7 @@ RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<
     task.told = words_of_late_outputs(keep_written_outputs(before, now, spec), now);
     tell_missing_files(before, options.folder, outputs_until(before, now, options.folder));
   }
-  if (complete && !task.from) tell_missing_files(before, options.folder, write::told_outputs(options.folder));
+  if (complete && !task.from) tell_missing_files(before, options.folder, write::outputs_of_folder(options.folder));
   const input::ChangedKeys changed = input::changed_keys(before, spec);
   if (complete && changed.future.empty() && lacks_its_end(options.folder)) {
     note("all numbers are there; the page about them is made again\n");

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/told_by_first.hpp"
+#include "base/broadcast.hpp"
 #include "gaussdrift/read_case.hpp"
 
 namespace gaussdrift::cli {
@@ -17,7 +17,7 @@ RunTask shared_task(base::Communicator& ranks, const std::function<RunTask()>& m
   std::string text = first && !task.done ? case_text(task.spec) : "", name = task.spec.name,
               folder = task.folder.string();
   int done = task.done ? static_cast<int>(*task.done) : -1;
-  base::tell_all(ranks, [&](base::StateBytes& bytes) {
+  base::broadcast_values(ranks, [&](base::StateBytes& bytes) {
     bytes(text, name, folder, task.threads, task.stop_after, task.goes_on, done);
   });
   task.folder = folder;

@@ -14,8 +14,8 @@
 #include "render/picture.hpp"
 #include "study/study.hpp"
 #include "write/atomic_file.hpp"
+#include "write/folder_facts.hpp"
 #include "write/result_folder.hpp"
-#include "write/told_by_folder.hpp"
 
 namespace gaussdrift::cli {
 

@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
+#include "base/broadcast.hpp"
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
-#include "base/told_by_first.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
 #include "sim/density_pieces.hpp"
@@ -149,7 +149,7 @@ void Simulation::Parts::check_density_seconds() const {
 // Paths are shared; a formula is quick on rank 0.
 void Simulation::Parts::plan_reference() {
   on_first([&] { compared_ = plan_comparison(case_, scene_, particle_count(), threads_); });
-  base::tell_all(ranks_, [&](base::StateBytes& bytes) {
+  base::broadcast_values(ranks_, [&](base::StateBytes& bytes) {
     bytes(compared_.points, compared_.following.most_steps, compared_.following.by_half_steps, compared_.word,
           compared_.left_out);
   });
@@ -333,7 +333,7 @@ void Simulation::Parts::show_frame(double time) {
     frame.numbers.seconds = seconds_before_ + watch_.seconds();
   });
   // All ranks know what is known of the outputs, and judge the run alike.
-  base::tell_all(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers); });
+  base::broadcast_values(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers); });
   summary_.frames.emplace_back(time, frame.numbers);
   ++index_;  // not before: a disk that fills up with pieces leaves a state without this output
   on_first([&] {

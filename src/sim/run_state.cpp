@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/told_by_first.hpp"
+#include "base/broadcast.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/pieces_by_id.hpp"
 #include "sim/landings.hpp"
@@ -212,7 +212,7 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   prepare();
   begin();
   take_particles(std::move(particles));
-  const std::string of_all = base::told_by_first(ranks_, bytes);
+  const std::string of_all = base::broadcast_text(ranks_, bytes);
   ObserverStates seen;
   ranks_.agree_on([&] {
     try {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/broadcast.hpp"
 #include "base/json_file.hpp"
 #include "base/piece_writers.hpp"
-#include "base/told_by_first.hpp"
 #include "particle/columns.hpp"
 #include "sim/run_state.hpp"
 #include "write/checkpoint.hpp"
@@ -172,7 +172,7 @@ std::string first_words(const std::string& own, base::Communicator& ranks) {
   std::string words;
   for (const base::Bytes& bytes : ranks.gather(base::to_bytes(own)))
     if (words.empty()) words = base::to_text(bytes);
-  return base::told_by_first(ranks, words);
+  return base::broadcast_text(ranks, words);
 }
 
 }  // namespace
@@ -190,11 +190,11 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& folder, const std::str
     if (first) found = manifests_in(folder, past, refuse);
   });
   std::uint64_t count = found.size();
-  base::tell_all(ranks, [&](base::StateBytes& bytes) { bytes(count); });
+  base::broadcast_values(ranks, [&](base::StateBytes& bytes) { bytes(count); });
   for (std::uint64_t i = 0; i < count; ++i) {
     int number = first ? found[i].number : 0;
     std::string text = first ? found[i].manifest.dump() : "", why;
-    base::tell_all(ranks, [&](base::StateBytes& bytes) { bytes(number, text); });
+    base::broadcast_values(ranks, [&](base::StateBytes& bytes) { bytes(number, text); });
     const fs::path slot = checkpoint_slot(folder, number);
     Checkpoint checkpoint;
     ranks.agree_on([&] {

@@ -6,9 +6,9 @@
 #include <system_error>
 #include <utility>
 
+#include "base/broadcast.hpp"
 #include "base/parallel.hpp"
 #include "base/piece_writers.hpp"
-#include "base/told_by_first.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/columns.hpp"
 #include "particle/pieces_by_id.hpp"
@@ -151,7 +151,7 @@ CheckpointFacts CheckpointWriter::write(const std::string& past, double time, st
     number = trail_.newest ? 1 - *trail_.newest : serials[0] <= serials[1] ? 0 : 1;
     clear_slot(checkpoint_slot(folder_, number));
   });
-  base::tell_all(ranks_, [&](base::StateBytes& bytes) { bytes(number); });
+  base::broadcast_values(ranks_, [&](base::StateBytes& bytes) { bytes(number); });
   const fs::path here = checkpoint_slot(folder_, number);
 
   CheckpointFacts facts{time, steps, particles_of_all(particles, ranks_), 0};

@@ -352,12 +352,13 @@ TEST(Catalogues, AreTheOnlyPlaceOfTheirNames) {
                                      "src/fgtd/",
                                      "src/render/",
                                      "src/farfield/",
-                                     "src/rbf/",                    // have methods of their own with these names
-                                     "src/reproduce/",              // as the papers have it
-                                     "src/input/column_names.cpp",  // words of tables, such as "charge"
-                                     "src/input/foreign_keys.cpp",  // words of other programs, such as "cells"
-                                     "src/read/stored_grid.cpp",    // values at cells
-                                     "src/write/checkpoint.cpp"};   // members of its manifest
+                                     "src/rbf/",                        // have methods of their own with these names
+                                     "src/reproduce/",                  // as the papers have it
+                                     "src/input/column_names.cpp",      // words of tables, such as "charge"
+                                     "src/input/foreign_keys.cpp",      // words of other programs, such as "cells"
+                                     "src/read/stored_grid.cpp",        // values at cells
+                                     "src/write/write_checkpoint.cpp",  // members of its manifest
+                                     "src/write/read_checkpoint.cpp"};
   const std::filesystem::path root = SOURCE_DIR;
   int seen = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "src")) {

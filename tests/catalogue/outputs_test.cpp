@@ -117,7 +117,7 @@ TEST(PictureStyle, OfACatalogueIsKnownToAll) {
   EXPECT_TRUE(explains("toy_picture", "picture"));
   EXPECT_TRUE(has(input::schema_json(), "\"toy_picture\""));
   EXPECT_TRUE(has(input::registry_markdown(), "| `toy_picture` | 2 | one colour |"));
-  EXPECT_TRUE(has(std::string(input::find_key("output", "images").meaning), "`heatmap` and `toy_picture`; in 3D"));
+  EXPECT_TRUE(has(std::string(input::find_key("output", "images").meaning), "`streamlines` and `toy_picture`; in 3D"));
   const Case spec = gaussdrift::parse_case(small_case, "small.toml", overrides).spec;
   EXPECT_TRUE(has(case_text(spec), "images = [\"toy_picture\"]"));
   Case without = spec;

@@ -6,8 +6,8 @@
 #include "gaussdrift/read_case.hpp"
 #include "read/written_run.hpp"
 #include "report/page.hpp"
+#include "write/folder_facts.hpp"
 #include "write/run_folder.hpp"
-#include "write/told_by_folder.hpp"
 
 namespace gaussdrift {
 
@@ -66,7 +66,7 @@ output = {times = [0, 0.2, 0.5], images = []}
   const fuzz::Bundle bundle(text);
   lay_out(bundle);
   if (bundle.has("study.json")) answered([] { write::files_of_study(run()); });
-  if (bundle.has("provenance.json")) answered([] { write::told_name(run()); });
+  if (bundle.has("provenance.json")) answered([] { write::name_of_run(run()); });
   if (bundle.has("density.pvd") || bundle.has(names.back()))
     answered([] {
       for (const read::WrittenOutput& output : read::written_outputs(run(), "density"))
@@ -77,7 +77,7 @@ output = {times = [0, 0.2, 0.5], images = []}
     answered([] { report::write_report(run(), false); });
   }
   if (!bundle.has("status.json") && !bundle.has("earlier/status.json")) return;
-  answered([] { write::told_state(run()); });
+  answered([] { write::state_of_folder(run()); });
   answered([] { write::add_to_own_files(run(), {"images/a_0000.png"}); });
   for (const bool go_on : {true, false})
     answered([&] { write::RunFolder(run(), spec, {.force = !go_on, .go_on = go_on}); });

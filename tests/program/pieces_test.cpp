@@ -94,7 +94,7 @@ TEST(ParticlesInPieces, AreWrittenGoneOnWithAndTakenAway) {
   EXPECT_FALSE(fs::exists(particles / "particles_0002.vtp"));
   EXPECT_NE(read_file(folder / "whole/particles.pvd").find("file=\"particles/particles_0002.pvtp\""),
             std::string::npos);
-  Outcome run = gaussdrift_in(folder, "run a.toml --out parts --stop-after 0.02" + small_files);
+  Outcome run = gaussdrift_in(folder, "run a.toml --out parts --stop-after 0" + small_files);
   ASSERT_EQ(run.exit_code, 7) << run.err;
   ASSERT_EQ(gaussdrift_in(folder, "resume parts").exit_code, 0);
   std::size_t files = 0;

@@ -1,4 +1,4 @@
-#include "write/told_by_folder.hpp"
+#include "write/folder_facts.hpp"
 
 #include <fmt/format.h>
 
@@ -37,18 +37,18 @@ bool says_complete(const fs::path& folder) {
   return complete->get<bool>();
 }
 
-std::string told_state(const fs::path& folder) {
+std::string state_of_folder(const fs::path& folder) {
   return text_in(folder / "status.json", base::most_json_of_names, "state");
 }
 
-std::size_t told_outputs(const fs::path& folder) {
+std::size_t outputs_of_folder(const fs::path& folder) {
   const auto status =
       base::json_if_there(folder / "status.json", base::most_json_of_names, "remove it: resume goes on without it");
   const auto outputs = status ? status->value("outputs", nlohmann::ordered_json()) : nlohmann::ordered_json();
   return outputs.is_number_unsigned() ? outputs.get<std::size_t>() : 0;
 }
 
-std::string told_name(const fs::path& folder) {
+std::string name_of_run(const fs::path& folder) {
   return text_in(folder / "provenance.json", base::most_json_of_numbers, "name");
 }
 

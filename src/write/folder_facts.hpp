@@ -15,13 +15,13 @@ namespace gaussdrift::write {
 bool says_complete(const std::filesystem::path& folder);
 
 /// "running", "complete", ... of status.json; empty if there is none: earlier versions wrote none.
-std::string told_state(const std::filesystem::path& folder);
+std::string state_of_folder(const std::filesystem::path& folder);
 
 /// How many outputs are whole, by status.json; 0 if there is none.
-std::size_t told_outputs(const std::filesystem::path& folder);
+std::size_t outputs_of_folder(const std::filesystem::path& folder);
 
 /// Of the case as it was run, from provenance.json; empty if there is none.
-std::string told_name(const std::filesystem::path& folder);
+std::string name_of_run(const std::filesystem::path& folder);
 
 /// What a finished study wrote into the folder, by the names that its study.json tells. One that was interrupted has no
 /// list.

@@ -9,7 +9,7 @@
 namespace gaussdrift::base {
 
 /// Afterwards all ranks have the text of rank 0.
-inline std::string told_by_first(Communicator& ranks, const std::string& text) {
+inline std::string broadcast_text(Communicator& ranks, const std::string& text) {
   if (ranks.size() == 1) return text;
   Bytes bytes = to_bytes(text);
   ranks.broadcast(bytes);
@@ -18,11 +18,11 @@ inline std::string told_by_first(Communicator& ranks, const std::string& text) {
 
 /// The same of values: pass(bytes) hands each of them to the StateBytes.
 template <class Pass>
-void tell_all(Communicator& ranks, const Pass& pass) {
+void broadcast_values(Communicator& ranks, const Pass& pass) {
   if (ranks.size() == 1) return;
   StateBytes said;
   pass(said);
-  const std::string told = told_by_first(ranks, said.written());
+  const std::string told = broadcast_text(ranks, said.written());
   StateBytes heard(told);
   pass(heard);
 }
