@@ -64,21 +64,19 @@ class FlowOnBlock {
 
 }  // namespace
 
-bool shows_fields(const OutputSpec& output) { return field_numbers(output, 2) > 0; }
+bool shows_fields(const OutputSpec& output) { return !fields_beside_density(output).empty(); }
 
 int field_numbers(const OutputSpec& output, int dimension) {
   int numbers = 0;
-  for (const GridField& field : output.fields)
-    if (const GridFieldKind& kind = find_grid_field(field.name); kind.of_density || kind.of_flow)
-      numbers += kind.components(dimension) > 1 ? 3 : 1;
+  for (const GridFieldKind* kind : fields_beside_density(output)) numbers += kind->components(dimension) > 1 ? 3 : 1;
   return numbers;
 }
 
 std::vector<DensityDerivatives> derivatives_of(const OutputSpec& output, int dimension) {
   std::vector<DensityDerivatives> all;
-  for (const GridField& field : output.fields)
-    if (const GridFieldKind& kind = find_grid_field(field.name); kind.of_density)
-      for (DensityDerivatives& component : kind.of_density(dimension)) all.push_back(std::move(component));
+  for (const GridFieldKind* kind : fields_beside_density(output))
+    if (kind->of_density)
+      for (DensityDerivatives& component : kind->of_density(dimension)) all.push_back(std::move(component));
   return all;
 }
 
@@ -88,21 +86,20 @@ std::vector<FieldOnGrid> fields_on_grid(const OutputSpec& output, const Lattice&
   const int d = lattice.dimension;
   const std::size_t count = box.size();
   std::vector<FieldOnGrid> fields;
-  fields.reserve(output.fields.size());
+  const std::vector<const GridFieldKind*> kinds = fields_beside_density(output);
+  fields.reserve(kinds.size());
   struct OfFlow {
     const GridFieldKind* kind;
     FieldOnGrid* field;
   };
   std::vector<OfFlow> of_flow;
   std::size_t next = 0;
-  for (const GridField& named : output.fields) {
-    const GridFieldKind& kind = find_grid_field(named.name);
-    if (!kind.of_density && !kind.of_flow) continue;  // the density
-    const auto components = static_cast<std::size_t>(kind.components(d));
-    FieldOnGrid& field = fields.emplace_back(
-        FieldOnGrid{std::string(named.name), static_cast<int>(components), std::vector<double>(count * components)});
-    if (kind.of_flow)
-      of_flow.push_back({&kind, &field});
+  for (const GridFieldKind* kind : kinds) {
+    const auto components = static_cast<std::size_t>(kind->components(d));
+    FieldOnGrid& field = fields.emplace_back(FieldOnGrid{std::string(kind->about.name), static_cast<int>(components),
+                                                         std::vector<double>(count * components)});
+    if (kind->of_flow)
+      of_flow.push_back({kind, &field});
     else
       for (std::size_t c = 0; c < components; ++c, ++next)
         for (std::size_t j = 0; j < count; ++j) field.values[j * components + c] = derivatives[next][j];

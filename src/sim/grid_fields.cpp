@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 namespace gaussdrift {
 
@@ -78,12 +79,17 @@ GridFieldKind stretch() {
           .of_flow =
               [](const FlowThere& flow, double* components) {
                 const auto& g = flow.gradient;
-                Eigen::MatrixXd strain(flow.dimension, flow.dimension);
-                for (int k = 0; k < flow.dimension; ++k)
-                  for (int i = 0; i < flow.dimension; ++i) strain(k, i) = (g[k][i] + g[i][k]) / 2;
+                const auto strain = [&](int k, int i) { return (g[k][i] + g[i][k]) / 2; };
+                if (flow.dimension == 2) {
+                  components[0] = (g[0][0] + g[1][1]) / 2 + std::hypot((g[0][0] - g[1][1]) / 2, strain(0, 1));
+                  return;
+                }
+                Eigen::Matrix3d matrix;
+                for (int k = 0; k < 3; ++k)
+                  for (int i = 0; i < 3; ++i) matrix(k, i) = strain(k, i);
                 // A solver does not end on what is no number.
-                components[0] = !strain.allFinite() ? strain.sum()
-                                                    : strain.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+                components[0] = !matrix.allFinite() ? matrix.sum()
+                                                    : matrix.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
               },
           .needs_gradient = true};
 }
@@ -94,6 +100,14 @@ const std::vector<GridFieldKind>& grid_fields() { return base::catalogue<GridFie
 
 const GridFieldKind& find_grid_field(std::string_view name) {
   return base::find_named(grid_fields(), "field of the grid", name);
+}
+
+std::vector<const GridFieldKind*> fields_beside_density(const OutputSpec& output) {
+  std::vector<const GridFieldKind*> kinds;
+  for (const GridField& field : output.fields)
+    if (const GridFieldKind& kind = find_grid_field(field.name); kind.of_density || kind.of_flow)
+      kinds.push_back(&kind);
+  return kinds;
 }
 
 }  // namespace gaussdrift

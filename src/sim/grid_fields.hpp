@@ -38,6 +38,9 @@ const std::vector<GridFieldKind>& grid_fields();
 /// Throws std::out_of_range if no field is called so.
 const GridFieldKind& find_grid_field(std::string_view name);
 
+/// Those that a case names, without the density, which is always there.
+std::vector<const GridFieldKind*> fields_beside_density(const OutputSpec& output);
+
 }  // namespace gaussdrift
 
 template <>

@@ -220,9 +220,8 @@ DensityGrid Simulation::Parts::sum_in_pieces(Frame& frame, DensityReport& report
   frame.lattice = &scene_.evaluation;
   frame.every = thinning(scene_.evaluation);
   frame.pieces_have_exact = compares_pieces();
-  for (const GridField& field : case_.output.fields)
-    if (const GridFieldKind& kind = find_grid_field(field.name); kind.of_density || kind.of_flow)
-      frame.piece_fields.emplace_back(field.name, kind.components(case_.domain.dimension));
+  for (const GridFieldKind* kind : fields_beside_density(case_.output))
+    frame.piece_fields.emplace_back(kind->about.name, kind->components(case_.domain.dimension));
   PieceComparison comparison(scene_.evaluation, pieces_, largest_at_start_);
   const PieceReceiver receiver{
       .begin = [&] { comparison.begin(); },
@@ -230,7 +229,9 @@ DensityGrid Simulation::Parts::sum_in_pieces(Frame& frame, DensityReport& report
           [&](std::size_t number, std::vector<double>& values) {
             std::vector<double> exact;
             const LatticeBox box = pieces_.shown(number);
-            const std::vector<FieldOnGrid> fields = fields_of_piece(frame.time, box, values);
+            std::vector<FieldOnGrid> fields;
+            if (!frame.piece_fields.empty())
+              summary_.stages.run("fields on the grid", [&] { fields = fields_of_piece(frame.time, box, values); });
             const std::vector<double>& rho = values;
             DensityPiece piece{number, box, &rho, nullptr, &fields};
             if (frame.pieces_have_exact) {
@@ -300,8 +301,7 @@ void Simulation::Parts::show_frame(double time) {
     });
 
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
-  std::vector<double> velocity;
-  velocity = velocity_at_particles(time, velocity_wanted);
+  std::vector<double> velocity = velocity_at_particles(time, velocity_wanted);
 
   if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
   if (velocity_wanted)

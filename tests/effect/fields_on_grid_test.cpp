@@ -171,6 +171,21 @@ TEST(FieldsOnGrid, ShowTheFlowOfItsFormulas) {
   EXPECT_LE(space.largest("divergence"), 0.0);
 }
 
+// A shear of rate 2 stretches at the rate 1, along the diagonal.
+TEST(FieldsOnGrid, ShowTheStretchOfAShear) {
+  CaseTables tables = resting;
+  tables.velocity = velocity_of({"2*y", "0"});
+  const std::string stretch = "output.fields=[\"stretch\"]";
+  EXPECT_NEAR(shown(scene_of({stretch}, case_text(tables))).largest("stretch"), 1, 1e-15);
+  tables.domain = cube;
+  tables.velocity = velocity_of({"0", "0", "2*y"});
+  tables.density = shape_of("gaussian", "0, 0, 0", "0.3");
+  tables.particles = "per_axis = 11";
+  tables.evaluate = "per_axis = 10";
+  const Shown space = shown(scene_of({stretch}, case_text(tables)));
+  for (const double value : space.field("stretch").values) EXPECT_NEAR(value, 1, 1e-14);
+}
+
 TEST(FieldsOnGrid, CostNothingWhereNoneIsNamed) {
   for (const std::vector<std::string>& overrides : {std::vector<std::string>{}, {"output.fields=[\"rho\"]"}}) {
     const Case spec = scene_of(overrides);
