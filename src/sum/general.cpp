@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
@@ -182,8 +181,6 @@ std::string to_text(const GeneralSums& sums) {
 
 std::string to_json(const GeneralSums& sums) {
   const farfield::GeneralChoice& choice = sums.choice;
-  std::ostringstream line;
-  line << choice;
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
   if (choice.method != farfield::GeneralMethod::direct) {
     nlohmann::ordered_json levels = nlohmann::ordered_json::array();
@@ -208,21 +205,12 @@ std::string to_json(const GeneralSums& sums) {
                 {"sum_error", finite_or_null(sums.measured[0].error)},
                 {"of_itself", finite_or_null(sums.of_itself)},
                 {"kept", broken_promises(sums.measured, sums.compared).empty()}};
-  const nlohmann::ordered_json json = {{"kernel", sums.kernel},
-                                       {"dimension", sums.dimension},
-                                       {"sources", choice.sources},
-                                       {"targets", sums.values.rows()},
-                                       {"columns", sums.columns},
-                                       {"tolerance", choice.tolerance},
-                                       {"method_asked", farfield::to_string(sums.asked)},
-                                       {"method", farfield::to_string(choice.method)},
-                                       {"parameters", parameters},
-                                       {"choice", line.str()},
-                                       {"measured", measured},
-                                       {"Q", finite_or_null(sums.charge_total)},
-                                       {"threads", sums.threads},
-                                       {"seconds", seconds_by_stage(sums)}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  nlohmann::ordered_json json = head_of(sums, sums.kernel, parameters);
+  json.update({{"measured", measured},
+               {"Q", finite_or_null(sums.charge_total)},
+               {"threads", sums.threads},
+               {"seconds", seconds_by_stage(sums)}});
+  return text_of(json);
 }
 
 }  // namespace gaussdrift::sum

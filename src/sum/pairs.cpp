@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
@@ -186,8 +185,6 @@ std::string to_text(const PairSums& sums) {
 
 std::string to_json(const PairSums& sums) {
   const farfield::Choice& choice = sums.choice;
-  std::ostringstream line;
-  line << choice;
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
   if (choice.method != farfield::Method::direct)
     parameters = {{"degree", choice.degree},
@@ -202,23 +199,14 @@ std::string to_json(const PairSums& sums) {
                 {"potential_of_itself", finite_or_null(sums.potential_of_itself)},
                 {"field_of_itself", finite_or_null(sums.field_of_itself)},
                 {"kept", broken_promises(sums.measured, sums.compared).empty()}};
-  const nlohmann::ordered_json json = {{"kernel", farfield::to_string(choice.kernel)},
-                                       {"dimension", sums.dimension},
-                                       {"sources", choice.sources},
-                                       {"targets", sums.values.rows()},
-                                       {"columns", sums.columns},
-                                       {"tolerance", choice.tolerance},
-                                       {"method_asked", farfield::to_string(sums.asked)},
-                                       {"method", farfield::to_string(choice.method)},
-                                       {"parameters", parameters},
-                                       {"choice", line.str()},
-                                       {"bound", finite_or_null(choice.bound)},
-                                       {"measured", measured},
-                                       {"Q", finite_or_null(sums.charge_total)},
-                                       {"predicted_seconds", finite_or_null(choice.seconds)},
-                                       {"threads", sums.threads},
-                                       {"seconds", seconds_by_stage(sums)}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  nlohmann::ordered_json json = head_of(sums, farfield::to_string(choice.kernel), parameters);
+  json.update({{"bound", finite_or_null(choice.bound)},
+               {"measured", measured},
+               {"Q", finite_or_null(sums.charge_total)},
+               {"predicted_seconds", finite_or_null(choice.seconds)},
+               {"threads", sums.threads},
+               {"seconds", seconds_by_stage(sums)}});
+  return text_of(json);
 }
 
 }  // namespace gaussdrift::sum

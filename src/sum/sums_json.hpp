@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
+#include <string>
 
 namespace gaussdrift::sum {
 
@@ -20,6 +22,28 @@ nlohmann::ordered_json seconds_by_stage(const Sums& sums) {
           {"evaluate", sums.evaluate_seconds},
           {"compare", sums.compare_seconds},
           {"write", sums.write_seconds}};
+}
+
+/// What all sums over pairs tell first: of which kernel and points, asked how and done how.
+template <class Sums>
+nlohmann::ordered_json head_of(const Sums& sums, const std::string& kernel, const nlohmann::ordered_json& parameters) {
+  std::ostringstream line;
+  line << sums.choice;
+  return {{"kernel", kernel},
+          {"dimension", sums.dimension},
+          {"sources", sums.choice.sources},
+          {"targets", sums.values.rows()},
+          {"columns", sums.columns},
+          {"tolerance", sums.choice.tolerance},
+          {"method_asked", to_string(sums.asked)},
+          {"method", to_string(sums.choice.method)},
+          {"parameters", parameters},
+          {"choice", line.str()}};
+}
+
+/// Laid out; texts that are no UTF-8 are mended.
+inline std::string text_of(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gaussdrift::sum
