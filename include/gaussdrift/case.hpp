@@ -156,8 +156,9 @@ struct PictureStyle {
   int most_dimension = 3;    ///< the same
   bool by_default = false;   ///< drawn where a case does not say which
   bool shows_error = false;  ///< shows the difference from the exact density: needs a reference
-  /// Shows the velocity: needs it in `output.fields`, and density files, from which it may be read again.
-  bool shows_velocity = false;
+  /// The field that it shows beside the density: needs it in `output.fields`, and density files, from which it may be
+  /// read again. Empty: none.
+  std::string_view needs_field = {};
 
   /// Densities of this dimension?
   bool shows(int dimension) const { return least_dimension <= dimension && dimension <= most_dimension; }

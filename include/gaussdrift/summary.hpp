@@ -17,12 +17,14 @@ namespace gaussdrift {
 
 /// How far a run is.
 struct Progress {
-  std::size_t steps_done = 0;   ///< since the start
-  std::size_t steps_total = 0;  ///< to the end; 0: not known beforehand
-  double time = 0;              ///< of the scene
-  double end = 0;               ///< of the scene: time.end
-  double seconds = 0;           ///< since the run began
-  double step_seconds = 0;      ///< of these, in steps
+  std::size_t steps_done = 0;     ///< since the start
+  std::size_t steps_total = 0;    ///< to the end; 0: not known beforehand
+  double time = 0;                ///< of the scene
+  double end = 0;                 ///< of the scene: time.end
+  double seconds = 0;             ///< since the run began
+  double step_seconds = 0;        ///< of these, in steps
+  std::size_t outputs_done = 0;   ///< since the start
+  std::size_t outputs_total = 0;  ///< to the end
 };
 
 /// What transport or one effect did.

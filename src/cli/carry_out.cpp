@@ -13,7 +13,6 @@
 #include "accuracy/footprint.hpp"
 #include "accuracy/ranks_memory.hpp"
 #include "base/counted.hpp"
-#include "base/json_file.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "base/process_stopwatch.hpp"
@@ -26,6 +25,7 @@
 #include "cli/look_back.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
+#include "cli/rank_shares.hpp"
 #include "cli/run_observers.hpp"
 #include "cli/run_page.hpp"
 #include "cli/run_words.hpp"
@@ -137,12 +137,7 @@ class Run {
   }
 
   /// All ranks: how evenly they worked.
-  void gather_shares() {
-    if (ranks_.size() == 1) return;
-    const Share own{share_seconds_, static_cast<double>(ranks_.traffic().sent)};
-    for (const base::Bytes& bytes : ranks_.gather(base::to_bytes(std::span(&own, 1))))
-      shares_.push_back(base::from_bytes<Share>(bytes).front());
-  }
+  void gather_shares() { shares_ = cli::gather_shares(ranks_, share_seconds_); }
 
   bool complete() const { return summary_.complete; }
 
@@ -364,7 +359,7 @@ class Run {
   std::string log_text(const std::string& without) {
     ending_ = (complete() ? "" : stopped_text()) +
               ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + without + state_text() +
-              shares_text();
+              shares_text(shares_, ranks_.hosts());
     std::string log;
     for (const std::string& warning : told_) log += "warning: " + warning + "\n";
     for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
@@ -414,24 +409,6 @@ class Run {
                        write::checkpoints_folder);
   }
 
-  std::string shares_text() const {
-    if (shares_.empty()) return "";
-    double all = 0, busiest = 0, sent = 0;
-    for (const Share& share : shares_) {
-      all += share.seconds, sent += share.sent;
-      busiest = std::max(busiest, share.seconds);
-    }
-    const double mean = all / static_cast<double>(shares_.size());
-    return fmt::format("ranks  {} on {}: the busiest took {:.2f} times the mean processor time, {} sent\n",
-                       ranks_.size(), base::counted(static_cast<std::size_t>(ranks_.hosts()), "host"),
-                       mean > 0 ? busiest / mean : 1, base::size_text(sent));
-  }
-
-  /// Of the work of one rank.
-  struct Share {
-    double seconds = 0, sent = 0;  // processor seconds, bytes
-  };
-
   RunTask& task_;
   const Case& spec_;
   const fs::path folder_;
@@ -448,23 +425,13 @@ class Run {
   bool looked_back_ = true;                                  // or did not want to
   std::vector<std::string> told_, warnings_, of_observers_;  // warnings: at the start, for the end, of observers
   double share_seconds_ = 0;                                 // processor seconds of this rank in the run
-  std::vector<Share> shares_;                                // of all ranks, on rank 0
+  std::vector<RankShare> shares_;                            // of all ranks, on rank 0
   // Members of summary.json beside those of the run.
   nlohmann::ordered_json more_ = nlohmann::ordered_json::object();
   std::string summary_text_, ending_;
   OwedFiles owed_;
   std::optional<write::RunFolder> own_folder_;
 };
-
-/// What summary.json says of the checks.
-bool has_failed_check(const fs::path& folder) {
-  const auto summary = base::json_if_there(folder / "summary.json", base::most_json_of_numbers, "run it again");
-  const auto checks = summary ? summary->value("checks", nlohmann::ordered_json()) : nlohmann::ordered_json();
-  return std::any_of(checks.begin(), checks.end(), [](const nlohmann::ordered_json& check) {
-    const auto passed = check.is_object() ? check.find("passed") : check.end();
-    return check.is_object() && passed != check.end() && *passed == false;
-  });
-}
 
 }  // namespace
 
@@ -495,16 +462,6 @@ ExitCode carry_out(RunTask task, base::Communicator& ranks) {
   run.force_checkpoint();
   ranks.sum(std::span(&code, 1));  // the others have 0
   return static_cast<ExitCode>(code);
-}
-
-ExitCode finish(const Case& spec, const fs::path& folder) {
-  write::RunFolder own_folder(folder, spec, {.go_on = true});
-  OwedFiles owed;
-  if (spec.output.report) put(stdout, write_page(folder, spec, owed));
-  owed.attempt([&] { own_folder.complete(); });
-  for (const std::string& why : owed.missing()) note("error: {}\n", why);
-  if (has_failed_check(folder)) return ExitCode::check;
-  return owed.missing().empty() ? ExitCode::ok : ExitCode::files;
 }
 
 }  // namespace gaussdrift::cli

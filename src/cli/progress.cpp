@@ -4,6 +4,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -44,21 +45,35 @@ std::string_view cut(std::string_view text, std::size_t most) {
   return text;
 }
 
+double part_done(const Progress& progress) {
+  if (progress.steps_total > 0)
+    return static_cast<double>(progress.steps_done) / static_cast<double>(progress.steps_total);
+  return progress.end > 0 ? progress.time / progress.end : 1;
+}
+
 }  // namespace
 
+std::optional<double> seconds_left(const Progress& progress) {
+  const double fraction = part_done(progress);
+  if (!(fraction > 0)) return std::nullopt;
+  const double steps = progress.step_seconds * (1 - fraction) / fraction;
+  const std::size_t outputs = progress.outputs_total - std::min(progress.outputs_done, progress.outputs_total);
+  if (outputs == 0) return steps;
+  if (progress.outputs_done == 0) return std::nullopt;
+  return steps + (progress.seconds - progress.step_seconds) * static_cast<double>(outputs) /
+                     static_cast<double>(progress.outputs_done);
+}
+
 std::string progress_text(const Progress& progress) {
-  double fraction = progress.end > 0 ? progress.time / progress.end : 1;
+  const double fraction = part_done(progress);
+  const std::optional<double> left = seconds_left(progress);
   std::string steps = fmt::format("{}", progress.steps_done);
-  if (progress.steps_total > 0) {
-    fraction = static_cast<double>(progress.steps_done) / static_cast<double>(progress.steps_total);
-    steps += fmt::format(" of {}", progress.steps_total);
-  }
+  if (progress.steps_total > 0) steps += fmt::format(" of {}", progress.steps_total);
   const double per_step =
       progress.steps_done > 0 ? 1e3 * progress.step_seconds / static_cast<double>(progress.steps_done) : 0;
-  // Frames come evenly enough that the whole time so far, not only the steps, tells what is left.
-  const double left = fraction > 0 ? progress.seconds * (1 - fraction) / fraction : 0;
-  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g}  step {}  {:.3g} ms a step  {} left", std::floor(100 * fraction),
-                     progress.time, progress.end, steps, per_step, duration(left));
+  return fmt::format("{:3.0f} %  t = {:.4g} of {:.4g}  step {}  {:.3g} ms a step{}", std::floor(100 * fraction),
+                     progress.time, progress.end, steps, per_step,
+                     left ? fmt::format("  {} left", duration(*left)) : "");
 }
 
 ProgressLine::ProgressLine(double first) : terminal_(rewrites_lines()), first_(first) {}

@@ -141,7 +141,8 @@ ExitCode render(const RenderOptions& options) {
   for (const std::size_t i : wanted) {
     const fs::path png = place.folder() / *name++;
     DensityGrid density = read::read_density(outputs[i].file, options.field);
-    if (style->about.shows_velocity) density.fields = {read::read_vector(outputs[i].file, "velocity")};
+    if (const std::string needed(style->about.needs_field); !needed.empty())
+      density.fields = {read::read_vector(outputs[i].file, needed)};
     draw(*style, density,
          {.title = named.stem().string(),
           .quantity = options.field == "rho" ? "density" : options.field,

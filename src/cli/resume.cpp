@@ -159,6 +159,16 @@ Asked asked_for(const ResumeOptions& options) {
   return asked;
 }
 
+/// Of a complete run: its end is made where it lacks.
+ExitCode nothing_to_do(const fs::path& folder, const Case& spec) {
+  if (lacks_its_end(folder)) {
+    note("all numbers are there; the page about them is made again\n");
+    return finish(spec, folder);
+  }
+  put(stdout, fmt::format("{} is complete. --until T lengthens it.\n", folder.string()));
+  return ExitCode::ok;
+}
+
 RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<write::Checkpoint> from,
                 const std::vector<std::string>& refused) {
   RunTask task;
@@ -183,23 +193,17 @@ RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<
     tell_missing_files(before, options.folder, outputs_until(before, now, options.folder));
   }
   if (complete && !task.from) tell_missing_files(before, options.folder, write::outputs_of_folder(options.folder));
-  const input::ChangedKeys changed = input::changed_keys(before, spec);
-  if (complete && changed.future.empty() && lacks_its_end(options.folder)) {
-    note("all numbers are there; the page about them is made again\n");
-    task.done = finish(spec, options.folder);
-    return task;
-  }
-  if (complete && changed.future.empty()) {
-    put(stdout, fmt::format("{} is complete. --until T lengthens it.\n", options.folder.string()));
-    task.done = ExitCode::ok;
+  const std::vector<std::string> changed = input::changed_keys(before, spec).future;
+  if (complete && changed.empty()) {
+    task.done = nothing_to_do(options.folder, spec);
     return task;
   }
   if (complete && !task.from)
     throw InputError(
         fmt::format("{} is complete, and it keeps no checkpoint to go on from. Set output.checkpoint in a new run.",
                     options.folder.string()));
-  task.changed = !changed.future.empty();
-  if (task.changed) task.told += fmt::format("changed from now on: {}\n", fmt::join(changed.future, ", "));
+  task.changed = !changed.empty();
+  if (task.changed) task.told += fmt::format("changed from now on: {}\n", fmt::join(changed, ", "));
   if (task.from)
     task.told += fmt::format("goes on at t = {:.6g} of {:.6g}, after {} steps: the last checkpoint\n",
                              task.from->facts.time, spec.time.end, task.from->facts.steps);

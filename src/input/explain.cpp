@@ -134,9 +134,9 @@ Explanation about(const PictureStyle& style) {
   Explanation result{"picture", fmt::format("output.images = [\"{}\"]", style.name), std::string(style.meaning), {}};
   add(result.facts, "dimensions", dimensions_text(style.least_dimension, style.most_dimension));
   add(result.facts, "needs",
-      style.shows_error      ? "a reference"
-      : style.shows_velocity ? "\"velocity\" in output.fields"
-                             : "");
+      style.shows_error            ? "a reference"
+      : !style.needs_field.empty() ? fmt::format("\"{}\" in output.fields", style.needs_field)
+                                   : "");
   add(result.facts, "drawn by default", style.by_default ? "yes" : "no");
   return result;
 }

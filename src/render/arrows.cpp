@@ -1,11 +1,14 @@
 // The velocity over the density: arrows, or lines along the flow.
+#include <string_view>
+
 #include "render/flow.hpp"
 #include "render/plane.hpp"
 
 namespace gaussdrift::render {
 namespace {
 
-constexpr int along_longer_side = 24;  // arrows, or lines of a uniform flow
+constexpr std::string_view shown = "velocity";  // a field on the grid
+constexpr int along_longer_side = 24;           // arrows, or lines of a uniform flow
 
 /// Dark on light, so that lines are seen on all colours.
 void draw_lines(Canvas& canvas, const Rectangle& panel, const FlowPlane& flow,
@@ -29,7 +32,7 @@ void draw_lines(Canvas& canvas, const Rectangle& panel, const FlowPlane& flow,
 template <class Lines>
 Painting over_the_map(const DensityGrid& density, const ColourRange& range, const PictureOptions& options,
                       const Lines& lines_of) {
-  return [map = make_height_field(density, range, most_plane_points), flow = FlowPlane(density), range, options,
+  return [map = make_height_field(density, range, most_plane_points), flow = FlowPlane(density, shown), range, options,
           lines_of](Canvas& canvas) {
     const Rectangle panel = draw_map(canvas, map, range, options);
     draw_lines(canvas, panel, flow, lines_of(flow));
@@ -52,7 +55,7 @@ Style arrows_style() {
   return {.about = {.name = "arrows",
                     .meaning = "the density in colours from above, and the velocity as arrows",
                     .most_dimension = 2,
-                    .shows_velocity = true},
+                    .needs_field = shown},
           .cost = {.seconds = 0.15, .a_point = 0.7e-8},
           .painting = painted_arrows};
 }
@@ -61,7 +64,7 @@ Style streamlines_style() {
   return {.about = {.name = "streamlines",
                     .meaning = "the density in colours from above, and lines along the velocity at that time",
                     .most_dimension = 2,
-                    .shows_velocity = true},
+                    .needs_field = shown},
           .cost = {.seconds = 0.2, .a_point = 1.5e-8},
           .painting = painted_streamlines};
 }

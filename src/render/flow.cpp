@@ -1,5 +1,7 @@
 #include "render/flow.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,12 +25,13 @@ std::vector<Point> head(const Point& tip, double c, double s, double length) {
 
 }  // namespace
 
-FlowPlane::FlowPlane(const DensityGrid& density) : nx_(density.lattice.points[0]), ny_(density.lattice.points[1]) {
-  const auto velocity = std::find_if(density.fields.begin(), density.fields.end(),
-                                     [](const FieldOnGrid& field) { return field.name == "velocity"; });
-  if (velocity == density.fields.end() || velocity->components != 2 || velocity->values.size() != 2 * nx_ * ny_)
-    throw Error(ExitCode::internal, "the velocity is not there to be drawn");
-  values_ = velocity->values;
+FlowPlane::FlowPlane(const DensityGrid& density, std::string_view name)
+    : nx_(density.lattice.points[0]), ny_(density.lattice.points[1]) {
+  const auto field = std::find_if(density.fields.begin(), density.fields.end(),
+                                  [&](const FieldOnGrid& one) { return one.name == name; });
+  if (field == density.fields.end() || field->components != 2 || field->values.size() != 2 * nx_ * ny_)
+    throw Error(ExitCode::internal, fmt::format("the {} is not there to be drawn", name));
+  values_ = field->values;
   for (std::size_t j = 0; j < values_.size(); j += 2)
     if (const double speed = std::hypot(values_[j], values_[j + 1]); speed > largest_ && std::isfinite(speed))
       largest_ = speed;

@@ -1,6 +1,7 @@
 // The velocity over a picture of a density on a plane: as arrows, or as lines along it.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "gaussdrift/density_grid.hpp"
@@ -11,8 +12,8 @@ namespace gaussdrift::render {
 /// Velocities on a plane lattice, in coordinates of its points: the first is at (0, 0), the next along x at (1, 0).
 class FlowPlane {
  public:
-  /// Takes the field "velocity" of the density. Throws Error(ExitCode::internal) where it is not there.
-  explicit FlowPlane(const DensityGrid& density);
+  /// Takes the field of that name, a vector, of the density. Throws Error(ExitCode::internal) where it is not there.
+  FlowPlane(const DensityGrid& density, std::string_view name);
 
   double width() const { return static_cast<double>(nx_ - 1); }
   double height() const { return static_cast<double>(ny_ - 1); }

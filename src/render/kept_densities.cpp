@@ -127,8 +127,8 @@ DensityGrid KeptDensities::read_back(bool error, std::size_t output, double time
   return density;
 }
 
-FieldOnGrid KeptDensities::velocity(std::size_t output, double time) {
-  return read::read_vector(density_file(output, time), "velocity");
+FieldOnGrid KeptDensities::field(std::string_view name, std::size_t output, double time) {
+  return read::read_vector(density_file(output, time), std::string(name));
 }
 
 }  // namespace gaussdrift::render

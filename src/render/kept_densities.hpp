@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,8 +29,8 @@ class KeptDensities {
   /// In single precision, and thinned in space. Throws FileError if it is neither kept nor in a file of this output.
   DensityGrid get(bool error, std::size_t output, double time);
 
-  /// The velocity of that output, from its file. Throws FileError.
-  FieldOnGrid velocity(std::size_t output, double time);
+  /// A field of that output, a vector, from its file. Throws FileError.
+  FieldOnGrid field(std::string_view name, std::size_t output, double time);
 
   /// Removes the files of so many outputs, unless a checkpoint stands beside them: a run that goes on needs them.
   void remove_files(std::size_t outputs) const;

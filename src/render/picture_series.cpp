@@ -137,9 +137,23 @@ class PictureSeries : public Observer {
     }
   }
 
+  using Wide = std::vector<std::pair<const Drawn*, std::pair<double, double>>>;
+
+  /// What these styles show beside the density, each field once.
+  std::vector<FieldOnGrid> fields_needed(const Wide& wide, std::size_t index) {
+    std::vector<FieldOnGrid> fields;
+    for (const auto& [drawn, range] : wide) {
+      const std::string_view needed = drawn->style.about.needs_field;
+      const bool there = needed.empty() || std::any_of(fields.begin(), fields.end(),
+                                                       [&](const FieldOnGrid& field) { return field.name == needed; });
+      if (!there) fields.push_back(kept_.field(needed, index, times_[index]));
+    }
+    return fields;
+  }
+
   /// Pictures of all outputs with the wider range, where there is one. Each density is fetched once for all styles.
   void draw_again(bool error) {
-    std::vector<std::pair<const Drawn*, std::pair<double, double>>> wide;
+    Wide wide;
     for (const Drawn& drawn : styles_)
       if (const auto range = drawn.wider(); range && drawn.style.about.shows_error == error)
         wide.emplace_back(&drawn, *range);
@@ -150,9 +164,7 @@ class PictureSeries : public Observer {
       DensityGrid density;
       try {
         density = kept_.get(error, index, times_[index]);
-        if (std::any_of(wide.begin(), wide.end(),
-                        [](const auto& one) { return one.first->style.about.shows_velocity; }))
-          density.fields = {kept_.velocity(index, times_[index])};
+        density.fields = fields_needed(wide, index);
       } catch (const FileError& failure) {
         if (++missing == 1) why = failure.what();
         continue;

@@ -16,7 +16,9 @@
 #include "render/chart.hpp"
 #include "render/picture.hpp"
 #include "render/styles.hpp"
+#include "reproduce/box_figures.hpp"
 #include "reproduce/fgtd.hpp"
+#include "reproduce/point_sets.hpp"
 #include "write/result_folder.hpp"
 
 namespace gaussdrift::reproduce {
@@ -78,6 +80,110 @@ struct Maker {
 double operations_a_point(double p, double n) { return p * p + (2 * n + 1) * (2 * n + 1) * p * p; }
 double operations(double p, double n, double sources, double targets) {
   return p * p * sources + (2 * n + 1) * (2 * n + 1) * p * p * targets;
+}
+
+void hermite_polynomials(const Maker& make) {
+  const base::Stopwatch watch;
+  constexpr int most = 4, intervals = 200;
+  std::vector<render::ChartSeries> curves;
+  for (int n = 0; n <= most; ++n)
+    curves.push_back({.name = fmt::format("n = {}", n), .look = render::ChartSeries::Look::line});
+  for (int i = 0; i <= intervals; ++i) {
+    const double t = -2 + 4.0 * i / intervals;
+    double before = 0, value = 1;  // H_{n+1} = 2 t H_n - 2 n H_{n-1}
+    for (int n = 0; n <= most; ++n) {
+      curves[static_cast<std::size_t>(n)].points.push_back({t, value});
+      before = std::exchange(value, 2 * t * value - 2 * n * before);
+    }
+  }
+  render::draw_chart({.title = "Hermite polynomials",
+                      .x = render::ChartAxis{.name = "t"},
+                      .y = render::ChartAxis{.name = "H_n(t)", .range = {-50, 120}},
+                      .series = std::move(curves)},
+                     make.file("2.1"));
+  make.add("2.1", "the first five Hermite polynomials", watch);
+}
+
+void gaussians(const Maker& make) {
+  constexpr int intervals = 200;
+  const auto place = [](int i, int of) { return -3 + 6.0 * i / of; };
+  {
+    const base::Stopwatch watch;
+    std::vector<render::ChartSeries> curves;
+    for (const double sigma : {0.5, 1.0, 2.0}) {
+      render::ChartSeries curve{.name = fmt::format("σ = {}", sigma), .look = render::ChartSeries::Look::line};
+      for (int i = 0; i <= intervals; ++i) {
+        const double x = place(i, intervals);
+        curve.points.push_back({x, std::exp(-sigma * x * x)});
+      }
+      curves.push_back(std::move(curve));
+    }
+    render::draw_chart({.title = "Gaussians exp(-σ x²)",
+                        .x = render::ChartAxis{.name = "x"},
+                        .y = render::ChartAxis{.name = "value"},
+                        .series = std::move(curves)},
+                       make.file("3.1a"));
+    make.add("3.1a", "three Gaussians in one dimension", watch);
+  }
+  const base::Stopwatch watch;
+  constexpr int points = 121;
+  DensityGrid bell;
+  bell.lattice.dimension = 2;
+  bell.lattice.origin = {-3, -3, 0};
+  bell.lattice.spacing = 6.0 / (points - 1);
+  bell.lattice.points = {points, points, 1};
+  for (int j = 0; j < points; ++j)
+    for (int i = 0; i < points; ++i) {
+      const double x = place(i, points - 1), y = place(j, points - 1);
+      bell.rho.push_back(std::exp(-x * x - y * y));
+    }
+  draw(heights(), bell, {.title = "A Gaussian, σ = 1", .quantity = "value", .time = {}, .range_min = 0, .range_max = 1},
+       make.file("3.1b"));
+  make.add("3.1b", "a Gaussian in two dimensions, sigma = 1", watch);
+}
+
+void box(const Maker& make) {
+  const base::Stopwatch watch;
+  draw_box_with_its_corners(make.file("3.2"));
+  make.add("3.2", "a box with its corners, its centre and a point in it", watch);
+}
+
+void subboxes(const Maker& make) {
+  const base::Stopwatch watch;
+  draw_numbered_boxes(make.file("3.3"));
+  make.add("3.3", "a bounding box cut into 35 subboxes, their numbers and indices", watch);
+}
+
+void neighbours(const Maker& make) {
+  const base::Stopwatch watch;
+  draw_neighbours(make.file("3.4"));
+  make.add("3.4", "the neighbour boxes of a box for n = 0, 1, 2 and n >= 3, by Algorithm 3.4", watch);
+}
+
+void recursion(const Maker& make) {
+  const base::Stopwatch watch;
+  draw_recursion(make.file("3.5"));
+  make.add("3.5", "the order in which Algorithm 3.5 finds 16 neighbours, n = 2", watch);
+}
+
+void points_of_tests(const Maker& make) {
+  constexpr std::size_t count = 500;
+  const auto chart = [&](const std::string& number, const std::string& name, const fgtd::Points<2>& points) {
+    const base::Stopwatch watch;
+    render::ChartSeries marks{.name = "", .look = render::ChartSeries::Look::marks};
+    for (Eigen::Index i = 0; i < points.cols(); ++i) marks.points.push_back({points(0, i), points(1, i)});
+    render::draw_chart({.title = fmt::format("{} {} points", count, name),
+                        .x = render::ChartAxis{.name = "x", .range = {0, 1}},
+                        .y = render::ChartAxis{.name = "y", .range = {0, 1}},
+                        .series = {marks},
+                        .width = 1000,
+                        .height = 1000},
+                       make.file(number));
+    make.add(number, fmt::format("{} {} points in the unit square", count, name), watch);
+  };
+  constexpr std::uint64_t seed = 1;
+  chart("4.1a", "random", random_points<2>(count, seed));
+  chart("4.1b", "Halton", halton_points<2>(count));
 }
 
 void cost_of_parameters(const Maker& make) {
@@ -203,9 +309,20 @@ void disk_with_gap(const Maker& make) {
              frames.back(), watch, true);
 }
 
-constexpr std::pair<std::string_view, void (*)(const Maker&)> makers[]{
-    {"3.6", cost_of_parameters}, {"3.7", break_even},        {"4.2", performance},  {"5.1", cone_of_widths},
-    {"5.2", turning_cone},       {"5.3", lines_of_the_cone}, {"5.4", disk_with_gap}};
+constexpr std::pair<std::string_view, void (*)(const Maker&)> makers[]{{"2.1", hermite_polynomials},
+                                                                       {"3.1", gaussians},
+                                                                       {"3.2", box},
+                                                                       {"3.3", subboxes},
+                                                                       {"3.4", neighbours},
+                                                                       {"3.5", recursion},
+                                                                       {"3.6", cost_of_parameters},
+                                                                       {"3.7", break_even},
+                                                                       {"4.1", points_of_tests},
+                                                                       {"4.2", performance},
+                                                                       {"5.1", cone_of_widths},
+                                                                       {"5.2", turning_cone},
+                                                                       {"5.3", lines_of_the_cone},
+                                                                       {"5.4", disk_with_gap}};
 
 }  // namespace
 

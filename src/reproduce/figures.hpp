@@ -22,7 +22,7 @@ struct Figure {
   double seconds = 0;          // to compute and draw
 };
 
-/// "3.6", "3.7", "4.2", "5.1", ...
+/// "2.1", "3.1", "3.2", "3.3", ...
 std::vector<std::string> figure_numbers();
 
 /// Writes the pictures; `progress` is told the number that is being made. Throws CommandLineError for a number that

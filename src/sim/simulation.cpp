@@ -142,7 +142,7 @@ bool Simulation::Parts::carry() {
     double stepping = summary_.stages.of("transport");
     for (const auto& effect : carrier_.effects()) stepping += summary_.stages.of("effect " + effect->name());
     wanted = go_on({steps_before_ + leg.steps, steps_total_, leg.now, case_.time.end,
-                    seconds_before_ + watch_.seconds(), stepping});
+                    seconds_before_ + watch_.seconds(), stepping, summary_.frames.size(), case_.output.times.size()});
     return wanted;
   });
   return arrived && wanted;

@@ -219,6 +219,12 @@ TEST(Reproduce, DrawsTheFigureThatIsNamed) {
   std::size_t pictures = 0;
   for (const auto& entry : fs::directory_iterator(folder / "pictures")) pictures += entry.path().extension() == ".png";
   EXPECT_EQ(pictures, 2u);
+  for (const std::string number : {"2.1", "3.1", "3.2", "3.3", "3.4", "3.5", "4.1"}) {
+    const Outcome drawn = gaussdrift_in(folder, "reproduce figures " + number + " --out pictures --json");
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    for (const auto& figure : parsed_json(drawn.out))
+      EXPECT_GT(fs::file_size(folder / figure["file"].get<std::string>()), 5'000u) << figure["figure"];
+  }
 }
 
 TEST(Reproduce, RefusesATableThatThereIsNot) {

@@ -35,7 +35,7 @@ DensityGrid rotation() {
 }
 
 TEST(Arrows, PointAlongTheVelocityAndAreAsLongAsItIsFast) {
-  const FlowPlane flow(rotation());
+  const FlowPlane flow(rotation(), "velocity");
   const double fastest = std::hypot(60, 40), cell = 120. / 24;
   EXPECT_NEAR(flow.largest_speed(), fastest, 1e-12);
   const auto list = arrows(flow, 24);
@@ -51,7 +51,7 @@ TEST(Arrows, PointAlongTheVelocityAndAreAsLongAsItIsFast) {
 }
 
 TEST(Streamlines, OfARotationAreCirclesThatKeepTheirDistance) {
-  const FlowPlane flow(rotation());
+  const FlowPlane flow(rotation(), "velocity");
   const double apart = 5;
   const auto list = streamlines(flow, apart);
   ASSERT_EQ(list.size() % 2, 0u);
@@ -76,15 +76,15 @@ TEST(Streamlines, OfARotationAreCirclesThatKeepTheirDistance) {
 
 TEST(Flow, ThatStandsStillOrIsNotKnownHasNoLines) {
   const DensityGrid still = grid_of([](double, double) { return Point{0, 0}; });
-  EXPECT_TRUE(arrows(FlowPlane(still), 24).empty());
-  EXPECT_TRUE(streamlines(FlowPlane(still), 5).empty());
+  EXPECT_TRUE(arrows(FlowPlane(still, "velocity"), 24).empty());
+  EXPECT_TRUE(streamlines(FlowPlane(still, "velocity"), 5).empty());
   const DensityGrid half = grid_of([](double x, double) { return Point{x < 60 ? 1 : NAN, 0}; });
-  for (const auto& arrow : arrows(FlowPlane(half), 24)) EXPECT_LT(arrow[1].x, 63);
-  for (const auto& line : streamlines(FlowPlane(half), 5))
+  for (const auto& arrow : arrows(FlowPlane(half, "velocity"), 24)) EXPECT_LT(arrow[1].x, 63);
+  for (const auto& line : streamlines(FlowPlane(half, "velocity"), 5))
     for (const Point& p : line) EXPECT_LT(p.x, 60);
   DensityGrid without = still;
   without.fields.clear();
-  EXPECT_THROW(FlowPlane{without}, Error);
+  EXPECT_THROW((FlowPlane{without, "velocity"}), Error);
 }
 
 }  // namespace

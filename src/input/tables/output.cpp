@@ -174,23 +174,28 @@ void check_images(Reader& in, std::vector<PictureStyle>& images) {
   std::erase_if(images, [&](const PictureStyle& style) { return !style.shows(in.facts.dimension); });
 }
 
-/// Pictures of the velocity are drawn from what density files have.
-void check_velocity_of_images(Reader& in, const OutputSpec& output) {
+/// Pictures of fields beside the density are drawn from what density files have.
+void check_fields_of_images(Reader& in, const OutputSpec& output) {
   const Entry* images = in.find("output", "images");
-  const auto shows_it = std::find_if(output.images.begin(), output.images.end(),
-                                     [](const PictureStyle& style) { return style.shows_velocity; });
-  if (!images || shows_it == output.images.end()) return;
-  const bool has_it = std::any_of(output.fields.begin(), output.fields.end(),
-                                  [](const GridField& field) { return field.name == "velocity"; });
-  if (!has_it)
-    in.diagnostics.error(images->value.place,
-                         fmt::format("\"{}\" shows the velocity, which output.fields does not name", shows_it->name),
-                         "fields = [\"velocity\"]");
-  else if (!base::has_one(output.files, &OutputFile::shows_density))
-    in.diagnostics.error(
-        images->value.place,
-        fmt::format("\"{}\" shows the velocity, which density files keep, and none are written", shows_it->name),
-        "have \"density\" in output.vtk");
+  if (!images) return;
+  for (const PictureStyle& style : output.images) {
+    const std::string_view needed = style.needs_field;
+    if (needed.empty()) continue;
+    const bool has_it = std::any_of(output.fields.begin(), output.fields.end(),
+                                    [&](const GridField& field) { return field.name == needed; });
+    if (!has_it)
+      in.diagnostics.error(images->value.place,
+                           fmt::format("\"{}\" shows the {}, which output.fields does not name", style.name, needed),
+                           fmt::format("fields = [\"{}\"]", needed));
+    else if (!base::has_one(output.files, &OutputFile::shows_density))
+      in.diagnostics.error(
+          images->value.place,
+          fmt::format("\"{}\" shows the {}, which density files keep, and none are written", style.name, needed),
+          "have \"density\" in output.vtk");
+    else
+      continue;
+    return;  // one is enough to be told
+  }
 }
 
 }  // namespace
@@ -214,7 +219,7 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   output.checkpoint = in.duration("output", "checkpoint");
   if (const auto most = in.number("output", "piece_particles")) output.piece_particles = most->number;
   if (in.facts.dimension) check_images(in, output.images);
-  check_velocity_of_images(in, output);
+  check_fields_of_images(in, output);
   const Entry* fields = in.find("output", "fields");
   if (fields && !base::has_one(output.files, &OutputFile::shows_density))
     in.diagnostics.warning(fields->value.place, "output.fields are shown by density files, and none are written",
