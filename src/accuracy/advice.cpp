@@ -91,7 +91,7 @@ void advise_smoothing(const Case& spec, const Better& better, int threads, Budge
   const int finer = 2 * spec.particles.per_axis - 1;
   if (runs(spec, threads, [&](Case& changed) { changed.particles.per_axis = finer; }))
     budget.advice.push_back(fmt::format(
-        "particles.per_axis = {} halves the width of the blobs: a smooth density's smoothing falls {} times", finer,
+        "particles.per_axis = {} makes the blobs half as wide: the smoothing of a smooth density falls to 1/{}", finer,
         1 << find_cutoff(spec.particles.cutoff).order));
 }
 

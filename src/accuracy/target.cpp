@@ -203,10 +203,10 @@ void find_cheaper(const Case& spec, double wanted, Search& search, std::optional
   if (search.stopped)
     throw InputError(fmt::format(
         "no settings for an error of {:g} were found: the search is bounded, and {} lattices were tried{}. Finer ones "
-        "were left out because their errors take too long to predict. Choose particles.per_axis and time.step "
-        "yourself; `run` measures the error",
+        "were left out because their errors take too long to predict. Accept a larger error, or choose "
+        "particles.per_axis and time.step yourself; `run` measures the error",
         target, search.tried.size(),
-        std::isfinite(best) ? fmt::format(", with errors of {:.1e} at least{}", best, too_near) : ""));
+        std::isfinite(best) ? fmt::format("; the smallest error among them was {:.1e}{}", best, too_near) : ""));
   throw InputError(fmt::format(
       "an error of {:g} cannot be met with at most {:.0e} lattice points: the smallest predicted is {:.1e}{}; ask for "
       "a larger error, or make the density smoother",

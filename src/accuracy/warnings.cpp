@@ -52,9 +52,10 @@ std::vector<std::string> warnings_of(const Case& spec, const RunSummary& summary
     if (numbers.stretch > spec.particles.overlap && !gaps_are_small(summary, numbers, quadrature)) {
       const std::string table = accuracy::table_against_gaps(spec);
       warnings.push_back(fmt::format(
-          "at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart. Blobs {:g} spacings wide "
-          "no longer overlap there, so the density may have false gaps and peaks. Use {}more overlap on a finer "
-          "lattice.",
+          "at t = {:.4g} particles that start as neighbours are up to {:.3g} spacings apart. That is more than the "
+          "width "
+          "of a blob, {:g} spacings, so blobs no longer overlap there enough and the density may have false gaps and "
+          "peaks. Use {}more overlap on a finer lattice.",
           time, numbers.stretch, spec.particles.overlap, table.empty() ? "" : table + ", or "));
       break;
     }

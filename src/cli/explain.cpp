@@ -71,7 +71,8 @@ std::string not_known(const std::string& word) {
   if (const auto instead = expression::instead_of_function(word); !instead.empty())
     return fmt::format("{}; {}", text, instead);
   const auto near = input::suggest_word(word);
-  return text + (near ? fmt::format("; did you mean \"{}\"?", *near) : "") + "; gaussdrift explain shows the keys";
+  return text + (near ? fmt::format("; did you mean \"{}\"?", *near) : "") +
+         "; gaussdrift explain shows the keys, and docs/glossary.md explains other words";
 }
 
 ExitCode explain(const ExplainOptions& options) {

@@ -42,6 +42,7 @@ std::string seconds_text(const RunSummary& summary) {
                              : stage.starts_with("effect ")       ? stage.substr(7)
                              : stage == "predicted error budget"  ? "error budget"
                              : stage == "measure transform error" ? "check of the transform"
+                             : stage == "seed"                    ? "seeding"
                                                                   : stage;
     parts.add(name, seconds);
     told += seconds;
@@ -72,8 +73,9 @@ std::string extremes_text(const FrameNumbers& numbers) {
 /// What was done, and what came out.
 std::string result_text(const Case& spec, const RunSummary& summary) {
   std::string text =
-      fmt::format("done   {}, {}, {} in {:.2f} s on {} ({})\n", base::counted(summary.particles, "particle"),
-                  base::counted(summary.steps, "step"), base::counted(summary.frames.size(), "frame"), summary.seconds,
+      fmt::format("{} {}, {}, {} in {:.2f} s on {} ({})\n", summary.complete ? "done  " : "so far",
+                  base::counted(summary.particles, "particle"), base::counted(summary.steps, "step"),
+                  base::counted(summary.frames.size(), "frame"), summary.seconds,
                   base::counted(static_cast<std::size_t>(summary.threads), "thread"), seconds_text(summary));
   if (!summary.frames.empty()) {
     double worst = 0;
@@ -98,6 +100,9 @@ std::string result_text(const Case& spec, const RunSummary& summary) {
 std::string error_text(const RunSummary& summary, std::optional<double> target) {
   if (summary.frames.empty()) return "";
   const auto& [end, last] = summary.frames.back();
+  const auto norms_text = [](const ErrorNorms& norms) {
+    return fmt::format("L1 {:.2e}, L2 {:.2e}, Linf {:.2e}", norms.l1, norms.l2, norms.linf);
+  };
   std::string text;
   if (!last.no_norms.empty()) {
     text += fmt::format("error  at t = {:.4g} {}\n", end, last.no_norms);
@@ -106,12 +111,14 @@ std::string error_text(const RunSummary& summary, std::optional<double> target) 
                                   ? fmt::format(", on {} of {} grid points", last.compared, summary.grid_points)
                                   : "";
     const std::string how = summary.reference_word.empty() ? "" : ", " + summary.reference_word;
-    text += fmt::format("error  at t = {:.4g}, relative to the exact density{}{}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n",
-                        end, where, how, last.error->l1, last.error->l2, last.error->linf);
+    text += fmt::format("error  at t = {:.4g}, relative to the exact density{}{}: {}\n", end, where, how,
+                        norms_text(*last.error));
   }
-  if (const auto* hardest = worst_output(summary.frames); hardest && hardest->first != end)
-    text += fmt::format("worst  at t = {:.4g}: L1 {:.2e}, L2 {:.2e}, Linf {:.2e}\n", hardest->first,
-                        hardest->second.error->l1, hardest->second.error->l2, hardest->second.error->linf);
+  if (const auto* hardest = worst_output(summary.frames); hardest && hardest->first != end) {
+    const std::string worst = norms_text(*hardest->second.error);
+    if (!last.error || worst != norms_text(*last.error))
+      text += fmt::format("worst  at t = {:.4g}: {}\n", hardest->first, worst);
+  }
   if (target && !last.no_norms.empty())
     text += fmt::format("target {:g}: not known whether it is met, {}\n", *target, last.no_norms);
   else if (target && last.error)

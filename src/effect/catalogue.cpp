@@ -93,7 +93,7 @@ std::string beyond_budgets(const EffectsSpec& named, int dimension) {
   for (const auto& [effect, spec] : present)
     if (reason.empty() && effect->decay_rate.empty())
       reason = "what [effects." + spec.name + "] does is not known to it";
-  return reason.empty() ? "" : reason + "; a budget covers " + known_to_budgets();
+  return reason.empty() ? "" : reason + "; a budget knows about " + known_to_budgets();
 }
 
 std::string known_to_budgets() {

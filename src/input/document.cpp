@@ -257,8 +257,12 @@ std::optional<Value> read_document(const std::string& text, const Source& source
       apply_override(root, static_cast<int>(k), source.overrides()[k], diagnostics);
     return root;
   } catch (const toml::parse_error& error) {
-    diagnostics.error(locator.place(error.source()), plain_description(error),
-                      "the file is not TOML here; the rest is checked once this is mended");
+    const std::string why = plain_description(error);
+    diagnostics.error(locator.place(error.source()), why,
+                      why.find("redefine") != std::string::npos
+                          ? "each table stands once; of several tables of one name, as velocities, each has double "
+                            "brackets: [[velocity]]"
+                          : "the file is not TOML here; the rest is checked once this is mended");
     return std::nullopt;
   }
 }

@@ -64,7 +64,7 @@ std::string in_quotes(const std::vector<std::string>& names) {
 std::string array_remedy(const std::vector<ArrayInfo>& arrays, const GridRequest& request) {
   for (const ArrayInfo& array : arrays)
     if (array.components >= request.least_components && array.components <= request.most_components)
-      return fmt::format("for example array = \"{}\"", array.name);
+      return fmt::format("for example \"{}\"", array.name);
   if (const auto parts = parts_of_a_vector(arrays, request.least_components);
       request.least_components > 1 && !parts.empty())
     return fmt::format("arrays = {} takes the components from arrays of their own", in_quotes(parts));

@@ -38,8 +38,8 @@ std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary
     notes.push_back("pictures of the exact density and the error: the run was compared with nothing");
   } else if (compared < static_cast<double>(points)) {
     notes.push_back(fmt::format(
-        "pictures of the exact density and the error: the run was compared at a sample, {:.0f} of the {} grid "
-        "points (reference.points sets how many)",
+        "pictures of the exact density and the error: only {:.0f} of the {} grid points were compared with it "
+        "(output.images = [\"error\"] compares all, reference.points sets how many)",
         compared, points));
   } else {
     try {

@@ -352,7 +352,7 @@ TEST(Accuracy, IsNotRefusedWhereALatticeThatWasTriedMeetsIt) {
         ++chosen;
       } catch (const InputError& error) {
         ++refused;
-        const std::string text = error.what(), mark = "with errors of ";
+        const std::string text = error.what(), mark = "the smallest error among them was ";
         const std::size_t at = text.find(mark);
         if (at == std::string::npos) continue;  // no lattice could be tried
         // The rest of the target is for steps and sums.

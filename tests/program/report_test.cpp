@@ -80,8 +80,7 @@ TEST(Page, TellsWhatIsNotOnItAndWhy) {
   };
   const std::string sampled = page("--set reference.points=100");
   EXPECT_NE(sampled.find("of the 1600 grid points, those around the maximum among them"), std::string::npos);
-  EXPECT_NE(sampled.find("pictures of the exact density and the error: the run was compared at a sample"),
-            std::string::npos);
+  EXPECT_NE(sampled.find("pictures of the exact density and the error: only "), std::string::npos);
   const std::string alone = page("--set reference.kind=none --set 'output.vtk=[]'");
   EXPECT_NE(alone.find("errors: the run was compared with nothing"), std::string::npos);
   EXPECT_NE(alone.find("pictures: the run wrote no density files"), std::string::npos);

@@ -75,7 +75,8 @@ std::ostream& operator<<(std::ostream& out, const FitReport& report) {
   if (report.solver == Solver::krylov) out << " in parts, " << report.iterations << " iterations";
   out << ", " << report.seconds << " s";
   for (std::size_t k = 0; k < report.left_out.size(); ++k)
-    out << (k == 0 ? "; error of left-out values " : ", ") << report.left_out[k] << " of " << report.values[k];
+    out << (k == 0 ? "; error of left-out values " : ", ") << report.left_out[k] << " (the values: " << report.values[k]
+        << ")";
   return out;
 }
 
