@@ -29,6 +29,13 @@ inline void expect_same(const FrameNumbers& m, const FrameNumbers& n) {
   EXPECT_EQ(m.outside, n.outside);
   EXPECT_EQ(m.compared, n.compared);
   EXPECT_EQ(m.untraced, n.untraced);
+  EXPECT_EQ(m.inside, n.inside);
+  ASSERT_EQ(m.left.size(), n.left.size());
+  for (std::size_t r = 0; r < m.left.size(); ++r) {
+    EXPECT_EQ(m.left[r].reason, n.left[r].reason);
+    EXPECT_EQ(m.left[r].particles, n.left[r].particles);
+    EXPECT_EQ(m.left[r].mass, n.left[r].mass);
+  }
   ASSERT_EQ(m.error.has_value(), n.error.has_value());
   if (!m.error) return;
   const ErrorNorms &a = *m.error, &b = *n.error;

@@ -31,11 +31,29 @@ using Numbers = std::vector<std::pair<std::string, double>>;
 /// Parameters of a named formula: one number, or a point as one number a dimension.
 using Arguments = std::vector<std::pair<std::string, std::vector<double>>>;
 
+/// What happens at an end of an axis of the domain.
+enum class Edge {
+  unbounded,  ///< nothing: particles go on beyond it
+  periodic,   ///< what goes out here comes in at the other end
+  open,       ///< particles that pass it leave the run and are counted
+  closed      ///< nothing passes it
+};
+
 /// `[domain]`: the box on which the density is evaluated and particles start.
 struct Domain {
   int dimension = 2;            ///< 2 or 3
   std::array<double, 3> min{};  ///< lower corner; entries beyond the dimension are 0
   std::array<double, 3> max{};  ///< upper corner, above `min` on every axis
+  /// The lower and the upper end of every axis. Either both or none of them are periodic.
+  std::array<std::array<Edge, 2>, 3> edges{};
+
+  /// True if the case says of any end what happens there.
+  bool has_edges() const { return edges != std::array<std::array<Edge, 2>, 3>{}; }
+  /// True if some end is like that.
+  bool has(Edge edge) const {
+    return std::any_of(edges.begin(), edges.end(),
+                       [edge](const auto& ends) { return std::find(ends.begin(), ends.end(), edge) != ends.end(); });
+  }
 };
 
 // --- velocity ---------------------------------------------------------------------------------------------------
@@ -204,12 +222,18 @@ struct ReferenceSpec {
 struct CheckSpec {
   /// What is bounded.
   enum class Quantity {
-    linf,  ///< largest difference from the reference
-    l1,    ///< its integral
-    l2,    ///< its root mean square
-    mass   ///< the sum of all weights
+    linf,    ///< largest difference from the reference
+    l1,      ///< its integral
+    l2,      ///< its root mean square
+    mass,    ///< the sum of all weights
+    inside,  ///< the sum of the weights of particles inside the domain
+    left     ///< of those that have left the run
   };
+  /// True if it is a norm of the error, which needs a reference.
+  bool is_error() const { return what == Quantity::linf || what == Quantity::l1 || what == Quantity::l2; }
+
   Quantity what = Quantity::linf;  ///< what is bounded
+  std::string by{};                ///< of what has left: the reason; empty: any
   std::optional<double> max{};     ///< upper bound; there is this one, the lower one, or both
   std::optional<double> min{};     ///< lower bound
   std::optional<double> at{};      ///< one of the output times; none: all of them

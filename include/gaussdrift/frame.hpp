@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,13 @@
 #include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
+
+/// What has left the run for one reason, since the start.
+struct Departed {
+  std::string reason;           ///< "x_max" for that face of the domain
+  std::uint64_t particles = 0;  ///< their number
+  double mass = 0;              ///< the sum of the weights that they had then
+};
 
 /// Numbers of one output, a row of series.csv.
 struct FrameNumbers {
@@ -35,6 +43,10 @@ struct FrameNumbers {
   std::string no_norms;      ///< why they are NaN, for people: nothing is left to compare; empty: they are numbers
   std::size_t compared = 0;  ///< grid points that the norms are taken over; a sample if fewer than the grid has
   std::size_t untraced = 0;  ///< grid points where the reference is not known; the norms leave them out
+  /// sum of the weights of the particles inside the domain; only where the case names edges of it
+  std::optional<double> inside{};
+  /// What has left the run so far, for each reason that there may be, in a fixed order; empty: nothing can leave.
+  std::vector<Departed> left{};
 };
 
 /// One output. What it points at belongs to the run and stays as it is until the observer returns.

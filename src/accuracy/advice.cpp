@@ -11,6 +11,7 @@
 #include "base/number.hpp"
 #include "effect/catalogue.hpp"
 #include "particle/cutoff.hpp"
+#include "sim/edges.hpp"
 #include "sim/stable_step.hpp"
 #include "time/tableau.hpp"
 
@@ -51,7 +52,7 @@ bool runs(const Case& spec, int threads, const Change& change) {
   Case changed = spec;
   change(changed);
   const Domain& domain = changed.domain;
-  const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, changed.particles.per_axis);
+  const Lattice lattice = seeding_lattice(domain, changed.particles.per_axis);
   return static_cast<double>(lattice.size()) <= most_judged && why_refused(changed, threads).empty();
 }
 

@@ -18,10 +18,12 @@
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
+#include "particle/cutoff.hpp"
 #include "render/picture_series.hpp"
 #include "render/styles.hpp"
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
+#include "sim/edges.hpp"
 #include "sim/fields_on_grid.hpp"
 #include "sim/grid_pieces.hpp"
 #include "sim/scene.hpp"
@@ -88,6 +90,23 @@ EffectMemory memory_of_effects(const Case& spec) {
 
 double bytes_of_particle(const Case& spec, const EffectMemory& effects) {
   return number * (spec.domain.dimension + 2 + effects.integrals + effects.columns);
+}
+
+/// What is summed, of what is carried: with the images of particles beyond periodic and closed edges.
+double summed_with_images(const Case& spec) {
+  const Domain& domain = spec.domain;
+  const Folding folding = folding_of(domain);
+  if (!folding.folds()) return 1;
+  const double eps = spec.particles.overlap * seeding_lattice(domain, spec.particles.per_axis).spacing;
+  const double felt =
+      reach(make_cutoff(spec.particles.cutoff, domain.dimension, eps, spec.particles.cutoff_arguments), 1e-14);
+  double times = 1;
+  for (int k = 0; k < domain.dimension; ++k) {
+    const FoldedAxis& axis = folding.axis(k);
+    const double ends = axis.periodic ? 2 : (axis.mirror_low ? 1.0 : 0.0) + (axis.mirror_high ? 1.0 : 0.0);
+    times *= 1 + ends * felt / (axis.high - axis.low);
+  }
+  return times;
 }
 
 /// Of an output, to draw it again: single precision, thinned in space.
@@ -179,7 +198,7 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));
   const RunMemory seed{.particles = 2 * n * particle + 450 * lines};
   // Effects between steps: as it was before the step, if that is abandoned.
-  const double before = effects.kept > 0 ? n * particle : 0;
+  const double before = effects.kept > 0 || spec.domain.has(Edge::open) ? n * particle : 0;
   const RunMemory step =
       stays + RunMemory{.particles = 2 * n * number * (d + effects.integrals) + n * effects.step + before};
 
@@ -188,7 +207,8 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   const Extent files = in_files(spec, extent);
   const double layers = in_pieces ? 2 * (files.grid_points - extent.grid_points) + m : 0;
   const auto derivatives = static_cast<double>(derivatives_of(spec.output, spec.domain.dimension).size());
-  const RunMemory density = stays + RunMemory{.particles = n * number * (in_space(spec) ? 20 : 11),
+  const double summed = summed_with_images(spec), images = summed > 1 ? summed * n * number * (d + 2) : 0;
+  const RunMemory density = stays + RunMemory{.particles = summed * n * number * (in_space(spec) ? 20 : 11) + images,
                                               .grid = number * (at_once * (in_space(spec) ? 4.5 : 3) +
                                                                 (at_once + layers) * derivatives * 3 + layers)};
   // An output: density, velocity at the particles, exact density with the feet of its paths.
@@ -244,8 +264,7 @@ using namespace accuracy;  // this is the public face of that module
 
 void refuse_what_does_not_fit(const Case& spec, int threads, double most_memory) {
   const Domain& domain = spec.domain;
-  const auto lattice =
-      static_cast<double>(make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis).size());
+  const auto lattice = static_cast<double>(seeding_lattice(domain, spec.particles.per_axis).size());
   Extent extent{.lattice_points = lattice,
                 .particles = lattice * (changes_particles(spec) ? 2 : 1),
                 .grid_points = static_cast<double>(evaluation_lattice(spec).size()),

@@ -19,6 +19,7 @@
 #include "base/state_bytes.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
+#include "sim/edges.hpp"
 #include "write/folder_lock.hpp"
 
 namespace gaussdrift::accuracy {
@@ -137,7 +138,7 @@ void refuse_what_does_not_fit(const Case& spec, int threads, double asked, base:
     if (ranks.rank() != 0) return;
     const std::vector<Shared> limits = shared_limits(of_ranks);
     const Domain& domain = spec.domain;
-    const Lattice lattice = make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis);
+    const Lattice lattice = seeding_lattice(domain, spec.particles.per_axis);
     const auto count = static_cast<std::size_t>(ranks.size());
     if (!exceeded(limits, std::vector<RunMemory>(count, at_most(spec, static_cast<double>(lattice.size()))))) return;
     const std::vector<RunMemory> memory = predicted(spec, threads, ranks.size());

@@ -49,7 +49,7 @@ void add(std::vector<Fact>& facts, std::string label, std::string value) {
 std::string default_text(const Key& key) {
   if (key.required) return "none: the key is required";
   if (key.fallback.empty()) return "none: the key may be left out";
-  if (key.type == Type::choice) return fmt::format("\"{}\"", key.fallback);
+  if (key.type == Type::choice || key.type == Type::ends) return fmt::format("\"{}\"", key.fallback);
   if (key.type == Type::choices) return fmt::format("[{}]", key.fallback);
   return std::string(key.fallback);
 }

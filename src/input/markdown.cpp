@@ -32,7 +32,8 @@ std::string keys_markdown(std::string_view table, std::string_view with, std::st
       text = "\n| key | what | type and range | default | unit | symbol |\n| --- | --- | --- | --- | --- | --- |\n";
     const std::string range = range_text(key.range);
     std::string fallback = key.required ? "required" : std::string(key.fallback);
-    if (key.type == Type::choice && !key.fallback.empty()) fallback = fmt::format("\"{}\"", fallback);
+    if ((key.type == Type::choice || key.type == Type::ends) && !key.fallback.empty())
+      fallback = fmt::format("\"{}\"", fallback);
     if (key.type == Type::choices && !key.fallback.empty()) fallback = fmt::format("[{}]", fallback);
     const std::string with_text =
         value.empty() && !key.with.empty() ? fmt::format(". It goes with `{}`", key.with) : "";

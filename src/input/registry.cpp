@@ -137,6 +137,9 @@ std::string type_text(const Key& key) {
       return (key.choices.size() == 1 ? "" : "one of ") + quoted_list(key.choices);
     case Type::choices:
       return "a list of some of " + quoted_list(key.choices);
+    case Type::ends:
+      return fmt::format("a list with one of {} for each axis, or with a pair of them for its two ends",
+                         quoted_list(key.choices));
   }
   return "";
 }

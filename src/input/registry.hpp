@@ -22,7 +22,8 @@ enum class Type {
   expression,   // a string in x, y, z and params
   expressions,  // a list of strings in x, y, z, t and params, one a dimension
   choice,       // one of `choices`
-  choices       // a list of some of `choices`
+  choices,      // a list of some of `choices`
+  ends          // one of `choices` for each axis, or a pair of them for its two ends
 };
 
 struct Key {

@@ -60,6 +60,16 @@ Json value_schema(const Key& key) {
       list.erase("minItems");
       return list;
     }
+    case Type::ends: {
+      const Json word = {{"enum", key.choices}};
+      Json pair = list_of(word);
+      pair["minItems"] = 2;
+      pair["maxItems"] = 2;
+      Json list = list_of({{"anyOf", Json::array({word, pair})}});
+      list["minItems"] = 2;
+      list["maxItems"] = 3;
+      return list;
+    }
   }
   return true;
 }

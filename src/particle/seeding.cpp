@@ -200,7 +200,8 @@ namespace {
 // Squares of the distances of lattice neighbours that are both here. `light`: pairs of two weights below do not count.
 // Calls alone(j) for a particle without one of its neighbours on the lattice, if that is wanted.
 template <class Alone>
-double longest_square(const Particles& particles, const Lattice& lattice, double light, const Alone& alone) {
+double longest_square(const Particles& particles, const Lattice& lattice, const Folding& folding, double light,
+                      const Alone& alone) {
   double longest = 0;
   std::size_t stride = 1;
   std::vector<char> met;  // from below
@@ -220,7 +221,9 @@ double longest_square(const Particles& particles, const Lattice& lattice, double
       if (std::abs(particles.alpha[j]) < light && std::abs(particles.alpha[next]) < light) continue;
       double square = 0;
       for (int a = 0; a < particles.dimension; ++a) {
-        const double distance = particles.position[a][j] - particles.position[a][next];
+        double distance = particles.position[a][j] - particles.position[a][next];
+        if (const FoldedAxis& axis = folding.axis(a); axis.periodic)
+          distance = std::remainder(distance, axis.high - axis.low);
         square += distance * distance;
       }
       longest = std::max(longest, square);
@@ -238,13 +241,14 @@ double heaviest(const Particles& particles) {
 
 }  // namespace
 
-double largest_stretch(const Particles& particles, const Lattice& lattice) {
-  return std::sqrt(longest_square(particles, lattice, 1e-6 * heaviest(particles), [](std::size_t) {})) /
+double largest_stretch(const Particles& particles, const Lattice& lattice, const Folding& folding) {
+  return std::sqrt(longest_square(particles, lattice, folding, 1e-6 * heaviest(particles), [](std::size_t) {})) /
          lattice.spacing;
 }
 
-double largest_stretch(const Particles& particles, const Lattice& lattice, base::Communicator& ranks) {
-  if (ranks.size() == 1) return largest_stretch(particles, lattice);
+double largest_stretch(const Particles& particles, const Lattice& lattice, base::Communicator& ranks,
+                       const Folding& folding) {
+  if (ranks.size() == 1) return largest_stretch(particles, lattice, folding);
   double heavy = heaviest(particles);
   ranks.max(std::span(&heavy, 1));
   // Those without a neighbour here meet on the rank that has the range of its id: few, where tiles are compact.
@@ -254,7 +258,7 @@ double largest_stretch(const Particles& particles, const Lattice& lattice, base:
     auto& list = chosen[std::min(id / range, chosen.size() - 1)];
     if (list.empty() || list.back() != j) list.push_back(j);
   };
-  double longest = longest_square(particles, lattice, 1e-6 * heavy, [&](std::size_t j) {
+  double longest = longest_square(particles, lattice, folding, 1e-6 * heavy, [&](std::size_t j) {
     // It may be the lower one or the upper one of a pair on any axis: the lower one says where they meet.
     const auto id = static_cast<std::size_t>(particles.id[j]);
     send(j, id);
@@ -269,7 +273,7 @@ double largest_stretch(const Particles& particles, const Lattice& lattice, base:
   for (const auto& list : chosen) out.push_back(pack_bare(particles, list));
   for (const base::Bytes& bytes : ranks.exchange(std::move(out))) unpack(bytes, bare);
   sort_by_id(bare);
-  longest = std::max(longest, longest_square(bare, lattice, 1e-6 * heavy, [](std::size_t) {}));
+  longest = std::max(longest, longest_square(bare, lattice, folding, 1e-6 * heavy, [](std::size_t) {}));
   ranks.max(std::span(&longest, 1));
   return std::sqrt(longest) / lattice.spacing;
 }

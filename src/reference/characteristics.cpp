@@ -73,7 +73,7 @@ class Characteristics : public Reference {
       Block block = start(b, first, count);
       // In a steady flow X(0) of x at t is that of X(t_before - t) at t_before.
       const double from = options_.steady ? time - kept_until_ : time;
-      trace(block.state, count, from, reports[i]);
+      trace(block, count, from, reports[i]);
       values(block, count, rho.data() + first);
       if (reports[i].untraced > 0) {
         const auto lost = std::find_if(rho.begin() + static_cast<std::ptrdiff_t>(first), rho.end(),
@@ -102,10 +102,9 @@ class Characteristics : public Reference {
     std::vector<ReferenceReport> reports(blocks);
     base::parallel_for({blocks, seconds_of(points.size())}, options_.threads, [&](std::size_t b) {
       const std::size_t first = b * block_length_, count = std::min(block_length_, points.size() - first);
-      Block block;
-      block.state.assign(components_ * count, 0.0);
+      Block block = empty_block(count);
       fill_coordinates(lattice_, points.data() + first, count, block.state.data());
-      trace(block.state, count, time, reports[b]);
+      trace(block, count, time, reports[b]);
       values(block, count, rho.data() + first);
       for (std::size_t i = first; i < first + count && reports[b].untraced > 0; ++i)
         if (std::isnan(rho[i])) {
@@ -119,7 +118,12 @@ class Characteristics : public Reference {
  private:
   struct Block {
     std::vector<double> state;  // [component][point]: the foot so far, and the exponent
+    std::vector<char> beyond;   // the path of the point has come from beyond an outflow; empty: there is none
   };
+
+  Block empty_block(std::size_t count) const {
+    return {std::vector<double>(components_ * count, 0.0), std::vector<char>(options_.outflows.empty() ? 0 : count, 0)};
+  }
 
   double seconds_of(std::size_t points) const {
     const double steps = 30, stages = 12;  // roughly, of one block
@@ -142,16 +146,16 @@ class Characteristics : public Reference {
 
   Block start(std::size_t b, std::size_t first, std::size_t count) {
     if (options_.steady && !kept_[b].state.empty()) return std::move(kept_[b]);
-    Block block;
-    block.state.assign(components_ * count, 0.0);
+    Block block = empty_block(count);
     fill_coordinates(lattice_, first, count, block.state.data());
     return block;
   }
 
   // Carries the points from `from` back to 0. Those that do not arrive become NaN; where one of many does not, the
-  // others are found by halves.
-  void trace(std::vector<double>& state, std::size_t count, double from, ReferenceReport& report) const {
-    const std::vector<double> begun = state;
+  // others are found by halves. Points that have come from beyond an outflow stay where they are.
+  void trace(Block& block, std::size_t count, double from, ReferenceReport& report) const {
+    const Block begun = block;
+    const std::vector<char>& resting = begun.beyond;
     const auto rate = [&](double t, const double* y, double* k) {
       std::fill_n(k, components_ * count, 0.0);
       const PointsView x = view_of(lattice_.dimension, count, y);
@@ -159,26 +163,57 @@ class Characteristics : public Reference {
       for (int axis = 0; axis < lattice_.dimension; ++axis) u.axis[axis] = k + static_cast<std::size_t>(axis) * count;
       velocity_.add(t, x, u);
       if (growth_) growth_(t, x, k + static_cast<std::size_t>(lattice_.dimension) * count);
+      for (std::size_t i = 0; i < resting.size(); ++i)
+        if (resting[i])
+          for (std::size_t c = 0; c < components_; ++c) k[c * count + i] = 0;
     };
-    if (options_.steps_by) return walk(rate, state, count, from, report);
-    if (count > 1 && std::any_of(begun.begin(), begun.end(), [](double value) { return std::isnan(value); }))
-      return trace_halves(state, begun, count, from, report);  // lost at an earlier output
-    const time::AdaptiveResult result = time::integrate_adaptively(rate, from, 0, count, bounds_, state.data());
+    if (options_.steps_by) return walk(rate, block, count, from, report);
+    if (count > 1 &&
+        std::any_of(begun.state.begin(), begun.state.end(), [](double value) { return std::isnan(value); }))
+      return trace_halves(block, begun, count, from, report);  // lost at an earlier output
+    time::AdaptiveOptions bounds = bounds_;
+    if (!options_.outflows.empty())
+      bounds.after_step = [&](const time::StepTaken& step) { look_beyond(step, count, block.beyond); };
+    const time::AdaptiveResult result = time::integrate_adaptively(rate, from, 0, count, bounds, block.state.data());
     constexpr std::size_t stages = 12;
     report.rates += stages * count * (result.steps + result.rejected);
     if (result.reached) return;
     // One bad point may have stopped the block, so its halves are tried. Too many steps concern all points.
-    if (count > 1 && !result.exhausted) return trace_halves(state, begun, count, from, report);
-    if (report.untraced == 0) report.trouble = why_lost(state, count, result);
+    if (count > 1 && !result.exhausted) return trace_halves(block, begun, count, from, report);
+    if (count == 1 && !block.beyond.empty() && block.beyond[0]) {
+      block.state = begun.state;  // what it would meet beyond does not matter
+      return;
+    }
+    if (report.untraced == 0) report.trouble = why_lost(block.state, count, result);
     if (result.exhausted) report.exhausted += count;
-    state.assign(state.size(), nan);
+    block.state.assign(block.state.size(), nan);
     report.untraced += count;
+  }
+
+  // Between its ends a path is looked at as the cubic through both places and velocities.
+  void look_beyond(const time::StepTaken& step, std::size_t count, std::vector<char>& beyond) const {
+    const double length = step.to - step.from;
+    for (const Outflow& outflow : options_.outflows)
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = static_cast<std::size_t>(outflow.axis) * count + i;
+        const double a = step.before[at], b = step.after[at], va = length * step.rate_before[at],
+                     vb = length * step.rate_after[at];
+        const auto is_beyond = [&](double x) { return x < outflow.low || x > outflow.high; };
+        if (is_beyond(b)) beyond[i] = 1;
+        if (beyond[i]) continue;
+        // x(s) = a + va s + (3 (b - a) - 2 va - vb) s^2 + (va + vb - 2 (b - a)) s^3 is extreme where x'(s) = 0.
+        const double c2 = 3 * (b - a) - 2 * va - vb, c3 = va + vb - 2 * (b - a), root = c2 * c2 - 3 * c3 * va;
+        if (!(root >= 0)) continue;
+        const double q = -(c2 + std::copysign(std::sqrt(root), c2));
+        for (const double s : {c3 != 0 ? q / (3 * c3) : -1.0, q != 0 ? va / q : -1.0})
+          if (s > 0 && s < 1 && is_beyond(a + s * (va + s * (c2 + s * c3)))) beyond[i] = 1;
+      }
   }
 
   // Traces by fixed steps. Points do not see each other, so a lost one does not affect the others.
   template <class Rate>
-  void walk(const Rate& rate, std::vector<double>& state, std::size_t count, double from,
-            ReferenceReport& report) const {
+  void walk(const Rate& rate, Block& block, std::size_t count, double from, ReferenceReport& report) const {
+    std::vector<double>& state = block.state;
     const time::Tableau& tableau = *options_.steps_by;
     const std::size_t steps = time::Interval(0, from, options_.step).steps();
     const double length = steps > 0 ? from / static_cast<double>(steps) : 0;
@@ -194,12 +229,17 @@ class Characteristics : public Reference {
       std::copy(state.begin(), state.end(), before.begin());
       time::step(tableau, t, -length, rate, state.data(), work);
       for (std::size_t i = 0; i < count && report.trouble.empty(); ++i)
-        if (!known(state, i) && known(before, i))
+        if (!known(state, i) && known(before, i) && (block.beyond.empty() || !block.beyond[i]))
           report.trouble = why_lost_in_step(before, work.rates[0], count, i, t, length);
+      for (const Outflow& outflow : options_.outflows)
+        for (std::size_t i = 0; i < count; ++i) {
+          const double x = state[static_cast<std::size_t>(outflow.axis) * count + i];
+          if (x < outflow.low || x > outflow.high) block.beyond[i] = 1;
+        }
     }
     report.rates += static_cast<std::size_t>(tableau.stages) * count * steps;
     for (std::size_t i = 0; i < count; ++i) {
-      if (known(state, i)) continue;
+      if (known(state, i) || (!block.beyond.empty() && block.beyond[i])) continue;
       for (std::size_t c = 0; c < components_; ++c) state[c * count + i] = nan;
       ++report.untraced;
     }
@@ -225,15 +265,16 @@ class Characteristics : public Reference {
     return reason.empty() ? result.trouble : "on its way back in time " + reason;
   }
 
-  void trace_halves(std::vector<double>& state, const std::vector<double>& begun, std::size_t count, double from,
-                    ReferenceReport& report) const {
+  void trace_halves(Block& block, const Block& begun, std::size_t count, double from, ReferenceReport& report) const {
     for (const auto& [first, length] : {std::pair{std::size_t{0}, count / 2}, {count / 2, count - count / 2}}) {
-      std::vector<double> part(components_ * length);
+      Block part = empty_block(length);
       for (std::size_t c = 0; c < components_; ++c)
-        std::copy_n(begun.data() + c * count + first, length, part.data() + c * length);
+        std::copy_n(begun.state.data() + c * count + first, length, part.state.data() + c * length);
+      if (!begun.beyond.empty()) std::copy_n(begun.beyond.data() + first, length, part.beyond.data());
       trace(part, length, from, report);
       for (std::size_t c = 0; c < components_; ++c)
-        std::copy_n(part.data() + c * length, length, state.data() + c * count + first);
+        std::copy_n(part.state.data() + c * length, length, block.state.data() + c * count + first);
+      if (!begun.beyond.empty()) std::copy_n(part.beyond.data(), length, block.beyond.data() + first);
     }
   }
 
@@ -242,7 +283,9 @@ class Characteristics : public Reference {
     const double* exponent = block.state.data() + static_cast<std::size_t>(lattice_.dimension) * count;
     for (std::size_t i = 0; i < count; ++i) {
       // Shapes answer a NaN with 0: comparisons with it are false.
-      if (std::isnan(block.state[i]))
+      if (!block.beyond.empty() && block.beyond[i])
+        rho[i] = 0;
+      else if (std::isnan(block.state[i]))
         rho[i] = nan;
       else if (growth_ && rho[i] != 0)
         rho[i] *= std::exp(exponent[i]);

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <vector>
 
 #include "field/density/density.hpp"
 #include "field/velocity/velocity.hpp"
@@ -16,6 +18,12 @@ namespace gaussdrift {
 /// values[i] += g(x_i, t).
 using ScalarRate = std::function<void(double t, const PointsView& x, double* values)>;
 
+/// Beyond `low` or `high` along an axis there is no density.
+struct Outflow {
+  int axis = 0;
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+};
+
 struct CharacteristicsOptions {
   double tolerance = 1e-12;  // of a step: of the foot relative to the longest side of the lattice, and of the exponent
   bool smooth = true;        // false: u or g has kinks; the path of every point then takes steps of its own
@@ -25,6 +33,7 @@ struct CharacteristicsOptions {
   const time::Tableau* steps_by = nullptr;  // a method of fixed steps of length `step` instead, on any path
   double step = 0;
   int threads = 0;
+  std::vector<Outflow> outflows{};  // there is no density beyond: paths that come from there bring 0
   // evaluate() follows every `ranks`-th block of points from this one on, and leaves 0 for the others.
   std::size_t rank = 0, ranks = 1;
 };

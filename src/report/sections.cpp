@@ -136,8 +136,12 @@ std::string conservation(const json& frames) {
   // Runs from before the particles outside were counted have no such number.
   const bool leaves =
       std::any_of(frames.begin(), frames.end(), [](const json& frame) { return !is_zero(get(frame, "outside")); });
-  std::string text = fmt::format("<table class=numbers><tr><th>t<th>mass<th>change{}<th>centroid<th>minimum<th>maximum",
-                                 leaves ? "<th>outside the domain" : "");
+  const json departed = get(frames.front(), "left");  // by reason, where any can leave
+  std::string heads = leaves ? "<th>outside the domain" : "";
+  if (frames.front().contains("inside")) heads += "<th>inside the domain";
+  for (const auto& [reason, so_far] : departed.items()) heads += "<th>left by " + escaped(reason);
+  std::string text =
+      fmt::format("<table class=numbers><tr><th>t<th>mass<th>change{}<th>centroid<th>minimum<th>maximum", heads);
   const double begun = frames.front().at("mass").get<double>();
   double far = 0;  // centroids below rounding of the furthest are 0
   for (const json& frame : frames)
@@ -155,13 +159,16 @@ std::string conservation(const json& frames) {
     }
     const double change = begun != 0 ? frame.at("mass").get<double>() / begun - 1 : 0;
     const json outside = get(frame, "outside");
+    std::string edges = !leaves            ? ""
+                        : is_zero(outside) ? "<td class=n>0"
+                                           : "<td class=n>" + percent_text(outside.get<double>());
+    if (frame.contains("inside")) edges += "<td class=n>" + number(frame.at("inside"), "{:.9g}");
+    for (const auto& [reason, at_start] : departed.items())
+      edges += "<td class=n>" + number(get(get(get(frame, "left"), reason.c_str()), "mass"), "{:.6g}");
     text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}{}<td class=n>{}<td class=n>{}<td class=n>{}",
                         number(frame.at("t"), "{:.5g}"), number(frame.at("mass"), "{:.9g}"),
-                        change == 0 ? "0" : fmt::format("{:.1e}", change),
-                        !leaves            ? ""
-                        : is_zero(outside) ? "<td class=n>0"
-                                           : "<td class=n>" + percent_text(outside.get<double>()),
-                        centroid, number(frame.at("minimum"), "{:.4g}"), number(frame.at("maximum"), "{:.6g}"));
+                        change == 0 ? "0" : fmt::format("{:.1e}", change), edges, centroid,
+                        number(frame.at("minimum"), "{:.4g}"), number(frame.at("maximum"), "{:.6g}"));
   }
   text += "</table>";
   if (stride > 1)

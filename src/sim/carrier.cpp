@@ -12,6 +12,7 @@
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "gaussdrift/error.hpp"
+#include "sim/edges.hpp"
 #include "sim/scene.hpp"
 
 namespace gaussdrift {
@@ -52,6 +53,8 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
       drifts_(drifts_of(effects_)),
       between_steps_(std::any_of(effects_.begin(), effects_.end(),
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
+      folding_(folding_of(spec.domain)),
+      departures_(ways_out(spec)),
       tableau_(time::find_tableau(spec.time.method)),
       case_(spec),
       scene_(scene),
@@ -156,10 +159,16 @@ void Carrier::warn_of_jumps(const Particles& particles) {
 
 bool Carrier::carry(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
                     const std::function<bool(const Leg& leg)>& go_on) {
-  const bool arrived = adaptive_ ? adapt(particles, leg, steps_before, stages, go_on)
-                                 : step(particles, leg, steps_before, stages, go_on);
+  const bool arrived = carry_on(particles, leg, steps_before, stages, go_on);
   if (arrived) land(particles, leg.to, stages);
+  if (departures_.possible()) departures_.bring_together(ranks_);
   return arrived;
+}
+
+bool Carrier::carry_on(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+                       const std::function<bool(const Leg& leg)>& go_on) {
+  return adaptive_ ? adapt(particles, leg, steps_before, stages, go_on)
+                   : step(particles, leg, steps_before, stages, go_on);
 }
 
 std::size_t Carrier::carry(Particles& particles, double from, double to, std::size_t steps_before, StageTimes& stages) {
@@ -172,10 +181,11 @@ std::size_t Carrier::carry(Particles& particles, double from, double to, std::si
 // that are chosen set positions once all ranks have agreed.
 bool Carrier::attempt(Particles& particles, const std::function<void()>& steps) {
   if (!abandon_wanted_) return steps(), true;
-  const bool only_moved = !between_steps_ && !adaptive_ && ranks_.size() > 1;
+  const bool changed = between_steps_ || departures_.possible();
+  const bool only_moved = !changed && !adaptive_ && ranks_.size() > 1;
   base::StateBytes effects;
   pass_state(effects, particles);
-  if (between_steps_) before_ = particles;
+  if (changed) before_ = particles;
   if (only_moved) before_.position = particles.position, before_.path = particles.path;
   bool taken = true;
   try {
@@ -183,7 +193,7 @@ bool Carrier::attempt(Particles& particles, const std::function<void()>& steps) 
     steps();
   } catch (const base::Abandoned&) {
     taken = false;
-    if (between_steps_) particles = before_;
+    if (changed) particles = before_;
     if (only_moved) particles.position.swap(before_.position), particles.path.swap(before_.path);
     base::StateBytes back(effects.written());
     pass_state(back, particles);
@@ -204,6 +214,7 @@ bool Carrier::adapt(Particles& particles, Leg& leg, std::size_t steps_before, St
       stages.add("transport", watch.seconds() - drifts);
       for (const auto& effect : effects_)
         if (effect->drift()) stages.add(stage_of(*effect), drifts / static_cast<double>(drifts_.size()));
+      leave(particles, reached, stages);
       if (between_steps_) {
         settle(particles, reached, stages);
         rearrange(particles, reached, stages);
@@ -233,7 +244,7 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
   ranks_.max(std::span(&most, 1));
   const std::size_t stages_a_step =
       std::max<std::size_t>(1, static_cast<std::size_t>(most) * static_cast<std::size_t>(tableau_.stages));
-  const bool quick = drifts_.empty() && !between_steps_;
+  const bool quick = drifts_.empty() && !between_steps_ && !departures_.possible();
   const std::size_t batch = quick ? std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000) : 1;
   while (leg.steps < interval.steps()) {
     const std::size_t count = std::min(batch, interval.steps() - leg.steps);
@@ -248,12 +259,15 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
 
 void Carrier::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                       std::size_t steps_before, StageTimes& stages) {
-  if (!between_steps_) return take_steps(particles, interval, first, count, steps_before, stages);
+  if (!between_steps_ && !departures_.possible())
+    return take_steps(particles, interval, first, count, steps_before, stages);
   // Strang's splitting: half a step of exchange on either side of each step; two halves that meet are one.
   for (std::size_t i = first; i < first + count; ++i) {
     const double half = interval.length(i) / 2;
     if (i == 0) exchange(particles, interval.start(i), half, stages);
     take_steps(particles, interval, i, 1, steps_before, stages);
+    leave(particles, interval.start(i + 1), stages);
+    if (!between_steps_) continue;
     if (i == 0 || taken_.empty()) taken_.push_back({interval, i, 0});
     ++taken_.back().steps;
     const double now = interval.start(i + 1);
@@ -269,6 +283,7 @@ void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles) {
   if (effects != effects_.size()) throw std::out_of_range("there are other effects");
   bytes(taken_);
   if (adaptive_) adaptive_->pass_state(bytes);
+  if (departures_.possible()) departures_.pass_state(bytes);
   for (const auto& effect : effects_) effect->pass_state(bytes, particles);
 }
 
@@ -316,6 +331,20 @@ void Carrier::settle(Particles& particles, double time, StageTimes& stages) cons
     });
 }
 
+void Carrier::leave(Particles& particles, double time, StageTimes& stages) {
+  if (!departures_.possible()) return;
+  settle(particles, time, stages);  // what leaves is counted with the weight that it has now
+  std::int64_t some = 0;
+  stages.run("edges", [&] {
+    ranks_.agree_on([&] {
+      fold_positions(folding_, particles);
+      some = departures_.take(particles, time);
+    });
+    ranks_.max(std::span(&some, 1));
+  });
+  if (some) placed(particles);
+}
+
 void Carrier::exchange(Particles& particles, double time, double length, StageTimes& stages) const {
   for (const auto& effect : effects_)
     if (effect->acts_between_steps())
@@ -349,6 +378,7 @@ void Carrier::rearrange(Particles& particles, double time, StageTimes& stages) {
 }
 
 void Carrier::land(Particles& particles, double time, StageTimes& stages) const {
+  fold_positions(folding_, particles);
   settle(particles, time, stages);
   bring_up(particles, time, stages);
 }

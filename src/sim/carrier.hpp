@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/folding.hpp"
 #include "base/seam.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/stage_times.hpp"
 #include "sim/adaptive_stepper.hpp"
+#include "sim/departures.hpp"
 #include "sim/effects.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
@@ -85,6 +87,9 @@ class Carrier {
   /// True if an effect may put other particles in place of those that were seeded.
   bool replaces_particles() const;
 
+  /// What may leave the run, and has.
+  const Departures& departures() const { return departures_; }
+
   std::size_t steps_rejected() const { return adaptive_ ? adaptive_->rejected() : 0; }
 
   const Effects& effects() const { return effects_; }
@@ -109,6 +114,8 @@ class Carrier {
   bool step(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
             const std::function<bool(const Leg& leg)>& go_on);
 
+  bool carry_on(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
+                const std::function<bool(const Leg& leg)>& go_on);
   bool all_go_on(const std::function<bool(const Leg& leg)>& go_on, const Leg& leg) const;
 
   // Brings weights and widths up to `time`, at which the positions are.
@@ -122,6 +129,8 @@ class Carrier {
   void rearrange(Particles& particles, double time, StageTimes& stages);
   void follow(Particles& particles) const;
   void settle(Particles& particles, double time, StageTimes& stages) const;
+  // Takes out the particles that leave at `time`, at the end of a step.
+  void leave(Particles& particles, double time, StageTimes& stages);
   void bring_up(Particles& particles, double time, StageTimes& stages) const;
 
   base::Communicator alone_;
@@ -130,6 +139,8 @@ class Carrier {
   std::vector<Effect*> integrating_;  // those with a path integral, in the order of Particles::path
   std::vector<const Drift*> drifts_;
   bool between_steps_ = false;  // some effect acts between any two steps
+  Folding folding_;             // where places beyond the domain lie in it
+  Departures departures_;
   const time::Tableau& tableau_;
   const Case& case_;
   const Scene& scene_;

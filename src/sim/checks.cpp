@@ -11,10 +11,21 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-double quantity_of(CheckSpec::Quantity what, double mass_at_start, const FrameNumbers& numbers) {
-  if (what == CheckSpec::Quantity::mass) return mass_at_start != 0 ? numbers.mass / mass_at_start : nan;
+double mass_that_left(const CheckSpec& check, const FrameNumbers& numbers) {
+  double mass = 0;
+  for (const Departed& departed : numbers.left)
+    if (check.by.empty() || check.by == departed.reason) mass += departed.mass;
+  return mass;
+}
+
+double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumbers& numbers) {
+  if (!check.is_error()) {
+    if (mass_at_start == 0) return nan;
+    if (check.what == CheckSpec::Quantity::inside) return numbers.inside ? *numbers.inside / mass_at_start : nan;
+    return (check.what == CheckSpec::Quantity::left ? mass_that_left(check, numbers) : numbers.mass) / mass_at_start;
+  }
   if (!numbers.error || numbers.untraced > 0) return nan;
-  switch (what) {
+  switch (check.what) {
     case CheckSpec::Quantity::linf:
       return numbers.error->linf;
     case CheckSpec::Quantity::l1:
@@ -22,13 +33,15 @@ double quantity_of(CheckSpec::Quantity what, double mass_at_start, const FrameNu
     case CheckSpec::Quantity::l2:
       return numbers.error->l2;
     case CheckSpec::Quantity::mass:
+    case CheckSpec::Quantity::inside:
+    case CheckSpec::Quantity::left:
       break;
   }
   return nan;
 }
 
-std::string why_not_known(CheckSpec::Quantity what, const FrameNumbers& numbers) {
-  if (what == CheckSpec::Quantity::mass) return "the mass at the start is 0";
+std::string why_not_known(const CheckSpec& check, const FrameNumbers& numbers) {
+  if (!check.is_error()) return "the mass at the start is 0";
   if (!numbers.no_norms.empty()) return numbers.no_norms;
   if (numbers.untraced > 0) return fmt::format("the exact density is not known at {} grid points", numbers.untraced);
   return numbers.error ? "it is not a number" : "the run was compared with nothing";
@@ -60,8 +73,16 @@ std::string to_string(CheckSpec::Quantity quantity) {
       return "L2";
     case CheckSpec::Quantity::mass:
       return "mass";
+    case CheckSpec::Quantity::inside:
+      return "inside";
+    case CheckSpec::Quantity::left:
+      return "left";
   }
   return "";
+}
+
+std::string words_for(const CheckSpec& check) {
+  return to_string(check.what) + (check.by.empty() ? "" : " by " + check.by);
 }
 
 const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames) {
@@ -84,22 +105,22 @@ std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass
     std::string why = "no output is at this time";
     for (const auto& [time, numbers] : frames) {
       if (check.at && *check.at != time) continue;
-      const double value = quantity_of(check.what, mass_at_start, numbers), beyond = excess(check, value);
+      const double value = quantity_of(check, mass_at_start, numbers), beyond = excess(check, value);
       if (seen && beyond <= worst) continue;
       seen = true;
       worst = beyond, result.value = value, result.time = time;
-      why = why_not_known(check.what, numbers);
+      why = why_not_known(check, numbers);
     }
     if (!seen) result.value = nan;
     result.passed = seen && worst <= 0;
     if (std::isnan(result.value)) {
-      result.text = fmt::format("{} at t = {:.6g} must be {} but is not known: {}", to_string(check.what), result.time,
+      result.text = fmt::format("{} at t = {:.6g} must be {} but is not known: {}", words_for(check), result.time,
                                 limits_text(check), why);
       results.push_back(std::move(result));
       continue;
     }
     // Enough digits that a value and the limit it missed do not look the same.
-    result.text = fmt::format("{} = {:.15g} at t = {:.6g}, {} {}", to_string(check.what), result.value, result.time,
+    result.text = fmt::format("{} = {:.15g} at t = {:.6g}, {} {}", words_for(check), result.value, result.time,
                               result.passed ? "is" : "must be", limits_text(check));
     results.push_back(std::move(result));
   }

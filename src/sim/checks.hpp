@@ -9,15 +9,18 @@
 
 namespace gaussdrift {
 
-/// "Linf", "L1", "L2", "mass".
+/// "Linf", "L1", "L2", "mass", "inside", "left".
 std::string to_string(CheckSpec::Quantity quantity);
+
+/// The same with the reason that the check names: "left by x_max".
+std::string words_for(const CheckSpec& check);
 
 /// The output whose L1 is largest; the last one would mislead in a flow that turns back. Null if no norm is a number.
 const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames);
 
 /// One result for each check, over all outputs or the one that it names. A norm fails if it is not known, or if it
-/// leaves out points whose exact density is not known. `frames`: time and numbers of each output. "mass" is relative to
-/// the first.
+/// leaves out points whose exact density is not known. `frames`: time and numbers of each output. Mass, inside and
+/// left are relative to the mass at the start.
 std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass_at_start,
                                const std::vector<std::pair<double, FrameNumbers>>& frames);
 

@@ -9,6 +9,7 @@
 #include "effect/catalogue.hpp"
 #include "reference/characteristics.hpp"
 #include "reference/formula.hpp"
+#include "sim/edges.hpp"
 #include "sim/landings.hpp"
 #include "sim/work.hpp"
 #include "time/schedule.hpp"
@@ -19,6 +20,21 @@ namespace gaussdrift {
 namespace {
 
 std::size_t usual_most_steps(const Case& spec) { return 10'000 + total_steps(spec); }
+
+/// Where paths come in from outside, in unfolded coordinates: a mirror at the other end shows an open face once more.
+std::vector<Outflow> outflows_of(const Domain& domain) {
+  std::vector<Outflow> outflows;
+  const double rounding = rounding_of(domain);
+  const Folding folding = folding_of(domain);
+  for (const Face& face : faces_of(domain, Edge::open)) {
+    const FoldedAxis& axis = folding.axis(face.axis);
+    Outflow& outflow = outflows.emplace_back(Outflow{.axis = face.axis});
+    if (face.upper || axis.mirror_high) outflow.high = face.upper ? axis.high : 2 * axis.high - axis.low;
+    if (!face.upper || axis.mirror_low) outflow.low = face.upper ? 2 * axis.low - axis.high : axis.low;
+    outflow.high += rounding, outflow.low -= rounding;
+  }
+  return outflows;
+}
 
 }  // namespace
 
@@ -49,6 +65,7 @@ std::unique_ptr<Reference> make_reference(const Case& spec, const Scene& scene, 
                               .steps_by = by_steps ? &tableau : nullptr,
                               .step = by_steps ? spec.time.step / 2 : 0,
                               .threads = threads,
+                              .outflows = outflows_of(spec.domain),
                               .rank = following.rank,
                               .ranks = following.ranks});
     }
@@ -118,9 +135,8 @@ Comparison plan_comparison(const Case& spec, const Scene& scene, std::size_t par
   Comparison plan{.points = paths.points, .following = paths.following, .word = paths.word};
   if (paths.points == 0) {
     // A number that is asked for is measured, whatever it takes.
-    const bool asked = spec.accuracy.target ||
-                       std::any_of(spec.checks.begin(), spec.checks.end(),
-                                   [](const CheckSpec& check) { return check.what != CheckSpec::Quantity::mass; });
+    const bool asked = spec.accuracy.target || std::any_of(spec.checks.begin(), spec.checks.end(),
+                                                           [](const CheckSpec& check) { return check.is_error(); });
     constexpr std::size_t fewest = 64;
     if (asked) return {.points = std::min(whole, fewest)};
     plan.left_out =

@@ -10,6 +10,7 @@
 #include "field/density/shapes.hpp"
 #include "field/density/sum_density.hpp"
 #include "field/density/written_density.hpp"
+#include "field/folded/folded.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/gridded.hpp"
 #include "field/named/named_fields.hpp"
@@ -17,6 +18,7 @@
 #include "field/velocity/streamfunction_field.hpp"
 #include "field/velocity/sum_field.hpp"
 #include "gaussdrift/lattice.hpp"
+#include "sim/edges.hpp"
 
 namespace gaussdrift {
 
@@ -55,7 +57,7 @@ std::unique_ptr<VelocityField> make_part(const FileVelocitySpec& part, const Cas
 
 std::unique_ptr<VelocityField> make_part(const GaussianVelocitySpec& part, const Case& spec, int threads) {
   const Domain& domain = spec.domain;
-  const Lattice seeding = make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis);
+  const Lattice seeding = seeding_lattice(domain, spec.particles.per_axis);
   return make_gaussian_velocity(*part.model, seeding.size(), threads);
 }
 
@@ -84,12 +86,28 @@ std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& spec,
 
 }  // namespace
 
-std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads) {
-  return make_sum<SumField, VelocityField>(spec.velocity, spec, threads);
+std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads, std::vector<std::string>* misfits) {
+  auto velocity = make_sum<SumField, VelocityField>(spec.velocity, spec, threads);
+  const Folding folding = folding_of(spec.domain);
+  if (!folding.folds()) return velocity;
+  std::vector<std::string> words = misfits_at_faces(*velocity, spec.domain, spec.time.end);
+  const bool smooth = words.empty();
+  if (misfits) *misfits = std::move(words);
+  return std::make_unique<FoldedVelocity>(std::move(velocity), folding, smooth);
 }
 
 std::unique_ptr<InitialDensity> make_density(const Case& spec) {
-  return make_sum<SumDensity, InitialDensity>(spec.density, spec, 1);
+  auto density = make_sum<SumDensity, InitialDensity>(spec.density, spec, 1);
+  const Folding folding = folding_of(spec.domain);
+  if (!folding.folds()) return density;
+  return std::make_unique<FoldedDensity>(std::move(density), folding);
+}
+
+std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& text) {
+  auto field = std::make_unique<WrittenScalar>(text, spec.domain.dimension, spec.params);
+  const Folding folding = folding_of(spec.domain);
+  if (!folding.folds()) return field;
+  return std::make_unique<FoldedScalar>(std::move(field), folding);
 }
 
 }  // namespace gaussdrift

@@ -2,18 +2,25 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "field/density/density.hpp"
+#include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
 #include "gaussdrift/case.hpp"
 
 namespace gaussdrift {
 
 /// The sum of all [[velocity]]. The case must be valid, as `input` leaves it. threads: for fields that are evaluated
-/// for all points at once; 0 for all.
-std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads = 0);
+/// for all points at once; 0 for all. misfits: gets what is wrong with it at edges that are periodic or closed.
+std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads = 0,
+                                             std::vector<std::string>* misfits = nullptr);
 
 /// The sum of all [[density]].
 std::unique_ptr<InitialDensity> make_density(const Case& spec);
+
+/// An expression of place and time that the case gives.
+std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& text);
 
 }  // namespace gaussdrift

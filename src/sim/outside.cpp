@@ -6,19 +6,17 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/longest_side.hpp"
+#include "sim/edges.hpp"
 
 namespace gaussdrift {
 
 bool is_outside(const Particles& particles, std::size_t j, const Domain& domain) {
-  // Particles that start on the edge stay there in many flows, but for rounding.
-  constexpr double rounding = 1e-9;
-  const double longest = longest_side(domain.dimension, domain.min, domain.max);
+  const double rounding = rounding_of(domain);
   bool inside = true;
   for (int k = 0; k < domain.dimension; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     const double x = particles.position[axis][j];
-    inside = inside && x >= domain.min[axis] - rounding * longest && x <= domain.max[axis] + rounding * longest;
+    inside = inside && x >= domain.min[axis] - rounding && x <= domain.max[axis] + rounding;
   }
   return !inside;
 }
@@ -31,6 +29,11 @@ double part_outside(const Particles& particles, const Domain& domain) {
     if (is_outside(particles, j, domain)) outside += weight;
   }
   return all > 0 ? outside / all : 0;
+}
+
+bool has_left(const FrameNumbers& numbers) {
+  return std::any_of(numbers.left.begin(), numbers.left.end(),
+                     [](const Departed& departed) { return departed.particles > 0; });
 }
 
 std::string why_nothing_is_left(double outside, double weight) {
@@ -54,6 +57,8 @@ std::string about_leaving(const std::vector<std::pair<double, FrameNumbers>>& fr
     return since->first;
   };
   const auto weightless = [](const FrameNumbers& numbers) { return numbers.weight == 0; };
+  // What leaves by open edges is meant to, and is counted.
+  if (!frames.empty() && weightless(frames.back().second) && has_left(frames.back().second)) return "";
   if (!frames.empty() && weightless(frames.back().second))
     return fmt::format("every weight has fallen to 0 by t = {:.4g}: outputs from there on are 0; end the run earlier",
                        first_of_the_last(weightless));

@@ -22,6 +22,9 @@ inline bool is_all(double outside) { return outside >= 1 - 1e-9; }
 /// True if a density is less than a billionth of the largest at the start.
 inline bool is_nothing(double density, double at_start) { return !(density > 1e-9 * at_start); }
 
+/// True if some particle has left the run by an open edge or another way out.
+bool has_left(const FrameNumbers& numbers);
+
 /// Why an output has nothing to compare, one clause for people. weight: sum |alpha_j| there.
 std::string why_nothing_is_left(double outside, double weight);
 

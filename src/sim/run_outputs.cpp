@@ -1,16 +1,20 @@
 // What an output of a run shows: the density, by tiles where it is large, and its numbers.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "base/broadcast.hpp"
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
+#include "particle/images.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
 #include "sim/density_pieces.hpp"
+#include "sim/edges.hpp"
 #include "sim/fields_on_grid.hpp"
 #include "sim/grid_fields.hpp"
 #include "sim/outside.hpp"
@@ -26,24 +30,29 @@ namespace gaussdrift {
 
 namespace {
 
+constexpr std::uint64_t most_reasons = 1000;  // for which particles leave: more is no state of a run
+
 /// What a particle adds to the sums of a frame.
-enum Addend : std::size_t { mass, weight, outside, centroid };  // the last has a number an axis
+enum Addend : std::size_t { mass, weight, outside, inside, centroid };  // the last has a number an axis
 
 FrameNumbers measure_particles(const Particles& particles, const Domain& domain, const Placement& place, int threads) {
-  const std::vector<double> sums =
-      place.sums(particles, centroid + static_cast<std::size_t>(particles.dimension), threads,
-                 [&](std::size_t j, double* of_particle) {
-                   const double alpha = particles.alpha[j];
-                   of_particle[mass] = alpha;
-                   of_particle[weight] = std::abs(alpha);
-                   of_particle[outside] = is_outside(particles, j, domain) ? std::abs(alpha) : 0;
-                   for (int k = 0; k < particles.dimension; ++k)
-                     of_particle[centroid + static_cast<std::size_t>(k)] = alpha * particles.position[k][j];
-                 });
+  const std::vector<double> sums = place.sums(particles, centroid + static_cast<std::size_t>(particles.dimension),
+                                              threads, [&](std::size_t j, double* of_particle) {
+                                                const double alpha = particles.alpha[j];
+                                                of_particle[mass] = alpha;
+                                                of_particle[weight] = std::abs(alpha);
+                                                const bool is_out = is_outside(particles, j, domain);
+                                                of_particle[outside] = is_out ? std::abs(alpha) : 0;
+                                                of_particle[inside] = is_out ? 0 : alpha;
+                                                for (int k = 0; k < particles.dimension; ++k)
+                                                  of_particle[centroid + static_cast<std::size_t>(k)] =
+                                                      alpha * particles.position[k][j];
+                                              });
   FrameNumbers numbers;
   numbers.mass = sums[mass];
   numbers.weight = sums[weight];
   numbers.outside = sums[weight] > 0 ? sums[outside] / sums[weight] : 0;
+  if (domain.has_edges()) numbers.inside = sums[inside];
   // Where positive and negative weights cancel there is no centre of mass.
   const bool cancelled = std::abs(numbers.mass) <= 1e-12 * numbers.weight;
   for (int k = 0; k < particles.dimension; ++k)
@@ -72,9 +81,17 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
 
 }  // namespace
 
-// Numbers of an output, one by one: a new one must not be forgotten here.
-void pass(base::StateBytes& bytes, FrameNumbers& n) {
-  static_assert(sizeof(FrameNumbers) == 152 + sizeof(std::string), "a number is not passed yet");
+// Numbers of an output, one by one: a new one must not be forgotten here. Those about edges are there only where the
+// case has some, so that what other cases keep stays as it is.
+void pass(base::StateBytes& bytes, FrameNumbers& n, bool edges) {
+  static_assert(sizeof(FrameNumbers) == 192 + sizeof(std::string), "a number is not passed yet");
+  if (edges) {
+    std::uint64_t reasons = n.left.size();
+    bytes(n.inside, reasons);
+    if (reasons > most_reasons) throw std::out_of_range("particles leave for too many reasons");
+    n.left.resize(reasons);
+    for (Departed& departed : n.left) bytes(departed.reason, departed.particles, departed.mass);
+  }
   bytes(n.mass, n.minimum, n.maximum, n.centroid, n.transform_error, n.transform_tolerance, n.evaluate_seconds,
         n.seconds, n.stretch, n.weight, n.outside, n.error, n.no_norms, n.compared, n.untraced);
 }
@@ -104,7 +121,7 @@ void Simulation::Parts::place(double from) {
   Tiles tiles = tiles_of(particles_, blob(), scene_.evaluation, density_options(),
                          [&](std::vector<std::int64_t>& counts) { ranks_.sum(counts); });
   place_.renew(particles_, std::move(tiles), work_of_tiles(case_, *scene_.velocity, from));
-  if (ranks_.size() > 1) carrier_.placed(particles_);
+  if (ranks_.size() > 1 || carrier_.departures().possible()) carrier_.placed(particles_);
 }
 
 double Simulation::Parts::mass() const { return measure_particles(particles_, case_.domain, place_, threads_).mass; }
@@ -162,18 +179,39 @@ void Simulation::Parts::plan_reference() {
   if (shares_reference_) reference_ = shared_reference(std::move(reference_), scene_.evaluation, ranks_);
 }
 
+// Beside the particles the images of them that reach the grid; `images` keeps those.
+const Particles& Simulation::Parts::summed(Particles& images) const {
+  const Folding folding = folding_of(case_.domain);
+  if (!folding.folds()) return particles_;
+  images = with_images(particles_, folding, reach_of_blob(blob(), density_options()),
+                       static_cast<std::int64_t>(scene_.seeding.size()));
+  return images;
+}
+
+// The same on all ranks, which agree on how it went.
+const Particles& Simulation::Parts::images_agreed(Particles& images) const {
+  const Particles* all = nullptr;
+  ranks_.agree_on([&] { all = &summed(images); });
+  return *all;
+}
+
 // On rank 0 the whole of it.
 DensityGrid Simulation::Parts::sum_density(DensityReport& report) {
   if (!place_.one_tile()) return sum_tiles(report);
   DensityGrid density;
-  on_first([&] { density = evaluate_at_once(particles_, blob(), scene_.evaluation, density_options(), &report); });
+  on_first([&] {
+    Particles images;
+    density = evaluate_at_once(summed(images), blob(), scene_.evaluation, density_options(), &report);
+  });
   return density;
 }
 
 DensityGrid Simulation::Parts::sum_tiles(DensityReport& report) {
-  const Particles felt = felt_from_elsewhere(particles_, place_.tiles(), place_.owner(), ranks_);
-  const std::vector<TileDensity> own = evaluate_tiles({particles_, felt}, place_.tiles(), place_.owned(), blob(),
-                                                      scene_.evaluation, density_options(), ranks_, report);
+  Particles images;
+  const Particles& own = images_agreed(images);
+  const Particles felt = felt_from_elsewhere(own, place_.tiles(), place_.owner(), ranks_);
+  const std::vector<TileDensity> done = evaluate_tiles({own, felt}, place_.tiles(), place_.owned(), blob(),
+                                                       scene_.evaluation, density_options(), ranks_, report);
   DensityGrid density{scene_.evaluation, {}};
   const auto& tiles = place_.tiles().list();
   const std::size_t quantities = density_options().quantities();
@@ -182,7 +220,7 @@ DensityGrid Simulation::Parts::sum_tiles(DensityReport& report) {
     report.derivatives.assign(quantities - 1, density.rho);
   }
   std::vector<double> values;  // of the others, tile after tile
-  for (const auto& [tile, some] : own)
+  for (const auto& [tile, some] : done)
     if (place_.is_first())
       gaussdrift::place(some, tiles[tile], density, report.derivatives);
     else
@@ -215,7 +253,9 @@ std::vector<FieldOnGrid> Simulation::Parts::fields_of_piece(double time, const L
 
 // Every k-th value on rank 0; the pieces go to the observers.
 DensityGrid Simulation::Parts::sum_in_pieces(Frame& frame, DensityReport& report) {
-  const Particles felt = felt_from_elsewhere(particles_, place_.tiles(), place_.owner(), ranks_);
+  Particles images;
+  const Particles& own = images_agreed(images);
+  const Particles felt = felt_from_elsewhere(own, place_.tiles(), place_.owner(), ranks_);
   frame.pieces = &pieces_;
   frame.lattice = &scene_.evaluation;
   frame.every = thinning(scene_.evaluation);
@@ -243,7 +283,7 @@ DensityGrid Simulation::Parts::sum_in_pieces(Frame& frame, DensityReport& report
               summary_.stages.run(observer->name(), [&] { observer->piece(frame, piece); });
             }
           }};
-  PiecesSummary all = sum_pieces({particles_, felt}, place_.tiles(), place_.owner(), blob(), scene_.evaluation, pieces_,
+  PiecesSummary all = sum_pieces({own, felt}, place_.tiles(), place_.owner(), blob(), scene_.evaluation, pieces_,
                                  density_options(), ranks_, receiver, report);
   frame.numbers.minimum = all.minimum;
   frame.numbers.maximum = all.maximum;
@@ -283,6 +323,7 @@ void Simulation::Parts::show_frame(double time) {
   frame.index = index_;
   frame.time = time;
   frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
+  frame.numbers.left = carrier_.departures().so_far();
   DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);
   summary_.stages.add("density", report.evaluate_seconds);
   summary_.stages.add("measure transform error", report.measure_seconds);
@@ -303,7 +344,8 @@ void Simulation::Parts::show_frame(double time) {
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
   std::vector<double> velocity = velocity_at_particles(time, velocity_wanted);
 
-  if (!carrier_.replaces_particles()) frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_);
+  if (!carrier_.replaces_particles())
+    frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_, folding_of(case_.domain));
   if (velocity_wanted)
     frame.particle_pieces = pieces_of_particles(place_.particle_count(), case_.output.piece_particles);
   if (frame.particle_pieces > 1) hand_out_pieces(frame, velocity);
@@ -333,7 +375,7 @@ void Simulation::Parts::show_frame(double time) {
     frame.numbers.seconds = seconds_before_ + watch_.seconds();
   });
   // All ranks know what is known of the outputs, and judge the run alike.
-  base::broadcast_values(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers); });
+  base::broadcast_values(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers, counts_edges()); });
   summary_.frames.emplace_back(time, frame.numbers);
   ++index_;  // not before: a disk that fills up with pieces leaves a state without this output
   on_first([&] {
@@ -416,7 +458,9 @@ void Simulation::Parts::judge_norms(const std::vector<double>& exact, FrameNumbe
   if (largest < 0) {
     numbers.no_norms = "the exact density is not known anywhere";
   } else if (largest == 0 || (is_all(numbers.outside) && is_nothing(largest, largest_at_start_))) {
-    numbers.no_norms = why_nothing_is_left(numbers.outside, numbers.weight);
+    numbers.no_norms = numbers.weight == 0 && has_left(numbers)
+                           ? "nothing is left to compare (all of the mass has left the domain)"
+                           : why_nothing_is_left(numbers.outside, numbers.weight);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     numbers.error = ErrorNorms{nan, nan, nan};
   }

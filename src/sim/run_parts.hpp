@@ -74,6 +74,8 @@ class Simulation::Parts {
   std::vector<double> velocity_at_particles(double time, bool wanted) const;
   void check_density_seconds() const;
   void plan_reference();
+  const Particles& summed(Particles& images) const;
+  const Particles& images_agreed(Particles& images) const;
   DensityGrid sum_density(DensityReport& report);
   DensityGrid sum_tiles(DensityReport& report);
   std::vector<FieldOnGrid> fields_of_piece(double time, const LatticeBox& box, std::vector<double>& values) const;
@@ -83,6 +85,7 @@ class Simulation::Parts {
   void show_frame(double time);
   bool somebody_needs_particles(const Frame& frame) const;
   void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
+  bool counts_edges() const { return case_.domain.has_edges() || carrier_.departures().possible(); }
   bool in_pieces() const { return pieces_.count() > 1; }
   /// A formula is evaluated wherever a piece is. Paths are followed from points of the thinned grid alone.
   bool compares_pieces() const {
@@ -140,7 +143,7 @@ class Simulation::Parts {
   RunSummary summary_;
 };
 
-/// The numbers of an output, to be kept or told.
-void pass(base::StateBytes& bytes, FrameNumbers& numbers);
+/// The numbers of an output, to be kept or told; `edges`: with those about the edges of the domain.
+void pass(base::StateBytes& bytes, FrameNumbers& numbers, bool edges);
 
 }  // namespace gaussdrift

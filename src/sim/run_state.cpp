@@ -35,9 +35,9 @@ void pass(base::StateBytes& bytes, RunState& parts) {
 
 using Output = std::pair<double, FrameNumbers>;
 
-void pass(base::StateBytes& bytes, Output& output) {
+void pass(base::StateBytes& bytes, Output& output, bool edges) {
   bytes(output.first);
-  pass(bytes, output.second);
+  pass(bytes, output.second, edges);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void Simulation::Parts::pass_outputs(base::StateBytes& bytes) {
   if (bytes.reading()) summary_.frames.clear();
   for (std::uint64_t i = 0; i < count; ++i) {
     if (bytes.reading()) summary_.frames.emplace_back();
-    pass(bytes, summary_.frames[i]);
+    pass(bytes, summary_.frames[i], counts_edges());
   }
 }
 
@@ -87,7 +87,7 @@ std::vector<std::string> Simulation::Parts::outputs() {
   std::vector<std::string> all;
   for (Output& output : summary_.frames) {
     base::StateBytes bytes;
-    pass(bytes, output);
+    pass(bytes, output, counts_edges());
     all.push_back(bytes.written());
   }
   return all;
@@ -97,7 +97,7 @@ void Simulation::Parts::take_outputs(const std::vector<std::string>& all) {
   summary_.frames.clear();
   for (const std::string& output : all) {
     base::StateBytes bytes(output);
-    pass(bytes, summary_.frames.emplace_back());
+    pass(bytes, summary_.frames.emplace_back(), counts_edges());
     bytes.end();
   }
 }
@@ -194,7 +194,7 @@ void Simulation::Parts::take_particles(Particles particles) {
   });
   const bool none = particles_of_all(particles, ranks_) == 0;
   ranks_.agree_on([&] {
-    if (none) throw misfit("it has no particles");
+    if (none && !carrier_.departures().possible()) throw misfit("it has no particles");
   });
   if (particles.size() > 0) {
     particles_ = std::move(particles);

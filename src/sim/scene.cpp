@@ -8,6 +8,7 @@
 #include "effect/catalogue.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/seeding.hpp"
+#include "sim/edges.hpp"
 #include "sim/make_fields.hpp"
 
 namespace gaussdrift {
@@ -15,12 +16,11 @@ namespace gaussdrift {
 namespace {
 
 void make_effect_fields(const Case& spec, Scene& scene) {
-  const int dimension = spec.domain.dimension;
   std::vector<std::unique_ptr<ScalarField>> decays;
   for (const auto& [effect, values] : effects_of(spec.effects)) {
     const auto field_of = [&, &values = values](std::string_view key) -> std::unique_ptr<ScalarField> {
       if (key.empty() || !values.has(key)) return nullptr;
-      return std::make_unique<WrittenScalar>(values.text(key), dimension, spec.params);
+      return make_scalar(spec, values.text(key));
     };
     if (auto decay = field_of(effect->decay_rate)) decays.push_back(std::move(decay));
     scene.effect_fields.push_back({values.name, field_of(effect->decay_rate), field_of(effect->carried),
@@ -42,11 +42,11 @@ Lattice evaluation_lattice(const Case& spec) {
 Scene make_scene(const Case& spec, int threads) {
   Scene scene;
   const Domain& domain = spec.domain;
-  scene.velocity = make_velocity(spec, threads);
+  scene.velocity = make_velocity(spec, threads, &scene.misfits);
   scene.density = make_density(spec);
   make_effect_fields(spec, scene);
   scene.threshold = spec.particles.threshold;
-  scene.seeding = make_lattice(domain.dimension, domain.min, domain.max, spec.particles.per_axis);
+  scene.seeding = seeding_lattice(domain, spec.particles.per_axis);
   scene.evaluation = evaluation_lattice(spec);
   scene.core_radius = spec.particles.overlap * scene.seeding.spacing;
   scene.cutoff =

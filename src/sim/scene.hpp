@@ -34,6 +34,7 @@ struct Scene {
   double core_radius = 0;  // eps = c h
   double threshold = 0;    // particles.threshold
   Cutoff cutoff;
+  std::vector<std::string> misfits;  // what is wrong with the velocity at the edges of the domain, for people
 };
 
 /// The length over which gradients of the velocity are taken as differences: a thousandth of the smallest length that

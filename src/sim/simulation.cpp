@@ -201,7 +201,8 @@ void Simulation::Parts::sum_up() {
   summary_.checks = judge(case_.checks, mass_at_start_, summary_.frames);
   summary_.steps = steps_before_ + leg_.steps;
   summary_.steps_rejected = carrier_.steps_rejected();
-  summary_.warnings = carrier_.warnings();
+  summary_.warnings = scene_.misfits;
+  summary_.warnings.insert(summary_.warnings.end(), carrier_.warnings().begin(), carrier_.warnings().end());
   if (!compared_.left_out.empty()) summary_.warnings.push_back(compared_.left_out);
   if (in_pieces() && !case_.output.times.empty())
     summary_.warnings.push_back(words_for_pieces(pieces_, scene_.evaluation, compared_, compares_pieces()));

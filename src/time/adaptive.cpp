@@ -81,6 +81,8 @@ class Integration {
       if (error <= 1) {
         rate_(to, next_.data(), next_rate_.data());
         if (all_finite(next_rate_)) {
+          if (options_.after_step)
+            options_.after_step({result.time, to, y_, next_.data(), first_rate_.data(), next_rate_.data()});
           std::copy(next_.begin(), next_.end(), y_);
           first_rate_.swap(next_rate_);
           result.time = to;

@@ -25,10 +25,17 @@ struct StepBound {
   double middle = 0;
 };
 
+/// Both ends of a step that was taken: the state there, and its rate.
+struct StepTaken {
+  double from = 0, to = 0;
+  const double *before = nullptr, *after = nullptr, *rate_before = nullptr, *rate_after = nullptr;
+};
+
 struct AdaptiveOptions {
   std::vector<StepBound> components{};
-  double longest_step = 0;           // 0: any
-  std::size_t most_steps = 100'000;  // taken or rejected
+  double longest_step = 0;                                  // 0: any
+  std::size_t most_steps = 100'000;                         // taken or rejected
+  std::function<void(const StepTaken& step)> after_step{};  // empty: nobody looks
 };
 
 struct AdaptiveResult {

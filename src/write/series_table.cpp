@@ -36,7 +36,11 @@ class SeriesTable : public Observer {
     table += dimension_ == 3 ? ",centroid_z" : "";
     table += ",transform_error";
     table += errors_ ? ",L1,L2,Linf" : "";
-    table += ",outside,evaluate_seconds,seconds\n";
+    table += ",outside";
+    const FrameNumbers& first = frames.front().second;
+    if (first.inside) table += ",inside";
+    for (const Departed& departed : first.left) table += ",left_" + departed.reason;
+    table += ",evaluate_seconds,seconds\n";
     for (const auto& [time, numbers] : frames) table += row(time, numbers);
     text_.begin(table);
     begun_ = true;
@@ -48,7 +52,10 @@ class SeriesTable : public Observer {
     row += fmt::format(",{:.3e}", n.transform_error);
     const ErrorNorms error = n.error.value_or(ErrorNorms{});
     if (errors_) row += fmt::format(",{:.6e},{:.6e},{:.6e}", error.l1, error.l2, error.linf);
-    return row + fmt::format(",{:.17g},{:.6f},{:.6f}\n", n.outside, n.evaluate_seconds, n.seconds);
+    row += fmt::format(",{:.17g}", n.outside);
+    if (n.inside) row += fmt::format(",{:.17g}", *n.inside);
+    for (const Departed& departed : n.left) row += fmt::format(",{:.17g}", departed.mass);
+    return row + fmt::format(",{:.6f},{:.6f}\n", n.evaluate_seconds, n.seconds);
   }
 
   GrowingFile text_;

@@ -56,13 +56,15 @@ json reference_of(const Case& spec, const RunSummary& summary) {
 
 json checks_of(const RunSummary& summary) {
   json checks = json::array();
-  for (const CheckResult& result : summary.checks)
+  for (const CheckResult& result : summary.checks) {
     checks.push_back({{"what", to_string(result.check.what)},
                       {"value", number(result.value)},
                       {"t", result.time},
                       {"max", result.check.max ? json(*result.check.max) : json(nullptr)},
                       {"min", result.check.min ? json(*result.check.min) : json(nullptr)},
                       {"passed", result.passed}});
+    if (!result.check.by.empty()) checks.back()["by"] = result.check.by;
+  }
   return checks;
 }
 
@@ -86,6 +88,9 @@ json frames_of(const Case& spec, const RunSummary& summary) {
                       {"outside", n.outside},
                       {"transform_error", n.transform_error},
                       {"evaluate_seconds", n.evaluate_seconds}});
+    if (n.inside) frames.back()["inside"] = *n.inside;
+    for (const Departed& departed : n.left)
+      frames.back()["left"][departed.reason] = {{"particles", departed.particles}, {"mass", departed.mass}};
     if (n.stretch > 0) frames.back()["stretch"] = n.stretch;
     if (n.error) {
       frames.back()["L1"] = number(n.error->l1);

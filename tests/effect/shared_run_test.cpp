@@ -142,6 +142,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Kind{"transport", {}}, Kind{"adaptive", {"time.method=\"dopri5\"", "time.tolerance=1e-6"}},
         Kind{"reaction", {"effects.reaction.rate=\"1+x\"", characteristics}},
+        Kind{"open_edges",
+             {"domain.edges=[\"open\", \"periodic\"]", "velocity.u=[\"1.2\", \"0.3*x\"]", "effects.reaction.rate=1+x",
+              "density.center=[0.4, 0.95]", characteristics, "reference.points=300"}},
+        Kind{"folded_edges",
+             {"domain.edges=[\"closed\", \"periodic\"]", "velocity.u=[\"0.3*(1-x^2)\", \"0.5\"]",
+              "density.center=[0.92, 0.9]", characteristics, "reference.points=300"}},
         Kind{"spreading", {"effects.diffusion.D=1e-6", "effects.diffusion.method=\"core-spreading\""}},
         Kind{"compared", {characteristics}}, Kind{"everywhere", {characteristics, "reference.points=1000000"}},
         Kind{"formula", {"reference.kind=\"exact\"", "reference.rho=\"exp(-x^2-y^2-t)\""}},

@@ -36,6 +36,10 @@ void read_accuracy(Reader& in, Case& spec) {
   const auto target = in.number("accuracy", "target");
   if (!target) return;
   spec.accuracy.target = target->number;
+  const Entry* edges = in.find("domain", "edges");
+  if (const Entry* written = in.find("accuracy", "target"); written && edges && spec.domain.has_edges())
+    in.diagnostics.error(written->value.place, "no settings can be chosen for a target with domain.edges",
+                         "the error is predicted for domains without edges; leave out accuracy.target");
   std::string without;
   for (const auto& [effect, values] : effects_of(spec.effects))
     if (without.empty() && effect->decay_rate.empty()) without = values.name;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "input/tables/tables.hpp"
+#include "sim/departures.hpp"
 
 namespace gaussdrift::input {
 
@@ -19,9 +20,14 @@ Section checks_section() {
           {{.name = "what",
             .type = Type::choice,
             .required = true,
-            .choices = {"Linf", "L1", "L2", "mass"},
-            .meaning = "the number to check: a norm of the error relative to that of the exact density, or the mass "
-                       "relative to that at the start"},
+            .choices = {"Linf", "L1", "L2", "mass", "inside", "left"},
+            .meaning = "the number to check: a norm of the error relative to that of the exact density, or a mass "
+                       "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
+                       "domain, `left` of those that have left the run. The last two need `domain.edges`"},
+           {.name = "by",
+            .type = Type::text,
+            .meaning = "with what = \"left\": the reason for which particles have left, a face of the domain as in "
+                       "`x_max`. Without it all of them count"},
            {.name = "max", .type = Type::number, .meaning = "the number must not be larger"},
            {.name = "min", .type = Type::number, .meaning = "the number must not be smaller"},
            {.name = "at",
@@ -47,6 +53,26 @@ double output_time(Reader& in, const Number& at, const Case& spec) {
   return at.number;
 }
 
+/// Masses that only some cases count.
+void read_departure(Reader& in, const Value& what, const Case& spec, CheckSpec& check) {
+  using Quantity = CheckSpec::Quantity;
+  const Entry* by = in.find("check", "by");
+  const std::vector<std::string> reasons = reasons_to_leave(spec);
+  if (check.what == Quantity::inside && !spec.domain.has_edges() && in.facts.domain_valid)
+    in.diagnostics.error(what.place, "what is inside the domain is counted only where domain.edges is given",
+                         "without edges, check \"mass\"; outside in series.csv is the part that is not inside");
+  if (check.what == Quantity::left && reasons.empty() && in.facts.domain_valid)
+    in.diagnostics.error(what.place, "no particle can leave this run",
+                         "domain.edges opens ends of the domain: edges = [\"open\", \"open\"]");
+  if (!by) return;
+  check.by = in.text("check", "by");
+  if (check.what != Quantity::left)
+    in.diagnostics.error(by->place, fmt::format("\"by\" goes with what = \"left\", not with \"{}\"", what.text));
+  else if (!reasons.empty() && std::find(reasons.begin(), reasons.end(), check.by) == reasons.end())
+    in.diagnostics.error(by->value.place, fmt::format("no particle of this run leaves by \"{}\"", check.by),
+                         fmt::format("reasons to leave: {}", fmt::join(reasons, ", ")));
+}
+
 }  // namespace
 
 void read_checks(Reader& in, Case& spec) {
@@ -62,7 +88,8 @@ void read_checks(Reader& in, Case& spec) {
     if (check.max && check.min && *check.min > *check.max)
       in.diagnostics.error(min->value.place,
                            fmt::format("no number is at least {} and at most {}", *check.min, *check.max));
-    if (check.what != CheckSpec::Quantity::mass && spec.reference.kind == ReferenceSpec::Kind::none)
+    read_departure(in, value, spec, check);
+    if (check.is_error() && spec.reference.kind == ReferenceSpec::Kind::none)
       in.diagnostics.error(value.place,
                            fmt::format("{} needs an exact density, but reference.kind is \"none\"", value.text));
     if (const auto at = in.number("check", "at")) check.at = output_time(in, *at, spec);
@@ -74,6 +101,7 @@ void write_checks(Writer& out, const std::vector<CheckSpec>& checks) {
   for (const CheckSpec& check : checks) {
     out.part("check", checks.size());
     out.entry("what", written_choice(find_key("check", "what"), check.what));
+    if (!check.by.empty()) out.entry("by", written(check.by));
     if (check.max) out.entry("max", written(*check.max));
     if (check.min) out.entry("min", written(*check.min));
     if (check.at) out.entry("at", written(*check.at));

@@ -1,5 +1,6 @@
 // [domain]: the box.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -20,7 +21,17 @@ Section domain_section() {
             .type = Type::numbers,
             .required = true,
             .unit = "length",
-            .meaning = "upper corner. It lies above `min` on every axis"}}};
+            .meaning = "upper corner. It lies above `min` on every axis"},
+           {.name = "edges",
+            .type = Type::ends,
+            .fallback = "unbounded",
+            .choices = {"unbounded", "periodic", "open", "closed"},
+            .meaning =
+                "what happens at the ends of each axis: a word for both ends, or a pair of words for the lower and the "
+                "upper one, as in `[\"periodic\", [\"closed\", \"open\"]]`. `unbounded`: nothing, particles go on "
+                "beyond it. `periodic`: what goes out comes in at the other end. `open`: particles that pass it leave "
+                "the run and are counted. `closed`: nothing passes, particles are reflected and the density has no "
+                "flux there"}}};
 }
 
 namespace {
@@ -30,6 +41,52 @@ bool is_corner(Reader& in, const Value& value, const Key& key) {
   in.diagnostics.error(value.place, fmt::format("{} needs 2 numbers (2D) or 3 numbers (3D), found {}", in.label_of(key),
                                                 value.items.size()));
   return false;
+}
+
+constexpr std::size_t ends_of_an_axis = 2;
+
+/// A word for both ends of an axis, or one for each.
+void read_ends(Reader& in, const Value& value, const Key& key, const std::string& axis, std::array<Edge, 2>& ends) {
+  const auto read = [&](const Value& word, Edge& edge) {
+    if (const auto index = in.choice_in(word, key, fmt::format("{} along {}", in.label_of(key), axis)))
+      edge = static_cast<Edge>(*index);
+  };
+  if (value.kind != Value::Kind::list) {
+    read(value, ends[0]);
+    ends[1] = ends[0];
+    return;
+  }
+  if (value.items.size() != ends_of_an_axis) {
+    in.diagnostics.error(value.place,
+                         fmt::format("the ends of {} need one word, or 2 words, found {}", axis, value.items.size()),
+                         "[\"closed\", \"open\"]: the lower end is closed, the upper one open");
+    return;
+  }
+  for (std::size_t end = 0; end < ends_of_an_axis; ++end) read(value.items[end], ends[end]);
+  if ((ends[0] == Edge::periodic) != (ends[1] == Edge::periodic))
+    in.diagnostics.error(value.place, fmt::format("one end of {} is periodic, the other is not", axis),
+                         "an axis is periodic at both ends: write \"periodic\" for it");
+}
+
+void read_edges(Reader& in, Domain& domain) {
+  const Key& key = find_key("domain", "edges");
+  const Entry* entry = in.find("domain", "edges");
+  if (!entry) return;
+  if (entry->value.kind != Value::Kind::list) return in.wrong_type(entry->value, in.label_of(key), type_text(key));
+  if (in.facts.dimension == 0 || !in.has_entries(entry->value, key, "word")) return;
+  for (std::size_t k = 0; k < entry->value.items.size(); ++k)
+    read_ends(in, entry->value.items[k], key, std::string(1, "xyz"[k]), domain.edges[k]);
+}
+
+/// As short as it can be.
+std::string written_edges(const Domain& domain) {
+  const auto word = [](Edge edge) { return written_choice(find_key("domain", "edges"), edge); };
+  std::vector<std::string> axes;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k) {
+    const auto& [lower, upper] = domain.edges[k];
+    axes.push_back(lower == upper ? word(lower) : fmt::format("[{}, {}]", word(lower), word(upper)));
+  }
+  return fmt::format("[{}]", fmt::join(axes, ", "));
 }
 
 }  // namespace
@@ -62,6 +119,7 @@ void read_domain(Reader& in, Domain& domain) {
                              : fmt::format("the domain is empty along {}: min = {}, max = {}", "xyz"[k], lower, upper),
                          "min must be less than max on every axis");
   }
+  read_edges(in, domain);
   in.facts.domain_valid = valid;
   in.facts.box = {domain.dimension, domain.min, domain.max};
 }
@@ -73,6 +131,7 @@ void write_domain(Writer& out, const Domain& domain) {
   out.table("domain");
   out.entry("min", corner(domain.min));
   out.entry("max", corner(domain.max));
+  if (domain.has_edges()) out.entry("edges", written_edges(domain));
 }
 
 }  // namespace gaussdrift::input

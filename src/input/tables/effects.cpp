@@ -105,6 +105,29 @@ void refuse_fields(Reader& in, const NamedEffect& effect, const OutputSpec& outp
           "leave it out; the particle files have the whole velocity at the particles");
 }
 
+/// Effects that know nothing of the edges of the domain.
+void refuse_edges(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
+  const Entry* edges = in.find("domain", "edges");
+  if (!edges || !spec.domain.has_edges()) return;
+  const EffectTraits& traits = effect.traits;
+  std::string reason;
+  if (traits.adds_particles.of(values, spec.domain.dimension)) reason = traits.adds_particles.words;
+  if (traits.replaces_particles.of(values, spec.domain.dimension)) reason = traits.replaces_particles.words;
+  if (!reason.empty()) {
+    in.diagnostics.error(
+        edges->value.place,
+        fmt::format("domain.edges does not go with [{}]: {}, on a lattice that has no edges", table_of(effect), reason),
+        traits.diffuses ? "method = \"core-spreading\" goes with edges" : "leave out one of them");
+    return;
+  }
+  if (traits.particles_interact && (spec.domain.has(Edge::periodic) || spec.domain.has(Edge::closed)))
+    in.diagnostics.error(edges->value.place,
+                         fmt::format("edges that are periodic or closed do not go with [{}]: the images of particles "
+                                     "beyond them would move the particles too, and their sum is not known here",
+                                     table_of(effect)),
+                         "\"open\" and \"unbounded\" edges go with it");
+}
+
 /// What does not go with the case, or with another effect.
 void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& spec) {
   const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
@@ -118,6 +141,7 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
                                      : "is for three dimensions, the domain has two",
              "");
     check_steps(in, *effect, values, spec);
+    if (is_complete(*effect, values)) refuse_edges(in, *effect, values, spec);
     if (!effect->problems || !is_complete(*effect, values)) continue;
     for (const Complaint& problem : effect->problems(values, spec)) {
       const Entry* entry = in.find(table_of(*effect), problem.key);

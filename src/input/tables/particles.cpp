@@ -1,13 +1,16 @@
 // [particles]: the lattice on which particles start, and the blob each carries.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/longest_side.hpp"
 #include "effect/catalogue.hpp"
 #include "input/tables/tables.hpp"
 #include "particle/cutoff.hpp"
+#include "sim/edges.hpp"
 
 namespace gaussdrift::input {
 
@@ -86,6 +89,27 @@ void warn_thin(Reader& in, const Lattice& lattice, const Number& count) {
                              "raise per_axis or widen the domain");
 }
 
+/// Images of the particles beyond an edge have to go on with their lattice.
+void refuse_broken_cells(Reader& in, const Domain& domain, const Number& count) {
+  const int per_axis = to_int(count);
+  const auto broken = axis_without_whole_cells(domain, per_axis);
+  if (!broken) return;
+  const auto k = static_cast<std::size_t>(*broken);
+  const double longest = longest_side(domain.dimension, domain.min, domain.max);
+  std::vector<int> good;  // the nearest numbers with which all axes have whole cells
+  for (int away = 1; away < per_axis && good.size() < 2; ++away)
+    for (const int other : {per_axis - away, per_axis + away})
+      if (other >= 2 && !axis_without_whole_cells(domain, other)) good.push_back(other);
+  std::sort(good.begin(), good.end());
+  in.diagnostics.error(
+      count.written ? count.written->place : in.source.end(),
+      fmt::format("the spacing {:.6g} of the particle lattice does not divide the length {:g} of {}, whose ends are "
+                  "periodic or closed",
+                  longest / (per_axis - 1), domain.max[k] - domain.min[k], "xyz"[k]),
+      good.empty() ? "make the lengths of the domain small multiples of one length"
+                   : fmt::format("per_axis = {} does it", fmt::join(good, " or ")));
+}
+
 /// False if the cutoff cannot be made from them.
 bool read_cutoff_arguments(Reader& in, ParticleSpec& particles) {
   const NamedCutoff& chosen = find_cutoff(particles.cutoff);
@@ -108,8 +132,10 @@ bool read_cutoff_arguments(Reader& in, ParticleSpec& particles) {
 
 void read_particles(Reader& in, ParticleSpec& particles, const Domain& domain) {
   if (const auto count = per_axis(in, "particles", "one particle an axis has no spacing")) {
-    if (const auto lattice = make_checked_lattice(in, "particle lattice", domain, *count))
+    if (const auto lattice = make_checked_lattice(in, "particle lattice", domain, *count)) {
       warn_thin(in, *lattice, *count);
+      refuse_broken_cells(in, domain, *count);
+    }
     particles.per_axis = to_int(*count);
   }
   particles.cutoff = in.choice("particles", "cutoff");

@@ -1,0 +1,89 @@
+// domain.edges: what a case may say, and what it may not.
+#include <gtest/gtest.h>
+
+#include "cases.hpp"
+
+namespace gaussdrift::input {
+namespace {
+
+/// The message of a case with these edges; empty: it is valid.
+std::string with_edges(const std::string& edges, const std::vector<std::string>& more = {},
+                       const std::string& text = cone) {
+  std::vector<std::string> overrides{"domain.edges=" + edges};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return errors(text, overrides);
+}
+
+void expect_has(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+}
+
+TEST(Edges, AreOneWordOrTwoAnAxis) {
+  const Case spec = parse_case(cone, "cone.toml", {"domain.edges=[\"periodic\", [\"closed\", \"open\"]]"}).spec;
+  EXPECT_EQ(spec.domain.edges[0], (std::array{Edge::periodic, Edge::periodic}));
+  EXPECT_EQ(spec.domain.edges[1], (std::array{Edge::closed, Edge::open}));
+  EXPECT_TRUE(spec.domain.has_edges() && spec.domain.has(Edge::open) &&
+              !parse_case(cone, "cone.toml").spec.domain.has_edges());
+  const std::string text = gaussdrift::case_text(spec);
+  expect_has(text, "edges = [\"periodic\", [\"closed\", \"open\"]]\n");
+  EXPECT_EQ(parse_case(text, "again.toml").spec.domain.edges, spec.domain.edges);
+  EXPECT_EQ(gaussdrift::case_text(parse_case(cone, "cone.toml").spec).find("edges"), std::string::npos);
+}
+
+TEST(Edges, ThatAreNoneAreRefused) {
+  expect_has(with_edges("\"periodic\""), "domain.edges must be a list with one of");
+  expect_has(with_edges("[\"open\"]"), "domain.edges needs 2 words, one for each axis of the domain, found 1");
+  expect_has(with_edges("[\"open\", \"perodic\"]"),
+             "unknown value \"perodic\" for domain.edges along y; did you mean \"periodic\"?");
+  expect_has(with_edges("[\"open\", 3]"), "domain.edges along y must be a string");
+  expect_has(with_edges("[[\"open\"], \"open\"]"), "the ends of x need one word, or 2 words, found 1");
+  expect_has(with_edges("[\"open\", [\"closed\", \"periodic\"]]"), "one end of y is periodic, the other is not");
+  expect_has(with_edges("[\"open\", [\"closed\", [\"open\"]]]"), "must be a string");
+}
+
+TEST(Edges, NeedASpacingThatDividesTheLength) {
+  EXPECT_EQ(with_edges("[\"periodic\", \"closed\"]", {"domain.max=[1, 0.5]", "particles.per_axis=301"}), "");
+  const std::string words = with_edges("[\"periodic\", \"closed\"]", {"domain.max=[1, 0.5]", "particles.per_axis=300"});
+  expect_has(words,
+             "the spacing 0.00668896 of the particle lattice does not divide the length 1.5 of y, whose ends are "
+             "periodic or closed");
+  expect_has(words, "per_axis = 297 or 301 does it");
+  EXPECT_EQ(with_edges("[\"periodic\", \"open\"]", {"domain.max=[1, 0.5]", "particles.per_axis=300"}), "");
+  expect_has(with_edges("[\"periodic\", \"closed\"]", {"domain.max=[1, \"pi\"]"}),
+             "make the lengths of the domain small multiples of one length");
+}
+
+TEST(Edges, DoNotGoWithWhatKnowsNothingOfThem) {
+  const std::string remesh = cone + "[effects.remesh]\nevery = 3\n",
+                    exchange = cone + "[effects.diffusion]\nD = 0.1\nmethod = \"particle-exchange\"\n",
+                    spreading = cone + "[effects.diffusion]\nD = 0.1\n",
+                    charge = cone + "[effects.charge]\nmobility = 1\n", target = cone + "[accuracy]\ntarget = 1e-3\n";
+  for (const char* edges : {"[\"open\", \"open\"]", "[\"periodic\", \"closed\"]"}) {
+    expect_has(with_edges(edges, {}, remesh), "domain.edges does not go with [effects.remesh]: remeshing makes new");
+    expect_has(with_edges(edges, {}, exchange), "domain.edges does not go with [effects.diffusion]: particle-exchange");
+    expect_has(with_edges(edges, {}, exchange), "method = \"core-spreading\" goes with edges");
+    EXPECT_EQ(with_edges(edges, {}, spreading), "");
+    expect_has(with_edges(edges, {}, target), "no settings can be chosen for a target with domain.edges");
+  }
+  expect_has(with_edges("[\"periodic\", \"open\"]", {}, charge),
+             "edges that are periodic or closed do not go with [effects.charge]: the images of particles");
+  EXPECT_EQ(with_edges("[\"open\", \"unbounded\"]", {}, charge), "");
+  EXPECT_EQ(with_edges("[\"unbounded\", \"unbounded\"]", {}, remesh), "") << "as if nothing were said";
+}
+
+TEST(Edges, AreCheckedByTheirNames) {
+  const auto check = [](const std::string& lines, const std::string& edges = "[\"open\", [\"open\", \"closed\"]]") {
+    return with_edges(edges, {}, cone + "[[check]]\nmax = 1\n" + lines + "\n");
+  };
+  EXPECT_EQ(check("what = \"left\""), "");
+  EXPECT_EQ(check("what = \"left\"\nby = \"y_min\""), "");
+  EXPECT_EQ(check("what = \"inside\"", "[\"periodic\", \"unbounded\"]"), "");
+  expect_has(check("what = \"left\"\nby = \"y_max\""), "no particle of this run leaves by \"y_max\"");
+  expect_has(check("what = \"left\"\nby = \"y_max\""), "reasons to leave: x_min, x_max, y_min");
+  expect_has(check("what = \"left\"", "[\"periodic\", \"closed\"]"), "no particle can leave this run");
+  expect_has(check("what = \"mass\"\nby = \"x_min\""), "\"by\" goes with what = \"left\", not with \"mass\"");
+  expect_has(errors(cone + "[[check]]\nwhat = \"inside\"\nmax = 1\n"), "counted only where domain.edges is given");
+}
+
+}  // namespace
+}  // namespace gaussdrift::input
