@@ -49,7 +49,7 @@ TEST(Launched, OnOneRankTheRunIsTheSame) {
   const Outcome alone = gaussdrift_in(folder, "run cone.toml --out alone");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(times_in(alone.err, " on 1 host"), 0u) << alone.err;
-  const Outcome launched = on_ranks_of_mpi(1, "'" PROGRAM "' run cone.toml --out launched", folder);
+  const Outcome launched = outcome_of(folder, ranks_that_start_again(1, "'" PROGRAM "' run cone.toml --out launched"));
   EXPECT_EQ(launched.exit_code, 0) << launched.err;
   EXPECT_EQ(times_in(launched.err, "1 rank on 1 host\n"), 1u) << launched.err;
   expect_same(folder / "alone", folder / "launched");
@@ -59,7 +59,7 @@ TEST(Launched, OnSeveralRanksOtherVerbsSpeakOnce) {
   NEEDS_MPIRUN();
   const ScratchFolder folder;
   const Outcome alone = gaussdrift_in(folder, "explain cutoff");
-  const Outcome launched = on_ranks_of_mpi(3, "'" PROGRAM "' explain cutoff", folder);
+  const Outcome launched = outcome_of(folder, ranks_that_start_again(3, "'" PROGRAM "' explain cutoff"));
   EXPECT_EQ(launched.exit_code, 0) << launched.err;
   EXPECT_EQ(launched.out, alone.out);
   EXPECT_EQ(launched.err, "");

@@ -15,13 +15,18 @@ namespace gaussdrift {
   if (std::string(MPIRUN).empty()) GTEST_SKIP() << "the program is built without MPI, or with sanitizers"; \
   if (mpi::library().find("Open MPI") != 0) GTEST_SKIP() << "these tests know the mpirun of Open MPI alone"
 
-/// As root and in containers too. Without OMP_WAIT_POLICY, which ctest sets, so that the program starts itself again.
+/// As root and in containers too.
 inline const std::string mpirun =
-    "env -u OMP_WAIT_POLICY OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+    "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
     "OMPI_MCA_btl_vader_single_copy_mechanism=none timeout 100 " MPIRUN " -q ";
 
 inline std::string ranks_of_mpi(int ranks, const std::string& command) {
   return mpirun + "--oversubscribe --bind-to none -n " + std::to_string(ranks) + " " + command;
+}
+
+/// Without OMP_WAIT_POLICY, which ctest sets, the program starts itself again.
+inline std::string ranks_that_start_again(int ranks, const std::string& command) {
+  return "unset OMP_WAIT_POLICY; " + ranks_of_mpi(ranks, command);
 }
 
 inline Outcome on_ranks_of_mpi(int ranks, const std::string& command, const ScratchFolder& folder) {
