@@ -99,6 +99,11 @@ double derivative(const Function& function, double r);
 /// The largest |phi(r)|, 0 <= r <= range.
 /// @throws InvalidArgument  as value()
 double largest_value(const Function& function, double range);
+/// The largest |phi|, |phi'|, or of |phi''| and |phi'/r|, 0 <= r <= range: what the errors of derivatives of that order
+/// are relative to.
+/// @param order  0, 1 or 2, at most highest_derivative()
+/// @throws InvalidArgument  as value(), or for another order
+double largest_derivative(const Function& function, double range, int order);
 
 // ---------------------------------------------------------------------------------------------------------------
 // Arguments
@@ -126,6 +131,8 @@ enum class Method {
 const std::vector<Method>& methods();
 /// The name as it is written in files: "auto", "direct", "gaussians".
 std::string to_string(Method method);
+/// What it does, in a line.
+std::string meaning(Method method);
 
 /// What a Plan is asked for. The defaults are valid.
 struct Options {

@@ -1,4 +1,4 @@
-// Turns messages of the libraries fgtd and farfield, which are for programmers, into words for users of the program.
+// Turns messages of the libraries fgtd, farfield and rbf, which are for programmers, into words for users of the program.
 #pragma once
 
 #include <initializer_list>
@@ -13,7 +13,7 @@ using Words = std::initializer_list<std::pair<std::string_view, std::string_view
 
 /// The message without the library's own name at its beginning, each of `words` replaced.
 inline std::string in_users_words(std::string message, Words words) {
-  for (const std::string_view library : {"fgtd: ", "farfield: "})
+  for (const std::string_view library : {"fgtd: ", "farfield: ", "rbf: "})
     if (message.rfind(library, 0) == 0) message.erase(0, library.size());
   for (const auto& [name, word] : words)
     for (std::size_t at = message.find(name); at != std::string::npos; at = message.find(name, at + word.size()))

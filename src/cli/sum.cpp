@@ -1,5 +1,6 @@
 // gaussdrift sum: tables in, a table out.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -20,9 +21,12 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
+#include "rbf/rbf.hpp"
+#include "sum/derivatives.hpp"
 #include "sum/general.hpp"
 #include "sum/pairs.hpp"
 #include "sum/points.hpp"
+#include "sum/radial.hpp"
 #include "write/atomic_file.hpp"
 
 namespace gaussdrift::cli {
@@ -36,7 +40,7 @@ struct SumOptions {
   fs::path sources, targets;  // targets empty: --grid, or the sources
   std::string columns;        // "x,y"; empty: all but the weight
   std::string grid;           // "-1:1:200,-1:1:200"
-  std::optional<double> sigma;
+  std::optional<double> sigma, shape;
   std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum
   std::optional<double> tolerance;       // 1e-6
   std::string method = "auto";
@@ -50,6 +54,12 @@ struct SumOptions {
   bool json = false;              // what was chosen as JSON on stdout
 };
 
+std::vector<std::string> radial_names() {
+  std::vector<std::string> names;
+  for (const rbf::Kernel kernel : rbf::kernels()) names.push_back(to_string(kernel));
+  return names;
+}
+
 void declare(OptionList& options, SumOptions& given) {
   options.add("--sources", given.sources, "FILE", "table of sources (CSV): coordinates and a column weight").required();
   const Option targets = options.add("--targets", given.targets, "FILE", "table of targets. By default the sources");
@@ -60,12 +70,15 @@ void declare(OptionList& options, SumOptions& given) {
            "a grid of targets: --grid=-1:1:200,0:1:100. Its first axis runs fastest")
       .excludes(targets);
   options.add("--sigma", given.sigma, "X", "of the Gaussian exp(-sigma r^2)");
+  options.add("--shape", given.shape, "C", "c of a radial kernel, a length: --kernel multiquadric --shape 0.3");
   options
       .add("--derivative", given.derivatives, "A1,A2,...",
-           "a derivative of the Gaussians: --derivative 0,1,2. Repeatable. By default the plain sum")
+           "a derivative of the Gaussians or of a radial kernel: --derivative 0,1,2. Repeatable. By default the plain "
+           "sum")
       .repeatable();
-  const Option tolerance = options.add("--tolerance", given.tolerance, "X",
-                                       "error of every term (docs/fgtd.md, docs/farfield.md); 1e-6 by default");
+  const Option tolerance =
+      options.add("--tolerance", given.tolerance, "X",
+                  "error of every term (docs/fgtd.md, docs/farfield.md, docs/rbf.md); 1e-6 by default");
   options.add("--method", given.method, "NAME",
               "auto (the default), or a method of the library. A wrong name is answered with the list, and gaussdrift "
               "explain NAME tells what one does");
@@ -82,8 +95,10 @@ void declare(OptionList& options, SumOptions& given) {
   options.add("--seconds", given.seconds, "S",
               "refuse a sum that is predicted to take longer; 300 by default for a method that you name");
   options.add("--kernel", given.kernel, "NAME",
-              "gauss (the default), coulomb (2D, 3D) or log (1D, 2D). The last two give potential and field. Or an "
-              "expression of the distance r (2D, 3D): --kernel \"exp(-r)/r\"");
+              fmt::format("gauss (the default), coulomb (2D, 3D) or log (1D, 2D). The last two give potential and "
+                          "field. A radial kernel (1D to 3D): {}. Or an expression of the distance r (2D, 3D): "
+                          "--kernel \"exp(-r)/r\"",
+                          fmt::join(radial_names(), ", ")));
   options.add("--out", given.out, "FILE", "file for the values. By default, or as -, standard output");
   declare_memory(options, given.memory);
   options.threads(given.threads);
@@ -118,34 +133,77 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, ignored);
 }
 
-void check_options(const SumOptions& options) {
-  if (of_pairs(options) || of_expression(options)) {
-    if (options.sigma)
-      throw CommandLineError(fmt::format("--sigma belongs to the kernel gauss, not to {}", options.kernel));
-    if (!options.derivatives.empty())
-      throw CommandLineError(
-          of_pairs(options)
-              ? fmt::format("--derivative belongs to the kernel gauss; {} gives potential and field", options.kernel)
-              : fmt::format("--derivative belongs to the kernel gauss, not to {}", options.kernel));
-    if (by_hand(options))
-      throw CommandLineError(
-          fmt::format("--r, --p and --n belong to the method hermite of the kernel gauss, not to {}", options.kernel));
-    if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
-      throw CommandLineError(fmt::format("--tolerance {}: must lie in (0, 1)", tolerance_of(options)));
-  } else if (options.kernel == "gauss") {
-    if (!options.sigma) throw CommandLineError("--sigma is missing: the Gaussian is exp(-sigma r^2)");
-    if (!(*options.sigma > 0) || !std::isfinite(*options.sigma))
-      throw CommandLineError(fmt::format("--sigma {}: must be positive and finite", *options.sigma));
-    if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
-      throw CommandLineError(
-          fmt::format("--tolerance {}: must lie in [{}, 1)", tolerance_of(options), fgtd::smallest_tolerance));
-    if (by_hand(options) && options.method != "auto" && options.method != to_string(fgtd::Method::hermite))
-      throw CommandLineError(fmt::format("--r, --p and --n belong to the method hermite, not to {}", options.method));
-  } else {
+bool of_radial(const SumOptions& options) { return rbf::kernel_named(options.kernel).has_value(); }
+
+void check_shape(const SumOptions& options) {
+  if (!of_radial(options)) {
+    if (options.shape)
+      throw CommandLineError(fmt::format("--shape belongs to the radial kernels ({}), not to {}",
+                                         fmt::join(radial_names(), ", "), options.kernel));
+    return;
+  }
+  const rbf::Kernel kernel = *rbf::kernel_named(options.kernel);
+  if (!rbf::takes_shape(kernel)) {
+    if (options.shape) throw CommandLineError(fmt::format("--shape: {} takes none; leave it out", options.kernel));
+    return;
+  }
+  if (!options.shape)
     throw CommandLineError(
-        fmt::format("--kernel: there is no \"{}\", and it is no expression of r as \"exp(-r)/r\"; there are gauss, "
-                    "coulomb, log",
+        fmt::format("--shape is missing: {} is {}, and c is the shape", options.kernel, rbf::formula(kernel)));
+  if (!(*options.shape > 0) || !std::isfinite(*options.shape))
+    throw CommandLineError(fmt::format("--shape {}: must be positive and finite", *options.shape));
+}
+
+/// What belongs to the kernel gauss alone, or nearly so.
+void check_not_of_gauss(const SumOptions& options) {
+  if (options.sigma)
+    throw CommandLineError(fmt::format(
+        "--sigma belongs to the kernel gauss, not to {}{}", options.kernel,
+        of_radial(options) && rbf::takes_shape(*rbf::kernel_named(options.kernel)) ? ", which takes --shape" : ""));
+  if (!options.derivatives.empty() && of_pairs(options))
+    throw CommandLineError(
+        fmt::format("--derivative belongs to gauss and to radial kernels; {} gives potential and "
+                    "field",
                     options.kernel));
+  if (!options.derivatives.empty() && of_expression(options))
+    throw CommandLineError(
+        fmt::format("--derivative belongs to gauss and to radial kernels, not to {}", options.kernel));
+  if (by_hand(options))
+    throw CommandLineError(
+        fmt::format("--r, --p and --n belong to the method hermite of the kernel gauss, not to {}", options.kernel));
+  if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
+    throw CommandLineError(fmt::format("--tolerance {}: must lie in (0, 1)", tolerance_of(options)));
+}
+
+void check_gauss(const SumOptions& options) {
+  if (!options.sigma) throw CommandLineError("--sigma is missing: the Gaussian is exp(-sigma r^2)");
+  if (!(*options.sigma > 0) || !std::isfinite(*options.sigma))
+    throw CommandLineError(fmt::format("--sigma {}: must be positive and finite", *options.sigma));
+  if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
+    throw CommandLineError(
+        fmt::format("--tolerance {}: must lie in [{}, 1)", tolerance_of(options), fgtd::smallest_tolerance));
+  if (by_hand(options) && options.method != "auto" && options.method != to_string(fgtd::Method::hermite))
+    throw CommandLineError(fmt::format("--r, --p and --n belong to the method hermite, not to {}", options.method));
+}
+
+[[noreturn]] void refuse_kernel(const std::string& kernel) {
+  std::vector<std::string> names{"gauss", "coulomb", "log"};
+  for (const std::string& name : radial_names()) names.push_back(name);
+  const auto meant = base::suggest(kernel, names);
+  throw CommandLineError(
+      fmt::format("--kernel: there is no \"{}\"{}, and it is no expression of r as \"exp(-r)/r\"; there are {}", kernel,
+                  meant ? fmt::format(", is \"{}\" meant?", *meant) : "", fmt::join(names, ", ")));
+}
+
+void check_options(const SumOptions& options) {
+  if (options.kernel == "gauss") {
+    check_shape(options);
+    check_gauss(options);
+  } else if (of_pairs(options) || of_expression(options) || of_radial(options)) {
+    check_not_of_gauss(options);
+    check_shape(options);
+  } else {
+    refuse_kernel(options.kernel);
   }
   if (options.seconds && !(*options.seconds > 0))
     throw CommandLineError(fmt::format("--seconds {}: must be positive", *options.seconds));
@@ -291,11 +349,23 @@ ExitCode sum_general(const SumOptions& options) {
   return write(sums, options);
 }
 
+ExitCode sum_radial(const SumOptions& options) {
+  sum::RadialSumRequest request;
+  request.function = {*rbf::kernel_named(options.kernel), options.shape.value_or(0)};
+  request.method = named("--method", options.method, rbf::methods());
+  for (const std::string& text : options.derivatives) request.derivatives.push_back(sum::parse_derivative(text));
+  const double read_seconds = read_points(options, request);
+  sum::RadialSums sums = sum::sum_radial(request);
+  sums.read_seconds = read_seconds;
+  return write(sums, options);
+}
+
 ExitCode sum(const SumOptions& options) {
   check_table_name(options.out);
   check_options(options);
   try {
     if (of_expression(options)) return sum_general(options);
+    if (of_radial(options)) return sum_radial(options);
     return of_pairs(options) ? sum_pairs(options) : sum_gaussians(options);
   } catch (const std::bad_alloc&) {
     throw InputError("out of memory; ask for fewer targets at a time, or give fewer sources");
@@ -305,8 +375,8 @@ ExitCode sum(const SumOptions& options) {
 }  // namespace
 
 Verb sum_verb() {
-  return make_verb<SumOptions>("sum", "sum Gaussians, Coulomb charges or logarithms over a table of points", declare,
-                               sum);
+  return make_verb<SumOptions>(
+      "sum", "sum Gaussians, radial kernels, Coulomb charges or logarithms over a table of points", declare, sum);
 }
 
 }  // namespace gaussdrift::cli

@@ -161,10 +161,7 @@ Explanation about(const ThesisSymbol& symbol) {
 }
 
 Explanation about(const PairMethod& method) {
-  return {"method",
-          fmt::format("gaussdrift sum --method {}", method.name),
-          method.meaning,
-          {{"sums", "pairs of points: charges, logarithms, and particles that move each other"}}};
+  return {"method", fmt::format("gaussdrift sum --method {}", method.name), method.meaning, {{"sums", method.sums}}};
 }
 
 Explanation about_effects() {

@@ -1,4 +1,5 @@
-// The methods of the library farfield, in its own words: `gaussdrift sum` takes them, and effects choose among them.
+// The methods of the libraries farfield and rbf, in their own words: `gaussdrift sum` takes them, and effects choose among
+// those of farfield.
 #pragma once
 
 #include <string>
@@ -7,10 +8,10 @@
 namespace gaussdrift::input {
 
 struct PairMethod {
-  std::string name, meaning;
+  std::string name, meaning, sums;
 };
 
-/// "auto" is not among them: it is a word of many keys.
+/// "auto" is not among them: it is a word of many keys. A name of both libraries means the same in both and comes once.
 std::vector<PairMethod> pair_methods();
 
 }  // namespace gaussdrift::input

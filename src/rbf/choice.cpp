@@ -21,10 +21,20 @@ detail::Profile profile_at(const Function& function, double r, const char* name)
 struct Named {
   Method method;
   const char* name;  // as in files
+  const char* meaning;
 };
 
 constexpr Named method_names[] = {
-    {Method::automatic, "auto"}, {Method::direct, "direct"}, {Method::gaussians, "gaussians"}};
+    {Method::automatic, "auto", "the method with the smaller predicted time"},
+    {Method::direct, "direct", "sums every pair of a centre and a target"},
+    {Method::gaussians, "gaussians",
+     "replaces the kernel by few Gaussians and a polynomial; each Gaussian is a fast Gauss transform"}};
+
+const Named& named(Method method) {
+  for (const Named& known : method_names)
+    if (known.method == method) return known;
+  return method_names[0];
+}
 
 }  // namespace
 
@@ -38,6 +48,14 @@ double derivative(const Function& function, double r) {
 double largest_value(const Function& function, double range) {
   profile_at(function, range, "range");
   return detail::largest(function, range, 0).of[0];
+}
+
+double largest_derivative(const Function& function, double range, int order) {
+  profile_at(function, range, "range");
+  if (order < 0 || order > highest_derivative(function.kernel))
+    throw InvalidArgument("rbf: order = " + std::to_string(order) + ", must lie in 0 .. " +
+                          std::to_string(highest_derivative(function.kernel)) + " for " + to_string(function.kernel));
+  return detail::largest(function, range, order).of[order];
 }
 
 namespace detail {
@@ -73,17 +91,14 @@ Scales largest(const Function& function, double range, int order) {
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = [] {
     std::vector<Method> list;
-    for (const Named& entry : method_names) list.push_back(entry.method);
+    for (const Named& known : method_names) list.push_back(known.method);
     return list;
   }();
   return all;
 }
 
-std::string to_string(Method method) {
-  for (const Named& entry : method_names)
-    if (entry.method == method) return entry.name;
-  return method_names[0].name;
-}
+std::string to_string(Method method) { return named(method).name; }
+std::string meaning(Method method) { return named(method).meaning; }
 
 std::ostream& operator<<(std::ostream& out, const Choice& choice) {
   out << to_string(choice.function.kernel);

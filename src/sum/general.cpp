@@ -205,7 +205,7 @@ std::string to_json(const GeneralSums& sums) {
                 {"sum_error", finite_or_null(sums.measured[0].error)},
                 {"of_itself", finite_or_null(sums.of_itself)},
                 {"kept", broken_promises(sums.measured, sums.compared).empty()}};
-  nlohmann::ordered_json json = head_of(sums, sums.kernel, parameters);
+  nlohmann::ordered_json json = head_of(sums, sums.kernel, choice.sources, parameters);
   json.update({{"measured", measured},
                {"Q", finite_or_null(sums.charge_total)},
                {"threads", sums.threads},

@@ -199,7 +199,7 @@ std::string to_json(const PairSums& sums) {
                 {"potential_of_itself", finite_or_null(sums.potential_of_itself)},
                 {"field_of_itself", finite_or_null(sums.field_of_itself)},
                 {"kept", broken_promises(sums.measured, sums.compared).empty()}};
-  nlohmann::ordered_json json = head_of(sums, farfield::to_string(choice.kernel), parameters);
+  nlohmann::ordered_json json = head_of(sums, farfield::to_string(choice.kernel), choice.sources, parameters);
   json.update({{"bound", finite_or_null(choice.bound)},
                {"measured", measured},
                {"Q", finite_or_null(sums.charge_total)},

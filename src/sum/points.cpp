@@ -4,14 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <sstream>
-#include <string_view>
-#include <utility>
 
 #include "base/number.hpp"
 #include "base/parallel.hpp"
@@ -19,6 +14,7 @@
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
+#include "sum/derivatives.hpp"
 #include "sum/first_lines.hpp"
 #include "sum/request_as_points.hpp"
 #include "sum/sums_json.hpp"
@@ -29,45 +25,6 @@ namespace {
 
 constexpr int highest_order = 16;   // of fgtd
 constexpr double rounding = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
-
-void check_derivatives(const SumRequest& request) {
-  const input::PointsTable& sources = request.sources;
-  for (const auto& derivative : request.derivatives) {
-    if (derivative.size() != sources.coordinates.size())
-      throw CommandLineError(fmt::format("--derivative {} has {} {}, but the sources have {} ({})",
-                                         fmt::join(derivative, ","), derivative.size(),
-                                         derivative.size() == 1 ? "number" : "numbers", sources.coordinates.size(),
-                                         fmt::join(sources.coordinates, ", ")));
-    double order = 0;  // of an int the sum may exceed the range
-    for (const int part : derivative) order += part;
-    if (order > highest_order)
-      throw CommandLineError(fmt::format("--derivative {}: the orders add up to {:g}, at most {} is possible",
-                                         fmt::join(derivative, ","), order, highest_order));
-    if (std::count(request.derivatives.begin(), request.derivatives.end(), derivative) > 1)
-      throw CommandLineError(fmt::format("--derivative {} is there twice", fmt::join(derivative, ",")));
-  }
-}
-
-std::string column_name(const std::vector<int>& derivative) { return fmt::format("d_{}", fmt::join(derivative, "_")); }
-
-void check_values(const PointSums& sums) {
-  for (Eigen::Index k = 0; k < sums.values.cols(); ++k)
-    for (Eigen::Index i = 0; i < sums.values.rows(); ++i)
-      if (!std::isfinite(sums.values(i, k)))
-        throw NumericalError(fmt::format("{} at target {} (counted from 1) is {}; scale the weights or sigma down",
-                                         sums.columns[k], i + 1, sums.values(i, k)));
-}
-
-template <int d>
-std::vector<fgtd::Combination<d>> combinations_of(const std::vector<std::vector<int>>& derivatives) {
-  std::vector<fgtd::Combination<d>> combinations;
-  for (const auto& derivative : derivatives) {
-    fgtd::Term<d> term;
-    std::copy(derivative.begin(), derivative.end(), term.derivative.begin());
-    combinations.push_back({term});
-  }
-  return combinations;
-}
 
 template <int d>
 void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
@@ -109,10 +66,7 @@ void measure(const SumRequest& request, PointSums& result) {
   fgtd::Options options;
   options.method = fgtd::Method::direct;
   options.threads = request.threads;
-  options.derivative_order = 0;
-  for (const auto& derivative : result.derivatives)
-    options.derivative_order =
-        std::max(options.derivative_order, std::accumulate(derivative.begin(), derivative.end(), 0));
+  options.derivative_order = highest_order_of(result.derivatives);
   options.tolerance = 1e-6;  // all pairs, whatever it is
   const fgtd::Plan<d> plan(points_of<d>(request.sources), weights_of(request), request.sigma, options);
   const Eigen::MatrixXd exact = plan.evaluate_combinations(fgtd::Points<d>(sample.points), combinations);
@@ -154,20 +108,6 @@ void with_errors_of_fgtd(const Work& work) {
 
 }  // namespace
 
-std::vector<int> parse_derivative(const std::string& text) {
-  std::vector<int> derivative;
-  for (const std::string_view part : split(text, ',')) {
-    const auto order = base::read_number<int>(part);
-    if (!order || *order < 0)
-      throw CommandLineError(
-          fmt::format("--derivative: \"{}\" in \"{}\" is not an order; write one number for every coordinate, as in "
-                      "--derivative 0,1,2",
-                      part, text));
-    derivative.push_back(*order);
-  }
-  return derivative;
-}
-
 int parse_neighbours(const std::string& text) {
   if (text == "all") return fgtd::HermiteParameters::all_boxes;
   const auto number = base::read_number<int>(text);
@@ -178,7 +118,7 @@ int parse_neighbours(const std::string& text) {
 
 PointSums sum_points(const SumRequest& request) {
   check_together(request);
-  check_derivatives(request);
+  check_derivatives(request.derivatives, request.sources, highest_order, "");
   PointSums result;
   result.dimension = request.sources.dimension();
   result.sigma = request.sigma;
@@ -195,12 +135,8 @@ PointSums sum_points(const SumRequest& request) {
   options.threads = request.threads;
   options.memory_limit = memory_for_plan(request, std::max<std::size_t>(1, request.derivatives.size()));
   options.expected_targets = request.targets ? request.targets->size() : request.sources.size();
-  for (const auto& derivative : result.derivatives) {
-    result.columns.push_back(column_name(derivative));
-    double order = 0;  // the sum of large orders may exceed an int
-    for (const int part : derivative) order += part;
-    options.derivative_order = std::max(options.derivative_order, static_cast<int>(std::min(order, 1e6)));
-  }
+  options.derivative_order = highest_order_of(result.derivatives);
+  for (const auto& derivative : result.derivatives) result.columns.push_back(column_name(derivative));
   with_errors_of_fgtd([&] {
     in_dimension<1, 4>(result.dimension, [&](auto dimension) {
       constexpr int d = decltype(dimension)::value;
@@ -214,7 +150,7 @@ PointSums sum_points(const SumRequest& request) {
       });
     });
   });
-  check_values(result);
+  check_values(result.columns, result.values, "scale the weights or sigma down");
   if (result.choice.method != fgtd::Method::direct) {
     const base::Stopwatch comparing;
     measure_errors(request, result);

@@ -41,9 +41,6 @@ struct PointSums {
   double read_seconds = 0, prepare_seconds = 0, evaluate_seconds = 0, compare_seconds = 0, write_seconds = 0;
 };
 
-/// "0,1,2". Throws CommandLineError.
-std::vector<int> parse_derivative(const std::string& text);
-
 /// Throws CommandLineError where the request contradicts the tables or itself. Throws InputError for tables that do not
 /// belong together, a tolerance that cannot be promised, and memory or seconds beyond their limits. Throws
 /// NumericalError for values that are not finite.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <sstream>
@@ -26,12 +27,13 @@ nlohmann::ordered_json seconds_by_stage(const Sums& sums) {
 
 /// What all sums over pairs tell first: of which kernel and points, asked how and done how.
 template <class Sums>
-nlohmann::ordered_json head_of(const Sums& sums, const std::string& kernel, const nlohmann::ordered_json& parameters) {
+nlohmann::ordered_json head_of(const Sums& sums, const std::string& kernel, std::size_t sources,
+                               const nlohmann::ordered_json& parameters) {
   std::ostringstream line;
   line << sums.choice;
   return {{"kernel", kernel},
           {"dimension", sums.dimension},
-          {"sources", sums.choice.sources},
+          {"sources", sources},
           {"targets", sums.values.rows()},
           {"columns", sums.columns},
           {"tolerance", sums.choice.tolerance},

@@ -11,6 +11,7 @@
 #include "gaussdrift/error.hpp"
 #include "sum/pairs.hpp"
 #include "sum/points.hpp"
+#include "sum/radial.hpp"
 
 namespace gaussdrift::sum {
 namespace {
@@ -97,6 +98,30 @@ TEST(SumVerdict, FindsValuesOfGaussiansThatAreWrong) {
       const auto broken = broken_promises(sums.measured, sums.compared);
       ASSERT_EQ(broken.size(), 1u) << fgtd::to_string(method) << dimension;
       EXPECT_EQ(broken[0].find("d_1"), 0u) << broken[0];
+    }
+}
+
+TEST(SumVerdict, FindsValuesOfRadialKernelsThatAreWrong) {
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    for (const rbf::Kernel kernel : rbf::kernels()) {
+      RadialSumRequest request;
+      request.function = {kernel, rbf::takes_shape(kernel) ? 0.3 : 0};
+      request.method = rbf::Method::gaussians;
+      request.sources = cloud(300, dimension);
+      request.tolerance = 1e-3;
+      request.derivatives = {std::vector<int>(static_cast<std::size_t>(dimension), 0), {1}};
+      request.derivatives.back().resize(static_cast<std::size_t>(dimension), 0);
+      RadialSums sums = sum_radial(request);
+      ASSERT_EQ(sums.choice.method, rbf::Method::gaussians) << to_string(kernel);
+      EXPECT_EQ(sums.compared, 200u);
+      EXPECT_TRUE(broken_promises(sums.measured, sums.compared).empty()) << to_string(kernel) << dimension;
+      const double slope = rbf::largest_derivative(request.function, sums.choice.range, 1);
+      sums.values(0, 1) += 3 * request.tolerance * slope * sums.weight_total;
+      measure_errors(request, sums);
+      const auto broken = broken_promises(sums.measured, sums.compared);
+      ASSERT_EQ(broken.size(), 1u) << to_string(kernel) << dimension;
+      EXPECT_EQ(broken[0].find("d_1"), 0u) << broken[0];
+      EXPECT_NE(to_json(sums).find("\"kept\": false"), std::string::npos);
     }
 }
 

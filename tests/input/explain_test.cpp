@@ -100,6 +100,13 @@ TEST(Explain, TellsTheMethodsOfSumsOverPairs) {
   }
 }
 
+TEST(Explain, TellsTheMethodOfRadialSums) {
+  const std::string told = to_text(explain("gaussians"));
+  EXPECT_NE(told.find("gaussdrift sum --method gaussians\n  replaces the kernel by few Gaussians"), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("radial kernels, such as the multiquadric"), std::string::npos) << told;
+}
+
 TEST(Explain, KnowsEveryKeyTableAndChoice) {
   for (const Key& key : keys()) {
     const std::string full =

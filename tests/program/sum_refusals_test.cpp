@@ -14,7 +14,7 @@ namespace {
 
 /// Names of the libraries and of their options mean nothing to the reader of an error.
 void expect_users_words(const std::string& text) {
-  for (const char* internal : {"fgtd:", "farfield:", "Options", "memory_limit", "::"})
+  for (const char* internal : {"fgtd:", "farfield:", "rbf:", "Options", "memory_limit", "::"})
     EXPECT_EQ(text.find(internal), std::string::npos) << text;
 }
 

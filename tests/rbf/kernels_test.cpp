@@ -84,6 +84,19 @@ TEST_P(EveryKernel, TellsItsLargestValue) {
   }
 }
 
+TEST_P(EveryKernel, TellsItsLargestDerivatives) {
+  const int highest = rbf::highest_derivative(GetParam().kernel);
+  for (const double range : {0.05, 0.7, 4.0}) {
+    const naive::Scales exact = naive::scales(GetParam(), range);
+    const long double of[] = {exact.value, exact.first, exact.second};
+    for (int order = 0; order <= highest; ++order)
+      EXPECT_NEAR(rbf::largest_derivative(GetParam(), range, order) / static_cast<double>(of[order]), 1, 2e-3)
+          << range << " " << order;  // samples of both
+  }
+  for (const int order : {-1, highest + 1})
+    EXPECT_THROW(rbf::largest_derivative(GetParam(), 1, order), rbf::InvalidArgument);
+}
+
 TEST_P(EveryKernel, HasANameAndAFormula) {
   EXPECT_EQ(rbf::kernel_named(rbf::to_string(GetParam().kernel)), GetParam().kernel);
   EXPECT_NE(rbf::formula(GetParam().kernel).find('r'), std::string::npos);
