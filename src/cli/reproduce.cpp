@@ -13,8 +13,10 @@
 #include "reproduce/coulomb.hpp"
 #include "reproduce/fgtd.hpp"
 #include "reproduce/figures.hpp"
+#include "reproduce/interpolation.hpp"
 #include "reproduce/kernels.hpp"
 #include "reproduce/logkernel.hpp"
+#include "reproduce/rbf.hpp"
 
 namespace gaussdrift::cli {
 
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct ReproduceOptions {
-  std::string what;              // "cone", "fgtd", "divergence", "figures"; empty: a list
+  std::string what;              // "cone", "fgtd", ...; empty: a list
   std::string table;             // of fgtd or divergence, or a figure, as in 4.6; empty: all
   std::filesystem::path folder;  // --out, of figures; empty: output/figures
   bool full = false;             // fgtd, divergence: every row, and no samples of targets; figures: the thesis's steps
@@ -39,7 +41,7 @@ void declare(OptionList& options, ReproduceOptions& given) {
               "folder for figures or for logkernel; output/figures or output/logkernel by default");
   options.flag("--full", given.full,
                "fgtd, divergence, coulomb: also the largest rows, and every target compared; figures: 5.3 with the "
-               "thesis's steps");
+               "thesis's steps; kernels, rbf, interpolation: more points");
   options.threads(given.threads);
   options.json(given.json);
 }
@@ -122,6 +124,35 @@ ExitCode reproduce_kernels(const ReproduceOptions& options) {
   return result.kept() ? ExitCode::ok : ExitCode::check;
 }
 
+ExitCode reproduce_rbf(const ReproduceOptions& options) {
+  if (!options.table.empty()) throw CommandLineError("rbf has no tables to choose from; leave the number out");
+  reproduce::RbfOptions rbf;
+  if (options.threads > 0) rbf.threads = options.threads;
+  if (options.full) rbf.points = 100'000;
+  reproduce::RbfReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_rbf(rbf, [&](const std::string& what) { line.show(what); });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return result.kept() ? ExitCode::ok : ExitCode::check;
+}
+
+ExitCode reproduce_interpolation(const ReproduceOptions& options) {
+  if (!options.table.empty())
+    throw CommandLineError("interpolation has no tables to choose from; leave the number out");
+  reproduce::InterpolationOptions interpolation;
+  if (options.threads > 0) interpolation.threads = options.threads;
+  if (options.full) interpolation.most_points = 64'000;
+  reproduce::InterpolationReproduction result;
+  {
+    ProgressLine line;
+    result = reproduce::reproduce_interpolation(interpolation, [&](const std::string& what) { line.show(what); });
+  }
+  say("{}", options.json ? reproduce::to_json(result) : reproduce::to_text(result));
+  return result.agrees() ? ExitCode::ok : ExitCode::check;
+}
+
 ExitCode reproduce_tables(reproduce::TableSet set, const ReproduceOptions& options) {
   reproduce::FgtdOptions fgtd = options.full ? reproduce::FgtdOptions::everything() : reproduce::FgtdOptions{};
   fgtd.set = set;
@@ -158,6 +189,8 @@ ExitCode reproduce(const ReproduceOptions& options) {
   if (options.what == "figures") return reproduce_figures(options);
   if (options.what == "coulomb") return reproduce_coulomb(options);
   if (options.what == "kernels") return reproduce_kernels(options);
+  if (options.what == "rbf") return reproduce_rbf(options);
+  if (options.what == "interpolation") return reproduce_interpolation(options);
   if (options.what == "logkernel") return reproduce_logkernel(options);
   if (options.what == "claims") return reproduce_claims(options);
   if (options.what == "cone") return reproduce_cone(options);
@@ -166,17 +199,21 @@ ExitCode reproduce(const ReproduceOptions& options) {
   if (!options.what.empty())
     throw CommandLineError(
         fmt::format("nothing called \"{}\" can be reproduced; there are: cone, fgtd, divergence, figures, claims, "
-                    "coulomb, logkernel, kernels",
+                    "coulomb, logkernel, kernels, rbf, interpolation",
                     options.what));
   say("gaussdrift reproduce WHAT computes published numbers again. There are:\n"
-      "  cone        heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
-      "  fgtd        errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
-      "  divergence  divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"
-      "  figures     pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n"
-      "  claims      what the text of Schroeder 2006 claims outside its tables, and whether it holds\n"
-      "  coulomb     forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n"
-      "  logkernel   ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project 6\n"
-      "  kernels     interpolation, recompression and orders by level for general kernels: rates, storage, sums\n",
+      "  cone           heights of the rotating cone, Tables 5.1 and 5.2 of Schroeder 2006\n"
+      "  fgtd           errors and times of the fast Gauss transform, Tables {} of Schroeder 2006; one: fgtd 4.6\n"
+      "  divergence     divergence-free Gaussian fields, Tables {} of Schroeder 2006; one: divergence 6.1\n"
+      "  figures        pictures {} of Schroeder 2006, drawn into output/figures; one: figures 5.3\n"
+      "  claims         what the text of Schroeder 2006 claims outside its tables, and whether it holds\n"
+      "  coulomb        forces between many particles by tree and symmetric interpolation, the table of Boerm 2022\n"
+      "  logkernel      ln|x - y| in blocks of low rank: storage, error, products; the exercises of Melenk's project "
+      "6\n"
+      "  kernels        interpolation, recompression and orders by level for general kernels: rates, storage, sums\n"
+      "  rbf            sums of radial kernels by Gaussians, those of Roussos and Baxter 2005 and others, beside all "
+      "pairs\n"
+      "  interpolation  Franke's function at random points: errors, rates, both solvers, integrals\n",
       fmt::join(reproduce::table_numbers(reproduce::TableSet::fgtd), ", "),
       fmt::join(reproduce::table_numbers(reproduce::TableSet::divergence), " and "),
       fmt::join(reproduce::figure_numbers(), ", "));

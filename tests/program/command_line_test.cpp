@@ -184,8 +184,8 @@ TEST(Reproduce, ListsWhatItCan) {
   const ScratchFolder folder;
   const Outcome list = gaussdrift_in(folder, "reproduce");
   EXPECT_EQ(list.exit_code, 0);
-  EXPECT_NE(list.out.find("cone"), std::string::npos);
-  EXPECT_NE(list.out.find("fgtd"), std::string::npos);
+  for (const char* what : {"cone", "fgtd", "kernels", "rbf", "interpolation"})
+    EXPECT_NE(list.out.find(std::string("\n  ") + what + "  "), std::string::npos) << what;
 }
 
 TEST(Reproduce, GivesOneTableAsJsonOrText) {
@@ -229,8 +229,9 @@ TEST(Reproduce, DrawsTheFigureThatIsNamed) {
 
 TEST(Reproduce, RefusesATableThatThereIsNot) {
   const ScratchFolder folder;
-  for (const char* wrong : {"reproduce fgtd 4.10", "reproduce claims 3.5", "reproduce cone 4.6",
-                            "reproduce cone --full", "reproduce figures 9.9", "reproduce cone --out x"})
+  for (const char* wrong :
+       {"reproduce fgtd 4.10", "reproduce claims 3.5", "reproduce cone 4.6", "reproduce cone --full",
+        "reproduce figures 9.9", "reproduce cone --out x", "reproduce rbf 1", "reproduce interpolation 1"})
     EXPECT_EQ(gaussdrift_in(folder, wrong).exit_code, 2) << wrong;
 }
 
