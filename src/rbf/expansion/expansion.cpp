@@ -62,7 +62,7 @@ Eigen::VectorXd even_steps(const Ends& ends, int terms) {
   return Eigen::VectorXd::LinSpaced(terms, ends.low, ends.high);  // one term: the upper end
 }
 
-/// Ways to begin with one exponent less: spaced like those before, in even steps, without the last.
+/// Ways to begin with one exponent less: spaced like those before, in even steps, without the last, without the first.
 std::vector<Eigen::VectorXd> one_less(const Eigen::VectorXd& exponents) {
   const Eigen::Index terms = exponents.size() - 1;
   Eigen::VectorXd alike(terms);
@@ -72,7 +72,8 @@ std::vector<Eigen::VectorXd> one_less(const Eigen::VectorXd& exponents) {
     const double part = place - static_cast<double>(before);
     alike[k] = (1 - part) * exponents[before] + part * exponents[before + 1];
   }
-  return {alike, even_steps({exponents[0], exponents[terms]}, static_cast<int>(terms)), exponents.head(terms)};
+  return {alike, even_steps({exponents[0], exponents[terms]}, static_cast<int>(terms)), exponents.head(terms),
+          exponents.tail(terms)};
 }
 
 /// The largest number of terms that can be removed in one way.

@@ -9,10 +9,12 @@
 namespace rbf::detail {
 namespace {
 
-constexpr int most_steps = 20, patience = 5;  // of improved(): in all, and without progress
-constexpr double longest_step = 0.7;          // in the logarithm of an exponent
+// Of improved(): in all, and without progress. More steps take a few milliseconds and often save a Gauss transform.
+constexpr int most_steps = 40, patience = 10;
+constexpr double longest_step = 0.7;  // in the logarithm of an exponent
 // Weights larger than this cancel each other: each Gauss transform would have to be as much more accurate.
 constexpr double largest_weight = 50;
+constexpr double finest_of_fgtd = 10 * fgtd::smallest_tolerance;  // that a Gauss transform is asked for
 
 // Very wide Gaussians are nearly polynomials. Terms that depend on others to this accuracy get no weights that cancel.
 constexpr double dependent = 1e-12;
@@ -101,6 +103,9 @@ Fit::Result Fit::improved(const Eigen::VectorXd& start, double wanted) const {
   Eigen::VectorXd right;
   Result best;
   best.error = HUGE_VAL;
+  // Each transform gets a share of about wanted / terms for its weight.
+  const double heaviest = std::min(
+      largest_weight, wanted / (finest_of_fgtd * static_cast<double>(std::max<Eigen::Index>(1, start.size()))));
   double damping = 1e-2, norm = HUGE_VAL;
   Eigen::VectorXd accepted = start, change;
   for (int step = 0, accepted_steps = 0, since_best = 0; step < most_steps && since_best < patience; ++step) {
@@ -111,7 +116,7 @@ Fit::Result Fit::improved(const Eigen::VectorXd& start, double wanted) const {
     const Result now = result(exponents, weights, errors);
     const double now_norm = importance.cwiseProduct(errors).norm();
     ++since_best;
-    if (now.error < best.error && weights.cwiseAbs().maxCoeff() < largest_weight) {
+    if (now.error < best.error && weights.cwiseAbs().maxCoeff() < heaviest) {
       if (now.error < 0.97 * best.error) since_best = 0;
       best = now;
     }
