@@ -206,7 +206,7 @@ class Run {
     }
     for (const std::string& why : owed_.missing()) note("error: {}\n", why);
     if (!looked_back_) return stop_code();
-    return failed ? ExitCode::check : owed_.missing().empty() ? ExitCode::ok : ExitCode::files;
+    return failed ? ExitCode::check : owed_.code();
   }
 
  private:

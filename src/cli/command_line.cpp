@@ -121,6 +121,7 @@ CommandLine parse(int argc, char** argv, const std::vector<Verb>& verbs) {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream answer;
+    answer.exceptions(std::ios::badbit);  // a stream keeps silent where there is no memory
     app.exit(asked, answer, answer);
     return {.verb = nullptr, .answer = answer.str()};
   } catch (const CLI::ParseError& error) {

@@ -1,11 +1,11 @@
 // gaussdrift explain: the keys of the case file, and the words that go with them.
 #include "input/explain.hpp"
+#include "base/text_file.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 
 #include "base/printable.hpp"
 #include "cli/terminal.hpp"
@@ -51,11 +51,7 @@ void replace_part(std::string& guide, const std::filesystem::path& file, const s
 }
 
 void write_guide(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw FileError(fmt::format("{} cannot be read", file.string()));
-  std::ostringstream text;
-  text << in.rdbuf();
-  std::string guide = text.str();
+  std::string guide = base::read_text_file(file, "a guide", std::size_t{1} << 26);
   replace_part(guide, file, "keys", fmt::format("\n{}\n", input::registry_markdown()));
   replace_part(guide, file, "functions", fmt::format("\n{}\n", input::functions_markdown()));
   replace_part(guide, file, "effects", fmt::format("\n{}\n", input::effects_markdown()));

@@ -33,7 +33,7 @@ ExitCode finish(const Case& spec, const fs::path& folder) {
   owed.attempt([&] { own_folder.complete(); });
   for (const std::string& why : owed.missing()) note("error: {}\n", why);
   if (has_failed_check(folder)) return ExitCode::check;
-  return owed.missing().empty() ? ExitCode::ok : ExitCode::files;
+  return owed.code();
 }
 
 }  // namespace gaussdrift::cli

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "accuracy/memory_limits.hpp"
+#include "base/printed.hpp"
 #include "base/suggest.hpp"
 #include "cli/asked_case.hpp"
 #include "cli/laid_out.hpp"
@@ -79,6 +80,7 @@ bool is_in_space(const fs::path& file) {
   for (int lines = 0; lines < 100 && std::getline(in, line); ++lines) {
     if (line.empty() || line[0] == '#') continue;
     std::istringstream cells(line.substr(0, 10000));
+    cells.exceptions(std::ios::badbit);  // a stream keeps silent where there is no memory
     for (std::string cell; std::getline(cells, cell, ',');) {
       std::erase_if(cell, [](char c) { return c == ' ' || c == '"' || c == '\r' || c == '\t'; });
       if (cell == "z") return true;
@@ -196,9 +198,7 @@ ExitCode fit(const FitVerbOptions& options) {
                           {"file", options.out.string()}}));
     return ExitCode::ok;
   }
-  std::ostringstream told;
-  told << report;
-  say("fit    {}\n", told.str());
+  say("fit    {}\n", base::printed(report));
   say("total  {:.9g}, the integral over the box of the data\n", result.integral);
   say("open   {} in ParaView: {}, gradient, error (estimated there)\n", options.out.string(), options.value);
   return ExitCode::ok;

@@ -23,11 +23,17 @@ class OwedFiles {
     }
   }
   void miss(const std::string& why) { missing_.push_back(why); }
+  void miss_for_lack_of_memory(const std::string& why) {
+    missing_.push_back(why);
+    lacked_memory_ = true;
+  }
   /// Why files are missing.
   const std::vector<std::string>& missing() const { return missing_; }
+  ExitCode code() const { return missing_.empty() ? ExitCode::ok : lacked_memory_ ? ExitCode::input : ExitCode::files; }
 
  private:
   std::vector<std::string> missing_;
+  bool lacked_memory_ = false;
 };
 
 }  // namespace gaussdrift::cli

@@ -29,7 +29,7 @@ ExitCode report(const ReportOptions& options) {
   std::optional<write::FolderLock> lock;
   if (std::error_code ignored; fs::is_directory(options.folder, ignored)) lock.emplace(options.folder);
   tell_if_unfinished(options.folder, lock.has_value());
-  const report::ReportFiles files = report::write_report(options.folder, true);
+  const report::ReportFiles files = report::write_report(options.folder, report::Pictures::drawn);
   if (options.json) {
     nlohmann::ordered_json written = nlohmann::ordered_json::array();
     for (const fs::path& file : files.written) written.push_back(file.string());

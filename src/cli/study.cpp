@@ -103,7 +103,7 @@ ExitCode study(const StudyVerbOptions& options) {
   else
     say("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.md").string());
   for (const std::string& why : owed.missing()) note("error: {}\n", why);
-  return owed.missing().empty() ? ExitCode::ok : ExitCode::files;
+  return owed.code();
 }
 
 }  // namespace

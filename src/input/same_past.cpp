@@ -26,6 +26,7 @@ std::map<std::string, std::string> values_of(const std::string& text) {
   std::map<std::string, std::string> values;
   std::map<std::string, int> tables;
   std::istringstream lines(text);
+  lines.exceptions(std::ios::badbit);  // a stream keeps silent where there is no memory, and a key would be overlooked
   std::string table, line;
   while (std::getline(lines, line)) {
     if (line.empty() || line[0] == '#') continue;

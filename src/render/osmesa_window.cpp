@@ -167,7 +167,10 @@ struct TheWindow {
       reason = "pictures cannot be drawn: OSMesa gives no OpenGL 3.2 context; is libosmesa6 of Mesa 22 installed?";
       return;
     }
-    std::atexit([] { the_window().window->Finalize(); });
+    std::atexit([] {
+      const WhileDrawing guard;  // what is left of a picture that found no memory may crash here
+      the_window().window->Finalize();
+    });
     window->ReleaseCurrent();
   }
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 
 #include "gaussdrift/error.hpp"
 
@@ -26,8 +27,11 @@ bool is_there(std::size_t bytes) {
   return true;
 }
 
+/// malloc() has said so just now, to a library that went on without looking; or there is next to nothing left.
+bool was_refused_memory(int last_error) { return last_error == ENOMEM || !is_there(next_to_nothing); }
+
 void end_in_order(int signal) {
-  if (!is_there(next_to_nothing)) {
+  if (was_refused_memory(errno)) {
     constexpr char line[] =
         "error: out of memory in the drawing library; allow more (ulimit -v), or draw nothing: output.images = [], "
         "output.report = \"none\"\n";
@@ -50,6 +54,7 @@ void check_room_for_drawing() {
 }
 
 WhileDrawing::WhileDrawing() {
+  errno = 0;  // what it says is of this drawing
   struct sigaction action {};
   action.sa_handler = end_in_order;
   sigemptyset(&action.sa_mask);

@@ -11,8 +11,8 @@ namespace gaussdrift::render {
 /// Throws Error (exit code 3) unless the process may have as much address space more as the libraries take.
 void check_room_for_drawing();
 
-/// While one of these lives, a crash with no memory left tells so in one line and ends with exit code 3. Other crashes
-/// stay what they are.
+/// While one of these lives, a crash for want of memory tells so in one line and ends with exit code 3. Other crashes stay
+/// what they are.
 class WhileDrawing {
  public:
   WhileDrawing();

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "base/json_file.hpp"
+#include "base/shell_word.hpp"
 #include "gaussdrift/error.hpp"
 #include "report/html.hpp"
 #include "report/page_style.hpp"
@@ -26,12 +27,12 @@ namespace {
 std::string read_text(const fs::path& file) {
   constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 28;
   std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(file, error)) || fs::file_size(file, error) > most_bytes) return "";
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "";
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return "";
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error || size > most_bytes) return "";
+  std::string text(size, '\0');
+  if (!std::ifstream(file, std::ios::binary).read(text.data(), static_cast<std::streamsize>(size))) return "";
+  return text;
 }
 
 /// A file that cannot be written is named at the end.
@@ -56,11 +57,18 @@ class Page {
     }
   }
 
-  ReportFiles write(bool pictures) {
-    if (pictures)
+  ReportFiles write(Pictures pictures) {
+    std::error_code ignored;
+    fs::remove(folder_ / summary_picture, ignored);  // an older one must not pass for this
+    if (pictures == Pictures::drawn)
       draw_summary(folder_, summary_, result_);
     else
-      by_choice_.push_back("pictures: the case wants none (output.images); gaussdrift report draws them all the same");
+      by_choice_.push_back(pictures == Pictures::later
+                               ? fmt::format("pictures: there was no time to draw them when the run was stopped; "
+                                             "gaussdrift report {} draws them",
+                                             base::shell_word(folder_.string()))
+                               : "pictures: the case wants none (output.images); gaussdrift report draws them all the "
+                                 "same");
     add_head();
     add_picture();
     add_errors();
@@ -106,7 +114,9 @@ class Page {
   }
 
   void add_picture() {
-    const std::string picture = read_text(folder_ / "summary.png");
+    const fs::path file = folder_ / summary_picture;
+    if (std::find(result_.written.begin(), result_.written.end(), file) == result_.written.end()) return;
+    const std::string picture = read_text(file);
     if (picture.empty()) return;
     text_ += fmt::format(
         "<p><img alt=\"the densities of the first and the last output, the exact one and the error where they are "
@@ -168,7 +178,7 @@ class Page {
 
 }  // namespace
 
-ReportFiles write_report(const fs::path& folder, bool pictures) {
+ReportFiles write_report(const fs::path& folder, Pictures pictures) {
   constexpr const char* remedy = "run the case again";
   const fs::path file = folder / "summary.json";
   const auto summary = base::json_if_there(file, base::most_json_of_numbers, remedy);

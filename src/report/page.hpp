@@ -14,9 +14,11 @@ struct ReportFiles {
   std::vector<std::string> failed;    // what could not be written, and why
 };
 
-/// From summary.json, provenance.json, run.toml, density/ and images/ of a run's folder. pictures: draw the panel of
-/// initial, final, exact and error densities. If one file cannot be written, the others still are. Throws FileError
-/// where the folder holds no run.
-ReportFiles write_report(const std::filesystem::path& folder, bool pictures);
+/// The panel of initial, final, exact and error densities. `later`: there is no time to draw it now.
+enum class Pictures { drawn, not_wanted, later };
+
+/// From summary.json, provenance.json, run.toml, density/ and images/ of a run's folder. If one file cannot be written,
+/// the others still are. Throws FileError where the folder holds no run.
+ReportFiles write_report(const std::filesystem::path& folder, Pictures pictures);
 
 }  // namespace gaussdrift::report

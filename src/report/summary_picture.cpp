@@ -55,9 +55,7 @@ std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary
 }  // namespace
 
 void draw_summary(const fs::path& folder, const json& summary, ReportFiles& result) {
-  const fs::path file = folder / "summary.png";
-  std::error_code ignored;
-  fs::remove(file, ignored);  // an older one must not pass for this
+  const fs::path file = folder / summary_picture;
   if (const std::string reason = render::unavailable_reason(); !reason.empty()) {
     result.left_out.push_back("pictures: " + reason);
     return;

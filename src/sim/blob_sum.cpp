@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <sstream>
 
+#include "base/printed.hpp"
 #include "base/weight_within.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/fgtd_points.hpp"
@@ -138,10 +138,8 @@ Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityRepor
   for (const WidthGroup& group : groups_) {
     const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options_for(group, grid));
     values += plan.evaluate_combinations(grid, group.combinations);
-    std::ostringstream text;
-    text << plan.choice();
     if (!report.choice.empty()) report.choice += '\n';
-    report.choice += text.str();
+    report.choice += base::printed(plan.choice());
   }
   return values;
 }

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "base/number.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
+#include "base/printed.hpp"
 #include "base/stopwatch.hpp"
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
@@ -178,8 +178,6 @@ std::string to_text(const PointSums& sums) {
 
 std::string to_json(const PointSums& sums) {
   const fgtd::Choice& choice = sums.choice;
-  std::ostringstream line;
-  line << choice;
   nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
   for (const fgtd::Parameter& parameter : fgtd::parameters(choice))
     std::visit([&](const auto& value) { parameters[parameter.name] = value; }, parameter.value);
@@ -203,7 +201,7 @@ std::string to_json(const PointSums& sums) {
                                        {"method_asked", fgtd::to_string(sums.asked)},
                                        {"method", fgtd::to_string(choice.method)},
                                        {"parameters", parameters},
-                                       {"choice", line.str()},
+                                       {"choice", base::printed(choice)},
                                        {"bound", finite_or_null(choice.bound)},
                                        {"error_bounds", errors},
                                        {"measured", measured},

@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
 #include <string>
+
+#include "base/printed.hpp"
 
 namespace gaussdrift::sum {
 
@@ -29,8 +30,6 @@ nlohmann::ordered_json seconds_by_stage(const Sums& sums) {
 template <class Sums>
 nlohmann::ordered_json head_of(const Sums& sums, const std::string& kernel, std::size_t sources,
                                const nlohmann::ordered_json& parameters) {
-  std::ostringstream line;
-  line << sums.choice;
   return {{"kernel", kernel},
           {"dimension", sums.dimension},
           {"sources", sources},
@@ -40,7 +39,7 @@ nlohmann::ordered_json head_of(const Sums& sums, const std::string& kernel, std:
           {"method_asked", to_string(sums.asked)},
           {"method", to_string(sums.choice.method)},
           {"parameters", parameters},
-          {"choice", line.str()}};
+          {"choice", base::printed(sums.choice)}};
 }
 
 /// Laid out; texts that are no UTF-8 are mended.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "gaussdrift/error.hpp"
@@ -60,20 +61,26 @@ bool matches(std::string_view ranges, std::string_view file) {
   return ranges.empty() && file.empty();
 }
 
-/// "folder/" has all that is in there.
-bool in_folder(std::string_view folder, std::string_view file) {
-  return folder.ends_with('/') && file.starts_with(folder);
-}
-
-/// "a/b_{0000..0012}/{0000..0007}.vti" and "a/b_0012/" lead into "a/b_0012".
+/// "a/b_{0000..0012}/{0000..0007}.vti" leads into "a/b_0012".
 bool leads_into(std::string_view name, std::string_view folder) {
   const std::size_t slash = name.rfind('/');
   return slash != name.npos && matches(name.substr(0, slash), folder);
 }
 
-/// Folders on the way to a file that is gone, from the inside out.
-void remove_empty(const fs::path& folder, fs::path parent) {
-  for (; !parent.empty() && fs::is_empty(folder / parent); parent = parent.parent_path()) fs::remove(folder / parent);
+bool is_folder(const fs::directory_entry& entry) { return entry.is_directory() && !entry.is_symlink(); }
+
+/// The disk is to have what happened to names in the folder, and in those of `inner` that are there.
+void flush(const fs::path& folder, const std::set<fs::path>& inner) {
+  flush_folder(folder);
+  for (const fs::path& name : inner)
+    if (fs::exists(folder / name)) flush_folder(folder / name);
+}
+
+/// After files are gone: those of `inner` that are empty go, too.
+void remove_empty(const fs::path& folder, const std::set<fs::path>& inner) {
+  for (auto name = inner.rbegin(); name != inner.rend(); ++name)  // from the inside out
+    if (fs::is_empty(folder / *name)) fs::remove(folder / *name);
+  flush(folder, inner);
 }
 
 template <class Action>
@@ -91,6 +98,17 @@ void on_files(const fs::path& folder, const char* what, const Action& action) {
 
 }  // namespace
 
+std::vector<std::string> names_in_state(std::size_t outputs) {
+  std::vector<std::string> names{"state/outputs.raw"};
+  for (const std::string folder : {"state/0/", "state/1/"}) {
+    for (const char* file : {"manifest.json", "run.raw"}) names.push_back(folder + file);
+    names.push_back(numbered_names(folder + "particles_", most_pieces, ".raw"));
+  }
+  for (const char* what : {"density_", "error_"})
+    names.push_back(numbered_names(std::string("state/pictures/") + what, outputs, ".raw"));
+  return names;
+}
+
 std::string numbered_names(std::string_view before, std::size_t count, std::string_view ending) {
   return fmt::format("{}{{0000..{:04}}}{}", before, count == 0 ? 0 : count - 1, ending);
 }
@@ -101,11 +119,15 @@ OwnFiles::OwnFiles(const std::vector<std::string>& names) {
 
 void OwnFiles::add(const std::string& name) {
   if (!stays_inside(name)) return;
-  if (name.ends_with('/') && name.find('{') != name.npos) {  // as earlier versions named pieces
-    for (const char* ending : {".vti", ".vtp"}) add(numbered_names(name, most_pieces, ending));
+  const bool many = name.find('{') != name.npos;
+  if (name.ends_with('/')) {  // as earlier versions named pieces, and what is in state/
+    if (many)
+      for (const char* ending : {".vti", ".vtp"}) add(numbered_names(name, most_pieces, ending));
+    else
+      for (const std::string& file : names_in_state(most_outputs))
+        if (file.starts_with(name)) add(file);
     return;
   }
-  const bool many = name.ends_with('/') || name.find('{') != name.npos;
   if (many ? std::find(many_.begin(), many_.end(), name) != many_.end() : !single_.insert(name).second) return;
   if (many) many_.push_back(name);
   names_.push_back(name);
@@ -113,62 +135,70 @@ void OwnFiles::add(const std::string& name) {
 
 bool OwnFiles::has(std::string_view file) const {
   return single_.contains(std::string(file)) || std::any_of(many_.begin(), many_.end(), [&](const std::string& name) {
-           return name == file || in_folder(name, file) || matches(name, file);
+           return name == file || matches(name, file);
          });
 }
 
-std::vector<std::string> OwnFiles::found_in(const fs::path& folder) const {
-  std::vector<std::string> found;
+OwnFiles::Found OwnFiles::look(const fs::path& folder) const {
+  Found found;
   on_files(folder, "looked at", [&] {
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
-      if (entry.is_symlink() || !entry.is_directory()) {
-        if (has(name)) found.push_back(name);
+      if (!is_folder(entry)) {
+        if (has(name)) found.files.push_back(name);
         continue;
       }
+      const std::string into = name + "/";
+      if (std::any_of(names_.begin(), names_.end(), [&](const std::string& own) { return own.starts_with(into); }))
+        found.folders.insert(name);
       for (const auto& inner : fs::directory_iterator(entry.path())) {
         const std::string file = name + "/" + inner.path().filename().string();
         // What may hold pieces; a link in its place is the run's own, too.
-        const bool of_pieces = !has(file) && std::any_of(many_.begin(), many_.end(), [&](const std::string& many) {
-          return leads_into(many, file);
-        });
-        if (has(file) || (of_pieces && inner.is_symlink())) found.push_back(file);
-        if (!of_pieces || inner.is_symlink() || !inner.is_directory()) continue;
+        const bool of_pieces =
+            std::any_of(many_.begin(), many_.end(), [&](const std::string& many) { return leads_into(many, file); });
+        if (!is_folder(inner)) {
+          if (has(file) || (of_pieces && inner.is_symlink())) found.files.push_back(file);
+          continue;
+        }
+        if (!of_pieces) continue;
+        found.folders.insert(file);
         for (const auto& piece : fs::directory_iterator(inner.path()))
-          if (const std::string in_it = file + "/" + piece.path().filename().string(); has(in_it))
-            found.push_back(in_it);
+          if (const std::string in_it = file + "/" + piece.path().filename().string(); has(in_it) && !is_folder(piece))
+            found.files.push_back(in_it);
       }
     }
   });
-  std::sort(found.begin(), found.end());
+  std::sort(found.files.begin(), found.files.end());
   return found;
 }
 
 double OwnFiles::bytes_in(const fs::path& folder) const {
   double bytes = 0;
   std::error_code ignored;
-  for (const std::string& file : found_in(folder))
+  for (const std::string& file : look(folder).files)
     if (const auto size = fs::file_size(folder / file, ignored); !ignored) bytes += static_cast<double>(size);
   return bytes;
 }
 
 void OwnFiles::remove_from(const fs::path& folder) const {
   on_files(folder, "removed", [&] {
-    for (const std::string& file : found_in(folder)) {
-      fs::remove_all(folder / file);  // a folder among them only below one that is the run's own
-      remove_empty(folder, fs::path(file).parent_path());
-    }
+    const Found found = look(folder);
+    for (const std::string& file : found.files) fs::remove(folder / file);
+    remove_empty(folder, found.folders);
   });
 }
 
 void OwnFiles::move(const fs::path& folder, const fs::path& to) const {
   on_files(folder, "moved aside", [&] {
-    for (const std::string& file : found_in(folder)) {
-      const fs::path parent = fs::path(file).parent_path();
-      make_folder(to / parent);
+    const Found found = look(folder);
+    std::set<fs::path> reached;
+    for (const std::string& file : found.files) {
+      if (const fs::path parent = fs::path(file).parent_path(); !parent.empty() && reached.insert(parent).second)
+        make_folder(to / parent);
       fs::rename(folder / file, to / file);
-      remove_empty(folder, parent);
     }
+    flush(to, reached);
+    remove_empty(folder, found.folders);
   });
 }
 

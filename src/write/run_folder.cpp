@@ -41,8 +41,8 @@ struct Pieces {
 OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<std::string>& picture_styles,
                       std::size_t most, const Pieces& pieces) {
   OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
-                  "state/0/", "state/1/", "state/outputs.raw", "state/pictures/", "summary.json", "summary.png",
-                  "view.py"});
+                  "summary.json", "summary.png", "view.py"});
+  for (const std::string& name : names_in_state(most)) files.add(name);
   for (const std::string& name : kinds) {
     files.add(name + ".pvd");
     const FileKind& kind = find_output_file(name);
@@ -69,7 +69,7 @@ OwnFiles files_of(const Case& spec, std::size_t particle_pieces) {
 OwnFiles files_without_list(const std::vector<std::string>& picture_styles) {
   std::vector<std::string> kinds;
   for (const FileKind& kind : output_files()) kinds.emplace_back(kind.about.name);
-  return files_of_run(kinds, picture_styles, 1'000'000'000, {});
+  return files_of_run(kinds, picture_styles, most_outputs, {});
 }
 
 /// What status.json says. The folder may be a stranger's. Throws FileError if the file is damaged: which files are the
@@ -213,7 +213,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
     outputs_ = run.outputs, time_ = run.time;
     check_space(folder_, options.bytes, own_.bytes_in(folder_));
     keep_room_for_last_word();
-    tell("running", "wait, or look at what is there: every file is whole");
+    begin();
     return;
   }
 
@@ -247,7 +247,7 @@ RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& 
     remove_run(folder_, files);
   else
     set_aside(files, run.outputs > 0 || old_version, run.there);
-  tell("running", "wait, or look at what is there: every file is whole");
+  begin();
 }
 
 /// Files that would be replaced and are not on the list of `whose`.
@@ -279,8 +279,21 @@ void RunFolder::set_aside(const OwnFiles& earlier, bool has_outputs, bool lists_
   keeps_earlier_ = true;
 }
 
+/// The name may be taken, and the disk may then refuse the folder.
+void RunFolder::begin() {
+  try {
+    tell("running", "wait, or look at what is there: every file is whole");
+  } catch (const FileError&) {
+    if (fs::exists(folder_ / status_name)) fail();
+    throw;
+  }
+}
+
 RunFolder::~RunFolder() {
-  if (ended_) return;
+  if (!ended_) fail();
+}
+
+void RunFolder::fail() {
   try {
     const std::string next = "gaussdrift resume goes on, or run it again with --force";
     end("failed", keeps_earlier_ ? next + "; the earlier run is whole in the folder earlier" : next);

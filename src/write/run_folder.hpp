@@ -47,6 +47,8 @@ class RunFolder {
   void refuse_strangers(const OwnFiles& listed, const char* whose) const;
   void set_aside(const OwnFiles& earlier, bool has_outputs, bool lists_itself);
   void seen(double time);
+  void begin();
+  void fail();
   void end(const std::string& state, const std::string& next);
   std::string status_text(const std::string& state, const std::string& next) const;
   void tell(const std::string& state, const std::string& next) const;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -42,6 +43,8 @@ json write_raw(const fs::path& folder, const fs::path& name, const InHaste& in_h
 std::uint64_t serial_of(const fs::path& slot) {
   try {
     return count_in(read_manifest(slot), "serial");
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return 0;  // what cannot be read is overwritten first
   }

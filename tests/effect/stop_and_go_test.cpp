@@ -2,16 +2,22 @@
 // themselves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
+#include "base/catalogue.hpp"
+#include "effect/catalogue.hpp"
 #include "effect/scene.hpp"
+#include "gaussdrift/error.hpp"
 #include "same_particles.hpp"
+#include "time/tableau.hpp"
 
 namespace gaussdrift {
 namespace {
@@ -173,6 +179,77 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"charge", {"time.step=0.05", "effects.charge.mobility=0.3"}},
                     Kind{"vortex", {"time.step=0.05", "effects.vortex.tolerance=1e-6"}}),
     [](const auto& kind) { return kind.param.name; });
+
+/// What [effects] can have, and no effect.
+const std::vector<Kind> all_effects{
+    {"transport", {}},
+    {"reaction", {"effects.reaction.rate=x+1"}},
+    {"core_spreading", {"effects.diffusion.D=0.01"}},
+    {"exchange", {"effects.diffusion.D=0.01", "effects.diffusion.method=particle-exchange"}},
+    {"remesh", {"effects.remesh.every=2"}},
+    {"remesh_by_stretch", {"effects.remesh.stretch=1.01"}},
+    {"charge", {"effects.charge.mobility=0.3"}},
+    {"vortex", {"effects.vortex.tolerance=1e-6"}}};
+
+class StopAndGoByEachTableau : public testing::TestWithParam<std::tuple<Kind, time::Tableau>> {
+ protected:
+  Case spec() const {
+    const auto& [kind, tableau] = GetParam();
+    std::vector<std::string> more{"particles.per_axis=9", "time.step=0.02", "time.end=0.16",
+                                  "output.times=[0, 0.1, 0.16]", "time.method=" + tableau.name};
+    if (time::is_adaptive(tableau)) more.push_back("time.tolerance=1e-9");
+    return spec_of(kind, more);
+  }
+};
+
+// At seams that are spread over the run, in a simulation of another process.
+TEST_P(StopAndGoByEachTableau, HasTheBitsOfARunThatNeverStopped) {
+  const auto& [kind, tableau] = GetParam();
+  if (kind.name == "exchange" && time::is_adaptive(tableau)) {  // it needs steps that are known beforehand
+    EXPECT_THROW(spec(), CaseError) << "this can be resumed, too, if it can be run";
+    return;
+  }
+  const Case spec = this->spec();
+  Simulation whole(spec, 1);
+  int seams = 0;
+  whole.abandon_when([&] { return ++seams < 0; });
+  const RunSummary once = whole.run();
+  EXPECT_GT(once.steps, 3u);
+  constexpr int cuts = 8;
+  int abandoned = 0;
+  for (int cut = 1; cut <= cuts; ++cut) {
+    const int at = seams * cut / cuts;
+    Simulation first(spec, 1), second(spec, 2);
+    int asked = 0;
+    first.abandon_when([&] { return ++asked >= at; });
+    try {
+      EXPECT_FALSE(first.run().complete) << at;
+    } catch (const Abandoned&) {  // while it was prepared
+      continue;
+    }
+    ++abandoned;
+    second.restore(first.particles(), first.state());
+    expect_same(once, second.run());
+    expect_same(whole.particles(), second.particles());
+  }
+  EXPECT_GT(abandoned, cuts / 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StopAndGoByEachTableau,
+                         testing::Combine(testing::ValuesIn(all_effects), testing::ValuesIn(time::tableaux())),
+                         [](const auto& one) {
+                           std::string name = std::get<0>(one.param).name + "_" + std::get<1>(one.param).name;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(StopAndGo, KnowsAllEffects) {
+  for (const NamedEffect& effect : base::catalogue<NamedEffect>())
+    EXPECT_TRUE(std::any_of(all_effects.begin(), all_effects.end(), [&](const Kind& kind) {
+      return !kind.overrides.empty() &&
+             kind.overrides[0].starts_with("effects." + std::string(effect.about.name) + ".");
+    })) << effect.about.name;
+}
 
 TEST(StopAndGo, ALongerRunGoesOnFromTheEndOfAShorterOne) {
   const Kind kind{"remesh", {"time.step=0.01", "effects.remesh.every=3"}};

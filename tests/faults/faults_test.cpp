@@ -42,7 +42,9 @@ TEST_F(Faults, ADiskThatStaysFull) {
 TEST_F(Faults, ADiskThatStaysFullForWhatNeedsRoom) {
   tells_its_end = true;
   const long calls = begin(apart).calls;
-  for (const long at : spread(0, calls, faults_of_a_test(30)))
+  constexpr long begun = 25;  // status.json has its first name by then: each of these calls, and some of the others
+  for (const long at : spread(0, begun, begun)) suffer("FAULTS_LASTING=room " + at_call(at, ENOSPC), of_files);
+  for (const long at : spread(begun, calls, faults_of_a_test(10)))
     suffer("FAULTS_LASTING=room " + at_call(at, ENOSPC), of_files);
   tell("calls found the disk full, and so did all later ones that need room", calls);
 }
@@ -64,6 +66,24 @@ TEST_F(Faults, ASignal) {
   const long calls = begin(drawn).calls;
   for (const long at : spread(0, calls, faults_of_a_test(10))) suffer(signalled_at(at), of_signals);
   tell("calls in which SIGTERM came, in a run with pictures and a page", calls);
+}
+
+/// There is no time to draw them within two seconds. Page and terminal say what to do.
+TEST_F(Faults, ASignalOnALargeGridLeavesAPageWithoutPictures) {
+  if (!draws_pictures) GTEST_SKIP() << without_pictures;
+  write_file(folder / "small.toml", drawn);
+  const std::string large = "run small.toml --out part --set evaluate.per_axis=510 --set 'output.images=[\"heatmap\"]'";
+  const Outcome stopped = call(large + " --set 'reference.kind=\"none\"'", signalled_at(200));
+  EXPECT_EQ(stopped.exit_code, 128 + 15) << stopped.err;
+  EXPECT_NE(stopped.out.find("without pictures for now: gaussdrift report part draws them"), std::string::npos)
+      << stopped.out;
+  const std::string page = read_file(folder / "part/report.html");
+  EXPECT_NE(page.find("pictures: there was no time to draw them when the run was stopped; gaussdrift report part draws "
+                      "them"),
+            std::string::npos);
+  EXPECT_EQ(page.find("<img"), std::string::npos);
+  EXPECT_EQ(gaussdrift_in(folder, "report part").exit_code, 0);
+  EXPECT_NE(read_file(folder / "part/report.html").find("<img"), std::string::npos);
 }
 
 /// One at every call from this one on: the second ends the program at once, in the middle of its last checkpoint mostly.
@@ -102,6 +122,23 @@ TEST_F(Faults, AnAllocationBeforeItWrites) {
   for (const long at : spread(0, before, faults_of_a_test(60)))
     suffer("FAULTS_NEW_ALL=1 FAULTS_NEW_AT=" + std::to_string(at), of_memory);
   tell("allocations failed before the program wrote", before);
+}
+
+/// Of VTK, LLVM, muParser, the C++ library and Eigen, too. Nine of ten are made for pictures.
+TEST_F(Faults, AnAllocationOfALibrary) {
+  const long allocations = begin(drawn + without_budget, "FAULTS_NEW_OF=libraries").allocations;
+  for (const long at : spread(0, allocations, faults_of_a_test(5)))
+    suffer("FAULTS_NEW_OF=libraries FAULTS_NEW_AT=" + std::to_string(at), of_memory);
+  tell("allocations of any library failed, once it wrote, in a run with pictures and a page", allocations);
+}
+
+/// Libraries in C do not look whether malloc() gave them something, so the drawing crashes.
+TEST_F(Faults, MemoryThatStaysShort) {
+  const std::string lasting = "FAULTS_NEW_OF=libraries FAULTS_NEW_LASTING=1";
+  const long allocations = begin(drawn + without_budget, lasting).allocations;
+  for (const long at : spread(0, allocations, faults_of_a_test(4)))
+    suffer(lasting + " FAULTS_NEW_AT=" + std::to_string(at), of_memory);
+  tell("allocations of any library failed, and so did all later ones", allocations);
 }
 
 /// Some of them while threads share work. Which one comes at which number is left to chance; what is promised is not.

@@ -32,6 +32,36 @@ class Order : public Faults {
 
 bool writes(const Call& call) { return call.name.ends_with("write") || call.name == "ftruncate"; }
 
+/// Of a run that is moved aside or removed: its list goes last, once the disk knows that the other files are there or
+/// gone. Without the list they would be nobody's.
+class GoesLast {
+ public:
+  void see(const Call& call) {
+    const fs::path file = call.file;
+    const std::string parent = file.parent_path().string();
+    if (call.name == "fsync") on_disk_[call.file] = true;
+    if (call.inode == "0" || file.filename().string().starts_with(".")) return;
+    if (call.name == "rename" && left_.contains(call.inode)) on_disk_[parent] = false;
+    if (call.name != "leave" && call.name != "remove") return;
+    if (file.filename() == "status.json") {
+      ++lists_;
+      for (const auto& [folder, yes] : on_disk_)
+        if (fs::path(folder).string().starts_with(parent)) {
+          EXPECT_TRUE(yes) << "the list in " << parent << " goes before the disk knows what became of " << folder;
+        }
+    }
+    left_.insert(call.inode);
+    on_disk_.erase(call.file);  // a folder that goes
+    on_disk_[parent] = false;
+  }
+  int lists() const { return lists_; }
+
+ private:
+  std::map<std::string, bool> on_disk_;  // folders of which files were taken, or into which they were put
+  std::set<std::string> left_;           // inodes of files that had another name
+  int lists_ = 0;
+};
+
 /// `top`: the folder of the run. What is done to the folder around it is not counted.
 void expect_order(const std::vector<Call>& calls, const std::string& top) {
   std::map<std::string, bool> file_is_on_disk;        // by inode
@@ -70,7 +100,11 @@ TEST_F(Order, OfANewRun) {
 TEST_F(Order, OfARunInPlaceOfAnother) {
   write_file(folder / "small.toml", apart);
   ASSERT_EQ(call("run small.toml --out part").exit_code, 0);
-  expect_order(calls_of("run small.toml --out part --force"), top());
+  const std::vector<Call> calls = calls_of("run small.toml --out part --force");
+  expect_order(calls, top());
+  GoesLast order;
+  for (const Call& one : calls) order.see(one);
+  EXPECT_EQ(order.lists(), 2) << "one is moved aside, and removed there";
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ output = {times = [0, 0.2, 0.5], images = []}
     });
   if (bundle.has("summary.json")) {
     answered([] { write::says_complete(run()); });
-    answered([] { report::write_report(run(), false); });
+    answered([] { report::write_report(run(), report::Pictures::not_wanted); });
   }
   if (!bundle.has("status.json") && !bundle.has("earlier/status.json")) return;
   answered([] { write::state_of_folder(run()); });

@@ -71,7 +71,7 @@ class CraftedRun : public ::testing::Test {
     write("summary.json", summary);
     fs::remove(folder_ / "report.html");
     try {
-      EXPECT_TRUE(report::write_report(folder_, false).failed.empty());
+      EXPECT_TRUE(report::write_report(folder_, report::Pictures::not_wanted).failed.empty());
     } catch (const FileError&) {
       return "";
     }
@@ -151,7 +151,7 @@ TEST_F(CraftedRun, ThatIsNestedDeeplyOrNoJsonIsRefused) {
         text.substr(0, text.size() - 1) + ",\"more\":" + deep + std::string(1000000, ']') + "}",
         text.substr(0, text.size() - 1) + ",\"more\":1e999}"}) {
     write("summary.json", wrong);
-    EXPECT_THROW(report::write_report(folder_, false), FileError);
+    EXPECT_THROW(report::write_report(folder_, report::Pictures::not_wanted), FileError);
   }
   write("provenance.json", deep + std::string(1000000, ']'));
   EXPECT_NE(page_of(text), "");
@@ -165,7 +165,7 @@ TEST_F(CraftedRun, DoesNotShowFilesThatItsLinksLeadTo) {
   EXPECT_EQ(page.find("of the reader"), std::string::npos);
   fs::remove(folder_ / "summary.json");
   fs::create_symlink("/dev/zero", folder_ / "summary.json");
-  EXPECT_THROW(report::write_report(folder_, false), FileError);
+  EXPECT_THROW(report::write_report(folder_, report::Pictures::not_wanted), FileError);
 }
 
 TEST_F(CraftedRun, WhoseSeriesLeadsOutOfItIsRefused) {

@@ -200,11 +200,52 @@ TEST(RunFolder, LeavesWhatOthersHavePutBesideItsCheckpoints) {
   run_in(folder / "r", "old", false, 1, true);
   write_text(folder / "r/state/1/run.raw", "its own");
   write_text(folder / "r/state/notes.txt", "mine");
-  write_text(folder / "r/state/9/x", "mine");
+  write_text(folder / "r/state/1/particles_0001.raw", "its own");
+  write_text(folder / "r/state/pictures/density_0001.raw", "its own");
+  const char* of_others[] = {"state/9/x", "state/0/notes.txt", "state/1/particles_1.raw", "state/pictures/mine.png",
+                             "state/0/run.raw/x"};
+  for (const char* name : of_others) write_text(folder / "r" / name, "mine");
   run_in(folder / "r", "new", true, 1, true);
-  EXPECT_FALSE(fs::exists(folder / "r/state/1/run.raw"));
+  for (const char* name : {"run.raw", "particles_0001.raw"}) EXPECT_FALSE(fs::exists(folder / "r/state/1" / name));
+  EXPECT_FALSE(fs::exists(folder / "r/state/pictures/density_0001.raw"));
   EXPECT_EQ(read_file(folder / "r/state/notes.txt"), "mine");
-  EXPECT_EQ(read_file(folder / "r/state/9/x"), "mine");
+  for (const char* name : of_others) EXPECT_EQ(read_file(folder / "r" / name), "mine") << name;
+}
+
+/// Earlier versions put whole folders on the list.
+TEST(RunFolder, LeavesWhatOthersHavePutBesideTheCheckpointsOfAnEarlierVersion) {
+  for (const std::vector<std::string>& state :
+       {std::vector<std::string>{"state/"}, {"state/0/", "state/1/", "state/pictures/", "state/outputs.raw"}}) {
+    const ScratchFolder folder;
+    run_in(folder / "r", "old", false, 1, true);
+    auto status = parsed_json(read_file(folder / "r/status.json"));
+    std::vector<std::string> names;
+    for (const std::string name : status["files"])
+      if (!name.starts_with("state/")) names.push_back(name);
+    names.insert(names.end(), state.begin(), state.end());
+    status["files"] = names;
+    write_text(folder / "r/status.json", status.dump());
+    for (const char* name : {"state/0/notes.txt", "state/pictures/mine.png"}) write_text(folder / "r" / name, "mine");
+    for (const char* name : {"state/1/manifest.json", "state/pictures/error_0003.raw", "state/outputs.raw"})
+      write_text(folder / "r" / name, "its own");
+    run_in(folder / "r", "new", true, 1, true);
+    for (const char* name : {"state/1/manifest.json", "state/pictures/error_0003.raw", "state/outputs.raw"})
+      EXPECT_FALSE(fs::exists(folder / "r" / name)) << name;
+    for (const char* name : {"state/0/notes.txt", "state/pictures/mine.png"})
+      EXPECT_EQ(read_file(folder / "r" / name), "mine") << name;
+  }
+}
+
+/// A process may be killed between the files of a folder and the folder.
+TEST(OwnFiles, TakesFoldersThatAreLeftEmpty) {
+  const ScratchFolder folder;
+  for (const char* name : {"density/density_0001", "state/0", "images/mine"})
+    fs::create_directories(folder / "r" / name);
+  fs::create_directories(folder / "r/others");
+  OwnFiles({numbered_names(numbered_names("density/density_", 3, "/"), 2, ".vti"), "state/0/", "images/a.png"})
+      .remove_from(folder / "r");
+  for (const char* name : {"density", "state"}) EXPECT_FALSE(fs::exists(folder / "r" / name)) << name;
+  for (const char* name : {"images/mine", "others"}) EXPECT_TRUE(fs::exists(folder / "r" / name)) << name;
 }
 
 TEST(RunFolder, FollowsNoLinksFurtherInside) {
@@ -343,10 +384,11 @@ TEST(FolderLock, IsSeenByOthers) {
 }
 
 TEST(OwnFiles, HasRangesAndFolders) {
-  const OwnFiles files({"a.csv", numbered_names("d/d_", 12, ".vti"), "state/"});
-  for (const char* name : {"a.csv", "d/d_0000.vti", "d/d_0011.vti", "state/x"}) EXPECT_TRUE(files.has(name)) << name;
+  const OwnFiles files({"a.csv", numbered_names("d/d_", 12, ".vti"), "state/", "others/"});
+  for (const char* name : {"a.csv", "d/d_0000.vti", "d/d_0011.vti", "state/0/run.raw", "state/1/particles_0003.raw"})
+    EXPECT_TRUE(files.has(name)) << name;
   for (const char* name : {"b.csv", "d/d_0012.vti", "d/d_11.vti", "d/d_00011.vti", "d/d_.vti", "d_0001.vti", "state",
-                           "d/d_{0000..0011}.vtix"})
+                           "state/x", "state/0/x", "state/2/run.raw", "others/x", "d/d_{0000..0011}.vtix"})
     EXPECT_FALSE(files.has(name)) << name;
   EXPECT_TRUE(OwnFiles({numbered_names("d_", 20000, "")}).has("d_12345"));
   const OwnFiles pieces({numbered_names(numbered_names("d/d_", 12, "/"), 3, ".vti")});

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
+#include "base/printed.hpp"
 #include "base/weight_within.hpp"
 
 namespace gaussdrift {
@@ -206,9 +206,7 @@ double GaussianSum<d>::unit_error(GaussianMatrix matrix) const {
 template <int d>
 std::string GaussianSum<d>::choice() const {
   if (pairwise_) return fmt::format("pair by pair, {} sources", coefficients_.rows());
-  std::ostringstream text;
-  text << plan_.choice();
-  return text.str();
+  return base::printed(plan_.choice());
 }
 
 template std::vector<MatrixEntry<2>> matrix_entries<2>(GaussianMatrix);

@@ -6,10 +6,14 @@
 //                   the call is done
 //   FAULTS_LASTING  set: all later calls fail too, but those that close or remove, as on a disk that takes nothing more;
 //                   "room": only those that need room do, as on a disk that stays full. A later signal comes at each call
-//   FAULTS_LOG      file that takes a line for each write, fsync, rename and new folder: "<call> <inode> <file>". A new name
-//                   has the inode of the file that gets it, a folder 0
+//   FAULTS_LOG      file that takes a line for each write, fsync, rename, removal and new folder: "<call> <inode> <file>".
+//                   A new name has the inode of the file that gets it, a new folder 0. Before a rename comes a line
+//                   "leave" with the old name
 //   FAULTS_NEW_AT   which allocation of the program itself fails, from 1 after the first call that is counted
 //   FAULTS_NEW_ALL  set: allocations are counted from the start of the program
+//   FAULTS_NEW_OF   "libraries": all allocations by operator new count, those in libraries as well, and those of the
+//                   program by malloc() and the like (Eigen)
+//   FAULTS_NEW_LASTING  set: all later allocations fail too. Then those of libraries by malloc() count as well
 //   FAULTS_REPORT   file that takes "struck <call> <file>" at the fault and "calls <n> allocations <n> bytes <n>"
 //                   at the exit, with the bytes that were written
 //   FAULTS_SERVE    set: the program does not begin. It reads lines of three parts from standard input, parted by tabs: a
@@ -58,13 +62,15 @@ struct Plan {
     if (const char* text = std::getenv("FAULTS_LASTING")) lasting = true, room = std::strcmp(text, "room") == 0;
     log = std::getenv("FAULTS_LOG");
     new_at = number_of("FAULTS_NEW_AT"), new_all = std::getenv("FAULTS_NEW_ALL") != nullptr;
+    new_of_libraries = std::getenv("FAULTS_NEW_OF") != nullptr;
+    new_lasting = std::getenv("FAULTS_NEW_LASTING") != nullptr;
   }
   const char* folder = nullptr;
   const char* report = nullptr;
   const char* log = nullptr;
   long at = 0, new_at = 0;
   int error = 0, signal = 0;
-  bool lasting = false, room = false, new_all = false;
+  bool lasting = false, room = false, new_all = false, new_of_libraries = false, new_lasting = false;
 };
 
 Plan& plan() {
@@ -193,21 +199,55 @@ struct OwnCode {
   std::uintptr_t first = UINTPTR_MAX, last = 0;
 };
 
-void* allocate(size_t size, size_t alignment, void* caller) {
+bool is_in_program(void* caller) {
   static const OwnCode own;
   const auto at = reinterpret_cast<std::uintptr_t>(caller);
-  const bool counts = own.first <= at && at < own.last && (plan().new_all || calls > 0);
-  if (counts && ++allocations == plan().new_at) {
-    char line[100];
-    std::snprintf(line, sizeof line, "struck new at +0x%zx\n", static_cast<size_t>(at - own.first));
+  return own.first <= at && at < own.last;
+}
+
+/// Counts an allocation. True: this one is to fail. What it needs itself is not counted.
+bool lacks_memory(const char* call, bool by_new, void* caller) {
+  if (!plan().new_all && calls == 0) return false;
+  const bool counts =
+      plan().new_of_libraries ? by_new || plan().new_lasting || is_in_program(caller) : by_new && is_in_program(caller);
+  if (!counts) return false;
+  static std::atomic<bool> telling{false};
+  if (telling) return false;
+  const long number = ++allocations;
+  const bool first = number == plan().new_at, later = plan().new_lasting && plan().new_at > 0 && number > plan().new_at;
+  if (first) {
+    telling = true;
+    Dl_info place{};
+    dladdr(caller, &place);
+    char line[300];
+    std::snprintf(line, sizeof line, "struck %s at +0x%zx in %.200s\n", call,
+                  reinterpret_cast<size_t>(caller) - reinterpret_cast<size_t>(place.dli_fbase),
+                  place.dli_fname ? place.dli_fname : "?");
     report(line);
-    throw std::bad_alloc();
+    telling = false;
   }
+  if (first || later) errno = ENOMEM;
+  return first || later;
+}
+
+// Of glibc; the usual names are those of this library.
+extern "C" void* __libc_malloc(size_t);
+extern "C" void* __libc_calloc(size_t, size_t);
+extern "C" void* __libc_realloc(void*, size_t);
+extern "C" void* __libc_memalign(size_t, size_t);
+
+void* allocate(size_t size, size_t alignment, void* caller) {
+  if (lacks_memory("new", true, caller)) throw std::bad_alloc();
   size = std::max<size_t>(size, 1);
-  void* memory =
-      alignment ? std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment) : std::malloc(size);
+  void* memory = alignment ? __libc_memalign(alignment, size) : __libc_malloc(size);
   if (!memory) throw std::bad_alloc();
   return memory;
+}
+
+/// An allocation in the manner of C.
+template <class Allocate>
+void* allocate_or_null(const char* call, void* caller, const Allocate& do_it) {
+  return lacks_memory(call, false, caller) ? nullptr : do_it();
 }
 
 int (*program)(int, char**, char**) = nullptr;  // its main
@@ -290,6 +330,25 @@ void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::fre
 void operator delete[](void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
 
 extern "C" {
+
+void* malloc(size_t size) {
+  return allocate_or_null("malloc", __builtin_return_address(0), [&] { return __libc_malloc(size); });
+}
+void* calloc(size_t count, size_t size) {
+  return allocate_or_null("calloc", __builtin_return_address(0), [&] { return __libc_calloc(count, size); });
+}
+void* realloc(void* memory, size_t size) {
+  return allocate_or_null("realloc", __builtin_return_address(0), [&] { return __libc_realloc(memory, size); });
+}
+void* aligned_alloc(size_t alignment, size_t size) {
+  return allocate_or_null("aligned_alloc", __builtin_return_address(0),
+                          [&] { return __libc_memalign(alignment, size); });
+}
+int posix_memalign(void** memory, size_t alignment, size_t size) {
+  *memory =
+      allocate_or_null("posix_memalign", __builtin_return_address(0), [&] { return __libc_memalign(alignment, size); });
+  return *memory ? 0 : ENOMEM;
+}
 
 #define OPENS(name)                                                   \
   int name(const char* path, int flags, ...) {                        \
@@ -395,6 +454,7 @@ int fsync(int descriptor) {
 
 int rename(const char* from, const char* to) noexcept {
   static const auto real = next<int(const char*, const char*)>("rename");
+  log_name("leave", from, from);
   log_name("rename", from, to);
   return strikes("rename", to, Kind::stays) ? -1 : real(from, to);
 }
@@ -418,6 +478,7 @@ int mkdir(const char* path, mode_t mode) noexcept {
 #define REMOVES(name)                                            \
   int name(const char* path) noexcept {                          \
     static const auto real = next<int(const char*)>(#name);      \
+    log_name("remove", path, path);                              \
     return strikes(#name, path, Kind::closes) ? -1 : real(path); \
   }
 REMOVES(unlink)
