@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "base/repeated_time.hpp"
+#include "sim/edges.hpp"
 #include "sim/scene.hpp"
+#include "sim/tiled_density.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift::accuracy {
@@ -31,6 +33,9 @@ nlohmann::ordered_json accuracy_table(const Case& spec, double run_seconds, cons
   const Cutoff blob = last.particles.spread > 0
                           ? spread_cutoff(scene.cutoff, last.particles.dimension, last.particles.spread)
                           : scene.cutoff;
+  Particles images;
+  const Particles& sources =
+      summed_particles(spec.domain, scene.seeding, last.particles, reach_of_blob(blob, {}), images);
   const base::EnoughTimes enough{.long_enough = most / rows, .most = 6};
   std::vector<base::RepeatedTime> times(rows);
   std::array<double, rows> error{};
@@ -42,7 +47,7 @@ nlohmann::ordered_json accuracy_table(const Case& spec, double run_seconds, cons
     for (const std::size_t i : open) {
       DensityReport report;
       evaluate_density(
-          last.particles, blob, scene.evaluation,
+          sources, blob, scene.evaluation,
           {.tolerance = tolerances[i], .method = spec.evaluate.method, .threads = threads, .measure = round == 0},
           &report);
       if (round == 0) error[i] = report.measured_error;

@@ -23,9 +23,11 @@
 #include "render/picture.hpp"
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
+#include "sim/edges.hpp"
 #include "sim/grid_pieces.hpp"
 #include "sim/landings.hpp"
 #include "sim/outside.hpp"
+#include "sim/tiled_density.hpp"
 #include "sim/work.hpp"
 
 namespace gaussdrift::accuracy {
@@ -154,7 +156,10 @@ void try_density(const Case& spec, const Trial& trial, int threads, Forecast& re
     }
   }
   const ProcessorClock watch;
-  const DensityGrid density = evaluate_density(trial.particles, trial.scene.cutoff, grid, options, &result.density);
+  Particles with_images;
+  const Particles& sources = summed_particles(spec.domain, trial.scene.seeding, trial.particles,
+                                              reach_of_blob(trial.scene.cutoff, options), with_images);
+  const DensityGrid density = evaluate_density(sources, trial.scene.cutoff, grid, options, &result.density);
   const double both = result.density.evaluate_seconds + result.density.measure_seconds,
                of_sum = both > 0 ? result.density.evaluate_seconds / both : 1;
   const double took = watch.seconds();
@@ -195,7 +200,8 @@ void try_steps(const Case& spec, Trial& trial, int threads, Forecast& result) {
   result.tried_in_steps = particles.size();
   Carrier carrier(trial.spec, trial.scene, threads);
   carrier.begin(particles);
-  result.step_warnings = carrier.warnings();
+  result.step_warnings = trial.scene.misfits;
+  result.step_warnings.insert(result.step_warnings.end(), carrier.warnings().begin(), carrier.warnings().end());
   for (const auto& effect : carrier.effects())
     if (const std::string warning = effect->warning(); !warning.empty()) result.effect_warnings.push_back(warning);
   const Carrier as_written(spec, trial.scene, threads);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/longest_side.hpp"
+#include "particle/images.hpp"
 
 namespace gaussdrift {
 
@@ -149,6 +150,14 @@ std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const D
           at_place(through, domain.dimension), "xyz"[k], through.size));
   }
   return words;
+}
+
+const Particles& summed_particles(const Domain& domain, const Lattice& seeding, const Particles& particles,
+                                  double reach, Particles& images) {
+  const Folding folding = folding_of(domain);
+  if (!folding.folds()) return particles;
+  images = with_images(particles, folding, reach, static_cast<std::int64_t>(seeding.size()));
+  return images;
 }
 
 void fold_positions(const Folding& folding, Particles& particles) {

@@ -45,6 +45,11 @@ std::optional<int> axis_without_whole_cells(const Domain& domain, int per_axis);
 /// from a sample of points and of times until `end`. None: it goes on smoothly.
 std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const Domain& domain, double end);
 
+/// What a density is summed over where blobs are felt within `reach`: the particles, or, where the domain folds, `images`,
+/// which becomes the particles and their images. Throws InputError as with_images() does.
+const Particles& summed_particles(const Domain& domain, const Lattice& seeding, const Particles& particles,
+                                  double reach, Particles& images);
+
 /// Puts positions beyond periodic and closed faces where they lie in the domain.
 void fold_positions(const Folding& folding, Particles& particles);
 

@@ -10,7 +10,6 @@
 #include "base/broadcast.hpp"
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
-#include "particle/images.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
 #include "sim/density_pieces.hpp"
@@ -155,7 +154,8 @@ void Simulation::Parts::check_density_seconds() const {
   const auto predicted = [&](const std::string& method) {
     DensityOptions options = density_options();
     options.method = method;
-    return predict_density(particles_, scene_.cutoff, scene_.evaluation, options);
+    Particles images;
+    return predict_density(summed(images), scene_.cutoff, scene_.evaluation, options);
   };
   ranks_.agree_on([&] {
     check_seconds(evaluate, predicted(evaluate.method), base::resolve_threads(threads_),
@@ -181,11 +181,7 @@ void Simulation::Parts::plan_reference() {
 
 // Beside the particles the images of them that reach the grid; `images` keeps those.
 const Particles& Simulation::Parts::summed(Particles& images) const {
-  const Folding folding = folding_of(case_.domain);
-  if (!folding.folds()) return particles_;
-  images = with_images(particles_, folding, reach_of_blob(blob(), density_options()),
-                       static_cast<std::int64_t>(scene_.seeding.size()));
-  return images;
+  return summed_particles(case_.domain, scene_.seeding, particles_, reach_of_blob(blob(), density_options()), images);
 }
 
 // The same on all ranks, which agree on how it went.

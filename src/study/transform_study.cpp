@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "base/repeated_time.hpp"
@@ -13,7 +14,9 @@
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "particle/cutoff.hpp"
+#include "sim/edges.hpp"
 #include "sim/scene.hpp"
+#include "sim/tiled_density.hpp"
 #include "sim/transform.hpp"
 #include "study/standard_studies.hpp"
 
@@ -50,7 +53,12 @@ class TransformStudy {
         particles_(particles_at_end(bare, threads)),
         scene_(make_scene(bare, threads)),
         blob_(particles_.spread > 0 ? spread_cutoff(scene_.cutoff, particles_.dimension, particles_.spread)
-                                    : scene_.cutoff) {}
+                                    : scene_.cutoff) {
+    Particles images;
+    const Particles& sources =
+        summed_particles(bare.domain, scene_.seeding, particles_, reach_of_blob(blob_, {}), images);
+    if (&sources == &images) particles_ = std::move(images);
+  }
 
   /// Seconds of the coarsest and of the finest tolerance that could be timed; NaN if none could.
   struct Seconds {
@@ -145,7 +153,7 @@ class TransformStudy {
   Experiment& experiment_;
   const int threads_;
   const double seconds_;
-  const Particles particles_;
+  Particles particles_;  // that are summed: with their images beyond edges
   const Scene scene_;
   const Cutoff blob_;
   const base::EnoughTimes enough_{.long_enough = 0.3, .most = 12};

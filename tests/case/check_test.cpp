@@ -52,6 +52,27 @@ TEST(Trial, OfAFewParticlesIsTheCase) {
   EXPECT_EQ(trial.grid.points, trial.scene.evaluation.points);
 }
 
+// A constant is 1 up to its edges, because their images are summed, too.
+TEST(Check, SumsImagesBeyondEdgesAndTellsWhatDoesNotFitThem) {
+  const auto told = [](const std::string& velocity) {
+    std::string text = text_of(2);
+    const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+    replace(shape_of("wendland", "0.5, 0.5", "0.2"), "expression = \"1\"");
+    replace(velocity_of({"0.1", "0"}), velocity);
+    const Case spec =
+        gaussdrift::parse_case(text, "one.toml", {"domain.edges=[\"periodic\", \"closed\"]", "particles.per_axis=41"})
+            .spec;
+    return forecast(spec, 1);
+  };
+  const Forecast fits = told(velocity_of({"0.1", "0"})), leaks = told(velocity_of({"0.1", "x"}));
+  EXPECT_NEAR(fits.density_minimum, 1, 1e-6);
+  EXPECT_NEAR(fits.density_maximum, 1, 1e-6);
+  EXPECT_TRUE(fits.step_warnings.empty());
+  ASSERT_GE(leaks.step_warnings.size(), 2u);
+  EXPECT_NE(leaks.step_warnings[0].find("not periodic along x"), std::string::npos) << leaks.step_warnings[0];
+  EXPECT_NE(leaks.step_warnings[1].find("goes through a closed edge"), std::string::npos) << leaks.step_warnings[1];
+}
+
 // A lattice of up to 2 10^9 points: the density is asked for at a few hundred thousand of them.
 TEST(Trial, CountsParticlesFromASample) {
   struct Large {
