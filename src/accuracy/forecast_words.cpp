@@ -8,6 +8,7 @@
 #include "base/size_text.hpp"
 #include "effect/catalogue.hpp"
 #include "reference/reference.hpp"
+#include "sim/edges.hpp"
 #include "sim/outside.hpp"
 
 namespace gaussdrift::accuracy {
@@ -36,6 +37,7 @@ std::string head_text(const Case& spec, const Forecast& r) {
                                  r.largest_speed);
   if (!spec.title.empty())
     text += fmt::format("title      {}{}\n", spec.title, spec.cite.empty() ? "" : ", after " + spec.cite);
+  if (domain.has_edges()) text += fmt::format("edges      {}\n", edges_text(domain));
   return text;
 }
 

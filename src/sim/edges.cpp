@@ -72,6 +72,18 @@ std::vector<Face> faces_of(const Domain& domain, Edge edge) {
   return faces;
 }
 
+std::string edges_text(const Domain& domain) {
+  constexpr std::array<const char*, 4> words{"unbounded", "periodic", "open", "closed"};  // in the order of Edge
+  const auto word = [&](Edge edge) { return words[static_cast<std::size_t>(edge)]; };
+  std::string text;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k) {
+    const auto& [low, high] = domain.edges[k];
+    text += fmt::format("{}{} {}{}", k ? ", " : "", "xyz"[k], word(low),
+                        low == high ? "" : fmt::format(" and {}", word(high)));
+  }
+  return text;
+}
+
 Folding folding_of(const Domain& domain) {
   std::array<FoldedAxis, max_dimension> axes{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k)

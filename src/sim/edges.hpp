@@ -25,6 +25,9 @@ struct Face {
 /// The faces with such an edge, axis after axis, the lower one first.
 std::vector<Face> faces_of(const Domain& domain, Edge edge);
 
+/// "x periodic, y closed and open", for people.
+std::string edges_text(const Domain& domain);
+
 /// How places beyond periodic and closed faces lie in the domain.
 Folding folding_of(const Domain& domain);
 

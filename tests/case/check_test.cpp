@@ -56,7 +56,9 @@ TEST(Trial, OfAFewParticlesIsTheCase) {
 TEST(Check, SumsImagesBeyondEdgesAndTellsWhatDoesNotFitThem) {
   const auto told = [](const std::string& velocity) {
     std::string text = text_of(2);
-    const auto replace = [&](const std::string& from, const std::string& to) { text.replace(text.find(from), from.size(), to); };
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
     replace(shape_of("wendland", "0.5, 0.5", "0.2"), "expression = \"1\"");
     replace(velocity_of({"0.1", "0"}), velocity);
     const Case spec =
