@@ -1,13 +1,20 @@
 // Edges of the domain: periodic and closed ones by images, open ones by counting what leaves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <numbers>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "effect/scene.hpp"
 #include "field/folded/folded.hpp"
+#include "field/gridded/grid_data.hpp"
 #include "gaussdrift/error.hpp"
 #include "message_of.hpp"
 #include "particle/images.hpp"
@@ -100,6 +107,48 @@ TEST(FoldedVelocity, SaysWhereItDoesNotFitTheEdges) {
   EXPECT_NE(through[0].find("its component along y is 0.5"), std::string::npos) << through[0];
 }
 
+/// u = 1 + cos(2 pi x)/2 along x on [0, last] x [0, 1], at points 1/16 apart.
+FileVelocitySpec wave_to(double last, const std::string& outside) {
+  auto data = std::make_shared<GridData>();
+  data->name = "u of wave.vti";
+  data->components = 2;
+  data->times = {0};
+  for (int i = 0; i <= std::lround(16 * last); ++i) data->axis[0].push_back(i / 16.0);
+  data->axis[1] = {0, 1};
+  data->values.emplace_back();
+  for (std::size_t p = 0; p < data->points(); ++p) {
+    const double x = data->axis[0][p % data->axis[0].size()];
+    data->values[0].insert(data->values[0].end(), {1 + std::cos(2 * pi * x) / 2, 0.0});
+  }
+  return {.arrays = {}, .interpolation = "linear", .outside = outside, .missing = "error", .data = data};
+}
+
+/// Carried by these data around a periodic axis.
+Case carried_by(const FileVelocitySpec& data) {
+  CaseTables tables = resting;
+  tables.domain = unit_square;
+  tables.density = shape_of("gaussian", "0.7, 0.5", "0.05");
+  Case spec = scene_of({edges("\"periodic\", \"closed\""), "time.end=1.2", "time.step=0.01"}, case_text(tables));
+  spec.velocity = {data};
+  return spec;
+}
+
+TEST(FoldedVelocity, OfDataThatReachBothEndsGoesAround) {
+  Simulation simulation(carried_by(wave_to(1, "error")), 1);
+  const RunSummary summary = simulation.run();
+  EXPECT_TRUE(summary.warnings.empty());
+  EXPECT_EQ(simulation.particles().size(), summary.particles);
+}
+
+TEST(FoldedVelocity, OfDataWithoutTheColumnThatIsMetAgainSaysSo) {
+  const std::string words =
+      message_of<NumericalError>([] { Simulation(carried_by(wave_to(15 / 16.0, "error")), 1).run(); });
+  EXPECT_NE(words.find("outside of u of wave.vti"), std::string::npos) << words;
+  const RunSummary clamped = Simulation(carried_by(wave_to(15 / 16.0, "clamp")), 1).run();
+  ASSERT_FALSE(clamped.warnings.empty());
+  EXPECT_NE(clamped.warnings[0].find("not periodic along x"), std::string::npos) << clamped.warnings[0];
+}
+
 // --- paths
 
 /// Largest distance of particles, by id; both runs have the same ones.
@@ -189,6 +238,14 @@ TEST(FoldedPaths, StayBesideAWallThatTheVelocityPresses) {
     EXPECT_LE(x, 1);
     EXPECT_GE(x, 1 - 0.051);
   }
+}
+
+TEST(FoldedPaths, MeetTheReactionOfTheDomainAgain) {
+  // Once around a periodic axis every weight has met the rate x^2 from -1 to 1; without folding it would grow on and on.
+  const RunSummary summary = Simulation(scene_of({edges("\"periodic\", \"open\""), "velocity.u=[\"1\", \"0\"]",
+                                                  "time.end=2", "time.step=0.01", "effects.reaction.rate=x^2"}))
+                                 .run();
+  EXPECT_NEAR(summary.frames.back().second.mass / summary.frames.front().second.mass, std::exp(-2.0 / 3), 1e-5);
 }
 
 TEST(FoldedPaths, NeighboursAcrossAPeriodicEdgeAreNear) {
