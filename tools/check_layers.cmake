@@ -1,7 +1,7 @@
 # Reads the include lines of src/ and include/ and fails if one points up the module order, or at a header that another module
 # keeps to itself:
 #   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
-#     -> (particle, read, blockmatrix) -> (field, farfield, rbf) -> (expression, fgtd) -> core -> base
+#     -> (particle, read, blockmatrix) -> (field, farfield) -> (expression, rbf) -> fgtd -> core -> base
 #   cli -> mpi -> base, and mpi alone includes <mpi.h>
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
@@ -15,7 +15,7 @@ set(may_farfield base/parallel.hpp base/seam.hpp core)
 set(may_rbf base/parallel.hpp base/seam.hpp core fgtd)
 set(may_case "")
 set(may_time base)
-set(may_field base core expression fgtd)
+set(may_field base core expression fgtd rbf)
 set(may_read base field)
 set(may_particle base fgtd)
 set(may_effect base expression fgtd field particle farfield case)
@@ -58,7 +58,7 @@ set(public_core arguments buffer dispatch simd/functions simd/product_block simd
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
   gaussians/divergence_free gaussians/gaussian_velocity folded/folded gridded/grid_data gridded/gridded
-  named/named_fields scalar velocity/differences velocity/sampled_gradients velocity/value_seconds
+  named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar velocity/differences velocity/sampled_gradients velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read grid_file missing_data written_run)
 set(public_particle columns cutoff fgtd_points images pieces_by_id placing seeding subset tiles)

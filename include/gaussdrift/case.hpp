@@ -21,6 +21,7 @@ namespace gaussdrift {
 
 struct GridData;       // field/gridded/grid_data.hpp
 struct GaussianModel;  // field/gaussians/gaussian_velocity.hpp
+struct SampleFit;      // field/samples/sample_fit.hpp
 
 /// Named constants of `[params]`, in file order.
 using Params = std::vector<std::pair<std::string, double>>;
@@ -90,9 +91,22 @@ struct GaussianVelocitySpec {
   double tolerance = 0;        ///< of the sum of the Gaussians, relative to the largest velocity at the points
   std::shared_ptr<const GaussianModel> model;  ///< the Gaussians
 };
+/// samples = "...": a function through the numbers of a table of scattered points, already read and fitted.
+struct SamplesSpec {
+  std::filesystem::path file;            ///< absolute
+  std::string kernel;                    ///< of rbf, by name
+  double width = 0;                      ///< shape of the kernel, given or chosen; 0 where it takes none
+  double regularisation = 0;             ///< added to the diagonal of the equations
+  std::string outside;                   ///< what holds outside of the samples: error | clamp | zero
+  std::shared_ptr<const SampleFit> fit;  ///< the function
+};
+/// The same of a velocity.
+struct SamplesVelocitySpec : SamplesSpec {
+  bool divergence_free = false;  ///< one matrix kernel for all components
+};
 /// One `[[velocity]]`.
 using VelocitySpec = std::variant<ExpressionVelocitySpec, StreamfunctionVelocitySpec, NamedVelocitySpec,
-                                  FileVelocitySpec, GaussianVelocitySpec>;
+                                  FileVelocitySpec, GaussianVelocitySpec, SamplesVelocitySpec>;
 
 // --- initial density --------------------------------------------------------------------------------------------
 
@@ -115,8 +129,10 @@ struct FileDensitySpec {
   std::optional<double> missing_value;   ///< a number that marks missing data, besides those that are recognised
   std::shared_ptr<const GridData> data;  ///< the numbers
 };
+/// samples = "...": a function through the values of a table of scattered points.
+struct SamplesDensitySpec : SamplesSpec {};
 /// One `[[density]]`.
-using DensitySpec = std::variant<ExpressionDensitySpec, ShapeDensitySpec, FileDensitySpec>;
+using DensitySpec = std::variant<ExpressionDensitySpec, ShapeDensitySpec, FileDensitySpec, SamplesDensitySpec>;
 
 // --- discretisation ---------------------------------------------------------------------------------------------
 

@@ -44,7 +44,8 @@ class HermiteInterpolant {
 
   /// D^alpha s at targets, |alpha| <= 1, anywhere; right to rounding.
   Eigen::VectorXd evaluate(const Eigen::Ref<const Points<d>>& targets, const Derivative<d>& alpha = {}) const;
-  /// What was done. left_out is of the values alone, each predicted from all other numbers.
+  /// What was done. left_out is of the values alone, each predicted from all other numbers. Of more than 500 values, 500
+  /// are left out in turn.
   const FitReport& report() const;
 
  private:
@@ -70,10 +71,13 @@ class DivergenceFreeInterpolant {
 
   /// u at targets, anywhere: M x d, right to rounding.
   Eigen::MatrixXd evaluate(const Eigen::Ref<const Points<d>>& targets) const;
+  /// d u_k / d y_l at targets, anywhere, in column k + d l: M x d^2, right to rounding. Third derivatives of the kernel
+  /// are summed over all pairs. With matern32 they jump at the points; there the mean of both sides is returned.
+  Eigen::MatrixXd gradient(const Eigen::Ref<const Points<d>>& targets) const;
   /// gamma: N x d.
   const Eigen::MatrixXd& weights() const;
   /// What was done. left_out has one number: the root mean square length of the errors of vectors, each predicted from
-  /// the others.
+  /// the others. Of more than 500 vectors, 500 are left out in turn.
   const FitReport& report() const;
 
  private:

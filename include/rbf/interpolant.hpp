@@ -134,7 +134,9 @@ class Interpolant {
   /// @param range             as Options::range: range_of() tells it; 0: targets inside the box around the points
   /// @param derivative_order  as Options::derivative_order
   /// @param expected_targets  as Options::expected_targets
-  Evaluator<d> evaluator(double range = 0, int derivative_order = 0, std::size_t expected_targets = 0) const;
+  /// @param method            as Options::method; with `direct` a value does not depend on what other targets there are
+  Evaluator<d> evaluator(double range = 0, int derivative_order = 0, std::size_t expected_targets = 0,
+                         Method method = Method::automatic) const;
 
   /// The points: d x N.
   const Points<d>& points() const;

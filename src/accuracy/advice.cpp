@@ -60,7 +60,7 @@ bool runs(const Case& spec, int threads, const Change& change) {
 void advise_steps(const Case& spec, const Scene& scene, int threads, Budget& budget) {
   const time::Tableau& tableau = time::find_tableau(spec.time.method);
   if (time::is_adaptive(tableau) || spec.time.step <= 0) return;
-  const double others = std::max({budget.smoothing, budget.quadrature, budget.transform, budget.left_out});
+  const double others = std::max({budget.smoothing, budget.quadrature, budget.transform, budget.left_out, budget.fit});
   const double step = spec.time.step, order = tableau.time_order;
   const double now = std::max(budget.time_stepping, rounding);
   if (now < 1e-2 * others) {
@@ -134,6 +134,8 @@ void give_advice(const Case& spec, const Scene& scene, const Better& better, int
   if (budget.dominates == "smoothing") advise_smoothing(spec, better, threads, budget);
   if (budget.dominates == "quadrature") advise_quadrature(spec, threads, budget);
   if (budget.dominates == "Gauss transform") advise_transform(spec, threads, budget);
+  if (budget.dominates == "fit of samples")
+    budget.advice.push_back("more samples, or another kernel, lower the largest error; no other setting does");
   if (budget.dominates == "particles left out" &&
       runs(spec, threads, [](Case& changed) { changed.particles.threshold = 0; }))
     budget.advice.push_back("particles.threshold = 0 leaves nothing out");

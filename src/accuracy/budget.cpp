@@ -36,7 +36,8 @@ std::string to_text(const Budget& budget) {
   std::string text;
   for (const Cause& cause : causes) {
     const double error = budget.*cause.error;
-    if (cause.error == &Budget::left_out && error <= 0) continue;  // most cases leave nothing out
+    const bool is_rare = cause.error == &Budget::left_out || cause.error == &Budget::fit;
+    if (is_rare && error <= 0) continue;  // most cases leave nothing out, and fit nothing
     text +=
         fmt::format("  {:<17} {:<8.2g}{}\n", cause.name, error, budget.dominates == cause.name ? " <- dominates" : "");
   }
@@ -47,7 +48,8 @@ std::string to_text(const Budget& budget) {
 nlohmann::ordered_json to_json(const Budget& budget) {
   if (!budget.known()) return {{"not_covered", budget.not_covered}};
   auto json = nlohmann::ordered_json::object();
-  for (const Cause& cause : causes) json[cause.key] = budget.*cause.error;
+  for (const Cause& cause : causes)
+    if (cause.error != &Budget::fit || budget.fit > 0) json[cause.key] = budget.*cause.error;
   json["total"] = budget.total;
   json["dominates"] = budget.dominates;
   json["probes"] = budget.probes;

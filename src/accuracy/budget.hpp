@@ -24,6 +24,7 @@ struct Budget {
   double quadrature = 0;     // a sum over lattice points in place of an integral
   double transform = 0;      // predicted: what is allowed; measured: on a sample against the direct sum
   double left_out = 0;       // what the blobs of all points below particles.threshold can make together, at most
+  double fit = 0;            // what samples leave open that density or velocity are fitted to; 0 without such
   double total = 0;
   std::string dominates;            // "smoothing", ...
   std::vector<std::string> advice;  // what could be saved, what would help
@@ -37,7 +38,7 @@ struct Budget {
   bool known() const { return not_covered.empty(); }
 };
 
-/// To bytes and from bytes.
+/// To bytes and from bytes, all but `fit`.
 void pass(base::StateBytes& bytes, Budget& budget);
 
 /// Why a case has no budget: effects that move weight between particles, ...; empty if it has one.
@@ -95,7 +96,8 @@ Budget measure_budget(const Case& spec, const Scene& scene, const LastFrame::Kep
 
 /// A line a cause, the dominating one marked, and the advice.
 std::string to_text(const Budget& budget);
-/// {"time_stepping", "smoothing", "quadrature", "transform", "left_out", "total", "dominates"}, or {"not_covered"}.
+/// {"time_stepping", "smoothing", "quadrature", "transform", "left_out", "total", "dominates"}, with samples "fit" too, or
+/// {"not_covered"}.
 nlohmann::ordered_json to_json(const Budget& budget);
 
 }  // namespace gaussdrift::accuracy

@@ -21,7 +21,42 @@ double sum_of_weights(const Particles& particles) {
   return sum;
 }
 
+/// The largest |grad rho| between neighbours.
+double steepest_slope(const Lattice& lattice, const std::vector<double>& rho) {
+  double steepest = 0;
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    double squares = 0;
+    std::size_t stride = 1, rest = i;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(lattice.dimension); ++k) {
+      const std::size_t points = lattice.points[k];
+      if (rest % points + 1 < points) {
+        const double slope = (rho[i + stride] - rho[i]) / lattice.spacing;
+        squares += slope * slope;
+      }
+      rest /= points;
+      stride *= points;
+    }
+    steepest = std::max(steepest, squares);
+  }
+  return std::sqrt(steepest);
+}
+
 }  // namespace
+
+bool is_fitted(const Scene& scene) { return scene.density->fit_error() > 0 || scene.velocity->fit_error() > 0; }
+
+double fit_of_samples(const Scene& scene, const Particles& start, const std::vector<double>& rho, double time,
+                      double norm) {
+  double largest = 0;  // rho_0
+  for (const double alpha : start.alpha) largest = std::max(largest, std::abs(alpha));
+  largest /= std::pow(scene.seeding.spacing, scene.seeding.dimension);
+  double error = 0;
+  if (const double of_density = scene.density->fit_error(); of_density > 0 && largest > 0)
+    error += of_density / largest;
+  if (const double of_velocity = scene.velocity->fit_error(); of_velocity > 0)
+    error += time * of_velocity * steepest_slope(scene.evaluation, rho) / norm;
+  return error;
+}
 
 void find_dominating(Budget& budget) {
   budget.dominates = std::max_element(causes.begin(), causes.end(), [&](const Cause& a, const Cause& b) {

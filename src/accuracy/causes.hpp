@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "accuracy/budget.hpp"
 #include "gaussdrift/case.hpp"
@@ -17,11 +18,12 @@ struct Cause {
   const char* key;   // in JSON
   double Budget::*error;
 };
-constexpr std::array<Cause, 5> causes{{{"time stepping", "time_stepping", &Budget::time_stepping},
+constexpr std::array<Cause, 6> causes{{{"time stepping", "time_stepping", &Budget::time_stepping},
                                        {"smoothing", "smoothing", &Budget::smoothing},
                                        {"quadrature", "quadrature", &Budget::quadrature},
                                        {"Gauss transform", "transform", &Budget::transform},
-                                       {"particles left out", "left_out", &Budget::left_out}}};
+                                       {"particles left out", "left_out", &Budget::left_out},
+                                       {"fit of samples", "fit", &Budget::fit}}};
 
 /// Sets Budget::dominates to the name of the largest.
 void find_dominating(Budget& budget);
@@ -42,6 +44,15 @@ std::string nothing_to_explain(const Particles& last, double outside, double tim
 /// those carried did.
 double bound_of_left_out(const Scene& scene, const SeedReport& report, const Particles& start, const Particles& carried,
                          double norm);
+
+/// Are density or velocity fitted to samples?
+bool is_fitted(const Scene& scene);
+
+/// What the errors of fits do to a density, estimated: that of rho_0 is carried along, as a part of the largest rho_0.
+/// That of the velocity moves it, all the time, along its steepest slope.
+/// start: particles at t = 0;  rho: on the evaluation lattice at `time`;  norm: largest there
+double fit_of_samples(const Scene& scene, const Particles& start, const std::vector<double>& rho, double time,
+                      double norm);
 
 /// The longest side of the domain.
 double extent(const Case& spec);

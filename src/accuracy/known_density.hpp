@@ -11,7 +11,8 @@
 
 namespace gaussdrift::accuracy {
 
-/// By the formula of the case, or traced back along the flow.
+/// By the formula of the case, or traced back along the flow. Traced in any case where density or velocity are fitted to
+/// samples: the formula is of what they are samples of, and this is the exact density of the fits.
 std::unique_ptr<Reference> exact_density(const Case& spec, const Scene& scene, const Following& following, int threads);
 
 /// Grid points at which the exact density can be known within some work, at most `wanted`.

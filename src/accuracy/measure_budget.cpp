@@ -97,7 +97,7 @@ class Measurement {
       : spec_(spec), scene_(scene), last_(last), effort_(effort), threads_(threads) {}
 
   Budget run() {
-    if (!is_covered() || !know_exact_density() || !find_total() || !choose_probes_and_paths() ||
+    if (!is_covered() || !know_exact_density() || !find_total() || !choose_probes_and_paths() || !set_fit_apart() ||
         !measure_time_stepping() || !measure_smoothing_and_quadrature())
       return budget_;
     budget_.transform = last_.numbers.transform_error;
@@ -166,6 +166,25 @@ class Measurement {
     if (!plan) return not_covered(too_costly);
     plan_ = *plan;
     budget_.probes = plan_.probes.size();
+    return true;
+  }
+
+  /// Where a formula is known of what samples are taken from, the fit's error is the difference from it. All other causes
+  /// are told with the exact density of the fits.
+  bool set_fit_apart() {
+    if (!is_fitted(scene_)) return true;
+    budget_.fit = fit_of_samples(scene_, seeded_, last_.density.rho, last_.time, norm_);
+    if (spec_.reference.kind != ReferenceSpec::Kind::exact) return true;
+    std::vector<std::size_t> places;
+    for (const Probe& probe : plan_.probes) places.push_back(probe.index);
+    std::vector<double> of_fits, of_formula;
+    exact_density(spec_, scene_, {}, threads_)->evaluate_at(last_.time, places, of_fits);
+    make_reference(spec_, scene_, threads_)->evaluate_at(last_.time, places, of_formula);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!std::isfinite(of_fits[i])) return not_covered(lost_paths);
+      plan_.probes[i].exact = of_fits[i];
+    }
+    budget_.fit = at_least_rounding(largest_difference(of_fits, of_formula) / norm_);
     return true;
   }
 

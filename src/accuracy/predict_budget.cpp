@@ -206,7 +206,8 @@ class Prediction {
     if (std::isnan(budget_.time_stepping)) return not_covered(lost_paths);
     budget_.transform = error_of_sums();
     budget_.left_out = bound_of_left_out(scene_, seeding_, seeded_, carried_, norm_);
-    budget_.total = budget_.total + budget_.time_stepping + budget_.transform + budget_.left_out;
+    budget_.fit = fit_of_samples(scene_, seeded_, density_, time(), norm_);
+    budget_.total = budget_.total + budget_.time_stepping + budget_.transform + budget_.left_out + budget_.fit;
     find_dominating(budget_);
     return true;
   }

@@ -16,10 +16,12 @@ namespace {
 Case without_data(Case spec) {
   const auto dimension = static_cast<std::size_t>(spec.domain.dimension);
   for (VelocitySpec& part : spec.velocity)
-    if (std::holds_alternative<FileVelocitySpec>(part) || std::holds_alternative<GaussianVelocitySpec>(part))
+    if (std::holds_alternative<FileVelocitySpec>(part) || std::holds_alternative<GaussianVelocitySpec>(part) ||
+        std::holds_alternative<SamplesVelocitySpec>(part))
       part = ExpressionVelocitySpec{std::vector<std::string>(dimension, "0")};
   for (DensitySpec& part : spec.density)
-    if (std::holds_alternative<FileDensitySpec>(part)) part = ExpressionDensitySpec{"1"};
+    if (std::holds_alternative<FileDensitySpec>(part) || std::holds_alternative<SamplesDensitySpec>(part))
+      part = ExpressionDensitySpec{"1"};
   return spec;
 }
 

@@ -24,6 +24,8 @@ class StateBytes {
 
   bool reading() const { return reading_; }
   const std::string& written() const { return bytes_; }
+  /// While reading: are bytes left?
+  bool has_more() const { return !left_.empty(); }
   /// Throws std::out_of_range if bytes are left that nobody has asked for.
   void end() const {
     if (reading_ && !left_.empty()) throw std::out_of_range("there is more than expected");

@@ -28,6 +28,8 @@ void pass(base::StateBytes& bytes, LookBack& seen) {
   std::string more = seen.more.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   bytes(more, seen.warnings);
   if (bytes.reading()) seen.more = base::json_in(more);
+  // Written by runs with samples alone, so that the bytes of all others stay what they were.
+  if (there && (bytes.reading() ? bytes.has_more() : seen.measured->fit > 0)) bytes(seen.measured->fit);
 }
 
 class KeepLastOutput : public accuracy::LastFrame {

@@ -24,6 +24,7 @@ std::string one_line(const accuracy::Budget& budget) {
                                                      {budget.quadrature, "quadrature"},
                                                      {budget.transform, "Gauss transform"}};
   if (budget.left_out > 0) causes.emplace_back(budget.left_out, "particles left out");
+  if (budget.fit > 0) causes.emplace_back(budget.fit, "fit of samples");
   std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (const auto& [value, name] : causes)

@@ -61,7 +61,8 @@ Explanation about(const Key& key) {
   if (!key.value.empty())
     add(result.facts, "goes with", fmt::format("{} = \"{}\"", key.with, key.value));
   else if (!key.with.empty())
-    add(result.facts, "goes with", std::string(key.with));
+    add(result.facts, "goes with",
+        key.or_with.empty() ? std::string(key.with) : fmt::format("{}, {}", key.with, key.or_with));
   add(result.facts, "type", type_text(key));
   add(result.facts, "range", range_text(key.range));
   add(result.facts, "default", default_text(key));

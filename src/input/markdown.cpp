@@ -35,8 +35,10 @@ std::string keys_markdown(std::string_view table, std::string_view with, std::st
     if ((key.type == Type::choice || key.type == Type::ends) && !key.fallback.empty())
       fallback = fmt::format("\"{}\"", fallback);
     if (key.type == Type::choices && !key.fallback.empty()) fallback = fmt::format("[{}]", fallback);
-    const std::string with_text =
-        value.empty() && !key.with.empty() ? fmt::format(". It goes with `{}`", key.with) : "";
+    const std::string with_text = value.empty() && !key.with.empty()
+                                      ? fmt::format(". It goes with `{}`{}", key.with,
+                                                    key.or_with.empty() ? "" : fmt::format(" or `{}`", key.or_with))
+                                      : "";
     text += fmt::format("| `{}` | {}{} | {}{}{} | {} | {} | {} |\n", key.name, key.meaning, with_text, type_text(key),
                         range.empty() ? "" : ", ", range, fallback, key.unit, key.symbol);
   }

@@ -105,12 +105,14 @@ void Reader::check_companions(const Key& kind, const Entry& chosen) {
     std::vector<std::string> homes;
     for (const Key& key : keys()) {
       if (key.table != kind.table || key.name != entry.name) continue;
-      if (key.value.empty())
+      if (key.value.empty()) {
         homes.push_back(fmt::format("\"{}\"", key.with));
-      else if (homes.empty())
+        if (!key.or_with.empty()) homes.push_back(fmt::format("\"{}\"", key.or_with));
+      } else if (homes.empty()) {
         homes.push_back(fmt::format("{} = \"{}\"", key.with, key.value));
-      else
+      } else {
         homes.push_back(fmt::format("\"{}\"", key.value));
+      }
     }
     if (homes.empty()) continue;  // unknown: complained about already
     const std::string chosen_text =

@@ -110,6 +110,8 @@ class Reader {
   /// One of the key's choices; the index, or nothing after a complaint.
   std::optional<std::size_t> choice_in(const Value& value, const Key& key, const std::string& label);
   std::string choice(std::string_view table_name, std::string_view name);
+  /// True or false; false if the key is not there, or after a complaint.
+  bool flag(std::string_view table_name, std::string_view name);
   /// Those of the key's choices that are in the list of the file, as indices; the default ones if it has none.
   std::vector<std::size_t> choices(std::string_view table_name, std::string_view name);
   /// An expression of position, perhaps time; compiled here to find its errors. A plain number is one too.

@@ -123,6 +123,8 @@ std::string type_text(const Key& key) {
       return "a number or an expression";
     case Type::whole:
       return "a whole number";
+    case Type::boolean:
+      return "true or false";
     case Type::duration:
       return base::duration_form;
     case Type::numbers:

@@ -16,6 +16,7 @@ enum class Type {
   texts,        // a list of strings
   number,       // a number or an expression of params, pi, e
   whole,        // the same, without a fraction
+  boolean,      // true or false
   duration,     // seconds, or a text as "10 min"
   numbers,      // a list of numbers
   point,        // a list of as many numbers as the domain has dimensions
@@ -37,12 +38,13 @@ struct Key {
   std::string_view unit = {};
   std::string_view symbol = {};  // in the thesis
   std::string meaning = {};
-  std::string_view with = {};   // the key that it goes with: "file", "field", ...; empty: it stands by itself
-  std::string_view value = {};  // and the value of that key: "rotation", ...; empty: any
+  std::string_view with = {};     // the key that it goes with: "file", "field", ...; empty: it stands by itself
+  std::string_view value = {};    // and the value of that key: "rotation", ...; empty: any
+  std::string_view or_with = {};  // another key that it goes with
 
   /// Does it go with the kind of a part ("field") and the value named there ("rotation")?
   bool belongs(std::string_view kind, std::string_view named) const {
-    return with.empty() || (with == kind && (value.empty() || value == named));
+    return with.empty() || (with == kind && (value.empty() || value == named)) || (!or_with.empty() && or_with == kind);
   }
 };
 

@@ -37,6 +37,8 @@ Json value_schema(const Key& key) {
       return number_schema("number", key.range);
     case Type::whole:
       return number_schema("integer", key.range);
+    case Type::boolean:
+      return {{"type", "boolean"}};
     case Type::duration:
       return {{"anyOf", Json::array({number_schema("number", key.range), Json{{"type", "string"}}})}};
     case Type::numbers:

@@ -186,6 +186,15 @@ std::string Reader::choice(std::string_view table_name, std::string_view name) {
   return std::string(index ? key.choices[*index] : key.fallback);
 }
 
+bool Reader::flag(std::string_view table_name, std::string_view name) {
+  const Entry* entry = find(table_name, name);
+  if (!entry) return false;
+  if (entry->value.kind == Kind::boolean) return entry->value.boolean;
+  const Key& key = find_key(table_name, name);
+  wrong_type(entry->value, label_of(key), type_text(key));
+  return false;
+}
+
 std::vector<std::size_t> Reader::choices(std::string_view table_name, std::string_view name) {
   const Key& key = find_key(table_name, name);
   const Entry* entry = find(table_name, name);

@@ -29,7 +29,7 @@ std::vector<KernelEntry> all_kernels() {
                  .formula = "exp(-r^2 / c^2)",
                  .profile = [](long double s, long double c) {
                    const long double t = 1 / (c * c), f = std::exp(-t * s);
-                   return Profile{f, -t * f, t * t * f};
+                   return Profile{f, -t * f, t * t * f, -t * t * t * f};
                  }});
   all.push_back({.kernel = Kernel::multiquadric,
                  .name = "multiquadric",
@@ -38,7 +38,7 @@ std::vector<KernelEntry> all_kernels() {
                  .profile =
                      [](long double s, long double c) {
                        const long double q = s + c * c, f = std::sqrt(q);
-                       return Profile{f, 1 / (2 * f), -1 / (4 * f * q)};
+                       return Profile{f, 1 / (2 * f), -1 / (4 * f * q), 3 / (8 * f * q * q)};
                      },
                  .density = [](double t, double c) { return shaped_density(t, c, -1.5, 2 * std::sqrt(pi)); }});
   all.push_back({.kernel = Kernel::inverse_multiquadric,
@@ -47,7 +47,7 @@ std::vector<KernelEntry> all_kernels() {
                  .profile =
                      [](long double s, long double c) {
                        const long double q = s + c * c, f = 1 / std::sqrt(q);
-                       return Profile{f, -f / (2 * q), 3 * f / (4 * q * q)};
+                       return Profile{f, -f / (2 * q), 3 * f / (4 * q * q), -15 * f / (8 * q * q * q)};
                      },
                  .density = [](double t, double c) { return shaped_density(t, c, -0.5, std::sqrt(pi)); }});
   all.push_back({.kernel = Kernel::inverse_quadratic,
@@ -56,7 +56,7 @@ std::vector<KernelEntry> all_kernels() {
                  .profile =
                      [](long double s, long double c) {
                        const long double f = 1 / (s + c * c);
-                       return Profile{f, -f * f, 2 * f * f * f};
+                       return Profile{f, -f * f, 2 * f * f * f, -6 * f * f * f * f};
                      },
                  .density = [](double t, double c) { return shaped_density(t, c, 0, 1); }});
   all.push_back({.kernel = Kernel::thin_plate,
@@ -69,7 +69,7 @@ std::vector<KernelEntry> all_kernels() {
                      [](long double s, long double) {
                        if (!(s > 0)) return Profile{};
                        const long double l = std::log(s);
-                       return Profile{s * l / 2, (l + 1) / 2, 1 / (2 * s)};
+                       return Profile{s * l / 2, (l + 1) / 2, 1 / (2 * s), -1 / (2 * s * s)};
                      },
                  .density = [](double t, double) { return 1 / (2 * t * t); }});
   all.push_back({.kernel = Kernel::matern32,
@@ -78,7 +78,8 @@ std::vector<KernelEntry> all_kernels() {
                  .profile =
                      [](long double s, long double c) {
                        const long double a = std::sqrt(3 * s) / c, e = std::exp(-a), q = 3 / (2 * c * c);
-                       return Profile{(1 + a) * e, -q * e, s > 0 ? q * q * e / a : 0};
+                       if (!(s > 0)) return Profile{1, -q};
+                       return Profile{(1 + a) * e, -q * e, q * q * e / a, -q * q * q * e * (1 + a) / (a * a * a)};
                      },
                  .density = [](double t, double c) { return matern_density(t, std::sqrt(3.0) / c, 2.5); }});
   all.push_back({.kernel = Kernel::matern52,
@@ -87,7 +88,8 @@ std::vector<KernelEntry> all_kernels() {
                  .profile =
                      [](long double s, long double c) {
                        const long double a = std::sqrt(5 * s) / c, e = std::exp(-a), q = 5 / (6 * c * c);
-                       return Profile{(1 + a + a * a / 3) * e, -q * (1 + a) * e, 3 * q * q * e};
+                       return Profile{(1 + a + a * a / 3) * e, -q * (1 + a) * e, 3 * q * q * e,
+                                      s > 0 ? -9 * q * q * q * e / a : 0};
                      },
                  .density = [](double t, double c) { return matern_density(t, std::sqrt(5.0) / c, 3.5); }});
   return all;

@@ -12,9 +12,9 @@
 
 namespace rbf::detail {
 
-/// f, f' and f'' at one s > 0. At s = 0 f and what is finite of f' and f''.
+/// f, f', f'' and f''' at one s > 0. At s = 0 f and what is finite of the others.
 struct Profile {
-  long double value = 0, slope = 0, curvature = 0;
+  long double value = 0, slope = 0, curvature = 0, third = 0;
 };
 
 struct KernelEntry {

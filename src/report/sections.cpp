@@ -98,8 +98,10 @@ std::string budget_table(const json& budget) {
                                   {"quadrature", "quadrature"},
                                   {"transform", "Gauss transform"},
                                   {"left_out", "particles left out, at most"},
+                                  {"fit", "fit of samples"},
                                   {"total", "total"}}) {
-    if (key == std::string("left_out") && is_zero(get(predicted, key)) && is_zero(get(measured, key))) continue;
+    const bool is_rare = key == std::string("left_out") || key == std::string("fit");
+    if (is_rare && is_zero(get(predicted, key)) && is_zero(get(measured, key))) continue;
     const json dominates = get(measured.contains("dominates") ? measured : predicted, "dominates");
     const bool most = dominates.is_string() && std::string(name).starts_with(dominates.get<std::string>());
     text += fmt::format("<tr{}><td>{}<td class=n>{}<td class=n>{}", most ? " class=most" : "", name,

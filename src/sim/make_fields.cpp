@@ -14,6 +14,8 @@
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/gridded.hpp"
 #include "field/named/named_fields.hpp"
+#include "field/samples/sampled_density.hpp"
+#include "field/samples/sampled_velocity.hpp"
 #include "field/velocity/expression_field.hpp"
 #include "field/velocity/streamfunction_field.hpp"
 #include "field/velocity/sum_field.hpp"
@@ -55,10 +57,20 @@ std::unique_ptr<VelocityField> make_part(const FileVelocitySpec& part, const Cas
   return std::make_unique<GriddedVelocity>(interpolator(part));
 }
 
+/// Most particles that there may be at the start: points at which a velocity is evaluated at once.
+std::size_t most_particles(const Case& spec) { return seeding_lattice(spec.domain, spec.particles.per_axis).size(); }
+
 std::unique_ptr<VelocityField> make_part(const GaussianVelocitySpec& part, const Case& spec, int threads) {
-  const Domain& domain = spec.domain;
-  const Lattice seeding = seeding_lattice(domain, spec.particles.per_axis);
-  return make_gaussian_velocity(*part.model, seeding.size(), threads);
+  return make_gaussian_velocity(*part.model, most_particles(spec), threads);
+}
+
+std::unique_ptr<VelocityField> make_part(const SamplesVelocitySpec& part, const Case& spec, int /*threads*/) {
+  return make_sampled_velocity(part.fit, named_choice<Outside>(outside_names, part.outside), most_particles(spec));
+}
+
+std::unique_ptr<InitialDensity> make_part(const SamplesDensitySpec& part, const Case& spec, int /*threads*/) {
+  return make_sampled_density(part.fit, named_choice<Outside>(outside_names, part.outside), spec.domain.min,
+                              spec.domain.max);
 }
 
 std::unique_ptr<InitialDensity> make_part(const FileDensitySpec& part, const Case& /*spec*/, int /*threads*/) {

@@ -1,8 +1,8 @@
 // Tables of comma-separated values: points of sums, samples of velocities.
 #include "fuzz_target.hpp"
 #include "gaussdrift/error.hpp"
-#include "input/gaussian_table.hpp"
 #include "input/points_table.hpp"
+#include "input/sample_table.hpp"
 
 namespace gaussdrift {
 
@@ -26,7 +26,10 @@ FUZZ_TARGET(table) {
     answered([&] { input::parse_points_table(text, "table.csv", role, memory, {"x", "y"}); });
   }
   answered([&] { input::parse_named_columns(text, "table.csv", {"x", "y", "u"}, memory); });
-  answered([&] { input::read_gaussian_table(fuzz::folder().write("table.csv", text), GaussianKind::velocity, 2); });
+  answered([&] {
+    input::read_sample_table(fuzz::folder().write("table.csv", text), {"x", "y", "u", "v"}, 2,
+                             input::Coinciding::refused);
+  });
 }
 
 }  // namespace gaussdrift

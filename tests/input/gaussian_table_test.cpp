@@ -1,5 +1,5 @@
 // Velocities from tables of scattered points: what is read, and the promised message for everything wrong with a table.
-#include "input/gaussian_table.hpp"
+#include "field/gaussians/gaussian_velocity.hpp"
 
 #include <gtest/gtest.h>
 

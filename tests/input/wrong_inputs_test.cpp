@@ -259,10 +259,10 @@ const std::vector<Wrong> wrongs = {
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x +\"]", 16, "+", "a value is missing after \"+\""},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nfield = \"rotation\"", 17, "field",
      "[velocity] has both \"u\" and \"field\"",
-     "give exactly one of \"u\", \"streamfunction\", \"field\", \"file\", \"gaussians\""},
+     "give exactly one of \"u\", \"streamfunction\", \"field\", \"file\", \"gaussians\", \"samples\""},
     {"u = [\"-y\", \"x\"]", "", 15, "[velocity]",
-     "[velocity] has none of \"u\", \"streamfunction\", \"field\", \"file\", \"gaussians\"",
-     "give exactly one of \"u\", \"streamfunction\", \"field\", \"file\", \"gaussians\""},
+     "[velocity] has none of \"u\", \"streamfunction\", \"field\", \"file\", \"gaussians\", \"samples\"",
+     "give exactly one of \"u\", \"streamfunction\", \"field\", \"file\", \"gaussians\", \"samples\""},
     {"u = [\"-y\", \"x\"]", "field = \"rotatoin\"", 16, "\"rotatoin\"",
      "unknown value \"rotatoin\" for velocity.field; did you mean \"rotation\"?",
      "known values: \"rotation\", \"translation\", \"shear\", \"strain\", \"swirl\", \"double_gyre\", "
@@ -297,7 +297,8 @@ const std::vector<Wrong> wrongs = {
      "known values: \"wendland\", \"wendland4\", \"wendland6\", \"cone\", \"gaussian\", \"cosine_bell\", \"disk\", "
      "\"slotted_disk\", \"box\""},
     {"shape = \"wendland\"", "shape = \"wendland\"\nexpression = \"x\"", 20, "expression",
-     "[density] has both \"shape\" and \"expression\"", "give exactly one of \"expression\", \"shape\", \"file\""},
+     "[density] has both \"shape\" and \"expression\"",
+     "give exactly one of \"expression\", \"shape\", \"file\", \"samples\""},
     {"radius = \"R\"\n", "", 18, "[density]", "density.radius is missing", "radius: radius of the shape"},
     {"radius = \"R\"", "radius = \"R-R\"", 21, "\"R-R\"",
      "density.radius must be greater than 0, found 0 (from \"R-R\")", "radius: radius of the shape"},

@@ -116,6 +116,32 @@ void takes_vectors_without_divergence(rbf::Kernel kernel) {
   EXPECT_LE(divergence.cwiseAbs().maxCoeff(), (kernel == rbf::Kernel::matern32 ? 1e-2 : 1e-5) * size);
 }
 
+template <int d>
+void has_the_gradient_of_its_field(rbf::Kernel kernel) {
+  const rbf::Points<d> points = cube<d>(30, 5), targets = cube<d>(10, 6);
+  const rbf::DivergenceFreeInterpolant<d> fit({kernel, 0.3}, points, flow<d>(points));
+  const Eigen::MatrixXd slopes = fit.gradient(targets);
+  const double size = slopes.cwiseAbs().maxCoeff(), step = 1e-4;
+  Eigen::VectorXd divergence = Eigen::VectorXd::Zero(10);
+  for (int l = 0; l < d; ++l) {
+    rbf::Points<d> ahead = targets, behind = targets;
+    ahead.row(l).array() += step;
+    behind.row(l).array() -= step;
+    const Eigen::MatrixXd difference = (fit.evaluate(ahead) - fit.evaluate(behind)) / (2 * step);
+    // Right to the step squared times third derivatives, as above.
+    EXPECT_LE((difference - slopes.middleCols(d * l, d)).cwiseAbs().maxCoeff(),
+              (kernel == rbf::Kernel::matern32 ? 1e-2 : 1e-5) * size)
+        << rbf::to_string(kernel) << l;
+    divergence += slopes.col(l + d * l);
+  }
+  EXPECT_LE(divergence.cwiseAbs().maxCoeff(), 1e-9 * size) << rbf::to_string(kernel);  // large weights cancel
+}
+
+TEST_P(EveryGeneralizedInterpolant, HasTheGradientOfItsFieldWithoutDivergence) {
+  has_the_gradient_of_its_field<2>(GetParam());
+  has_the_gradient_of_its_field<3>(GetParam());
+}
+
 TEST_P(EveryGeneralizedInterpolant, TakesVectorsWithoutDivergence) {
   takes_vectors_without_divergence<2>(GetParam());
   takes_vectors_without_divergence<3>(GetParam());

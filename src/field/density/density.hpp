@@ -16,6 +16,8 @@ class InitialDensity {
   virtual void add(const PointsView& x, double* values) const = 0;
   /// The rough cost of a value, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
+  /// The largest error of its values, estimated, where they are fitted to samples; 0 where they are a formula.
+  virtual double fit_error() const { return 0; }
   /// One line for people: formula, smoothness, and the mass where it is known.
   virtual std::string describe() const = 0;
   /// The integral over all space; nothing where no closed form is known.

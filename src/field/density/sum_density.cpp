@@ -12,6 +12,12 @@ double SumDensity::cost() const {
   return sum;
 }
 
+double SumDensity::fit_error() const {
+  double sum = 0;
+  for (const auto& part : parts_) sum += part->fit_error();
+  return sum;
+}
+
 std::string SumDensity::describe() const {
   std::string text;
   for (const auto& part : parts_) text += (text.empty() ? "" : " + ") + part->describe();

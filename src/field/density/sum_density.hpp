@@ -16,6 +16,7 @@ class SumDensity : public InitialDensity {
   explicit SumDensity(std::vector<std::unique_ptr<InitialDensity>> parts) : parts_(std::move(parts)) {}
   void add(const PointsView& x, double* values) const override;
   double cost() const override;
+  double fit_error() const override;
   std::string describe() const override;
   std::optional<double> mass() const override;
 

@@ -27,6 +27,7 @@ class FoldedVelocity : public VelocityField {
   bool is_solenoidal() const override { return smooth_ && field_->is_solenoidal(); }
   bool evaluates_in_blocks() const override { return field_->evaluates_in_blocks(); }
   double cost() const override { return field_->cost(); }
+  double fit_error() const override { return field_->fit_error(); }
   std::string why_not_finite(double t, const Vector& x) const override;
   std::string describe() const override { return field_->describe(); }
 
@@ -43,6 +44,7 @@ class FoldedDensity : public InitialDensity {
       : density_(std::move(density)), folding_(folding) {}
   void add(const PointsView& x, double* values) const override;
   double cost() const override { return density_->cost(); }
+  double fit_error() const override { return density_->fit_error(); }
   std::string describe() const override { return density_->describe(); }
   std::optional<double> mass() const override { return density_->mass(); }
 

@@ -30,6 +30,12 @@ double SumField::cost() const {
   return sum;
 }
 
+double SumField::fit_error() const {
+  double sum = 0;
+  for (const auto& field : fields_) sum += field->fit_error();
+  return sum;
+}
+
 std::string SumField::why_not_finite(double t, const Vector& x) const {
   for (const auto& field : fields_)
     if (std::string reason = field->why_not_finite(t, x); !reason.empty()) return reason;

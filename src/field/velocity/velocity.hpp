@@ -46,6 +46,8 @@ class VelocityField {
   virtual bool evaluates_in_blocks() const { return true; }
   /// What a value costs, roughly, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
+  /// The error of u, estimated as a root mean square, where it is fitted to samples; 0 where it is a formula.
+  virtual double fit_error() const { return 0; }
   /// Why u is not finite at x, and what can be done, for a message. Empty if the field knows no reason.
   virtual std::string why_not_finite(double /*t*/, const Vector& /*x*/) const { return ""; }
   /// One line for people: formula and what is known of it.

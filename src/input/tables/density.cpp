@@ -20,10 +20,12 @@ Section density_section() {
   const std::vector<Key> of_file =
       grid_file_keys("zero", "what to do where the file has no value. The choices are those of `velocity.missing`");
   keys.insert(keys.end(), of_file.begin(), of_file.end());
+  for (Key key : {samples_key("`x,y[,z],rho`"), kernel_key(), width_key(), regularisation_key()})
+    keys.push_back(std::move(key));
   return {Table{.name = "density",
                 .required = true,
                 .meaning = "the density rho_0 at time 0. Several `[[density]]` add up",
-                .kinds = {"expression", "shape", "file"}},
+                .kinds = {"expression", "shape", "file", "samples"}},
           keys};
 }
 
@@ -33,6 +35,7 @@ void read_density(Reader& in, std::vector<DensitySpec>& density) {
     if (kind == "expression")
       density.emplace_back(ExpressionDensitySpec{in.field_expression(value, in.label_of(key), false)});
     if (kind == "file") density.emplace_back(grid_file<FileDensitySpec>(in, "density", value, 1, 1));
+    if (kind == "samples") density.emplace_back(sampled_density(in, value));
     if (kind == "shape")
       density.emplace_back(ShapeDensitySpec{value.text, in.arguments(key, find_named_shape(value.text).about, value)});
   });

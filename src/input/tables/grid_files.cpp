@@ -28,8 +28,10 @@ std::vector<Key> grid_file_keys(std::string_view outside, const std::string& mis
        .fallback = outside,
        .choices = {outside_names.begin(), outside_names.end()},
        .meaning = "what holds outside the grid: `error` stops the run there, `clamp` takes the value at the nearest "
-                  "point of the surface of the grid, `zero` takes 0",
-       .with = "file"},
+                  "point of the surface of the grid, `zero` takes 0. Samples have the box around them, enlarged by "
+                  "their spacing, in place of a grid",
+       .with = "file",
+       .or_with = "samples"},
       {.name = "missing",
        .type = Type::choice,
        .fallback = "error",

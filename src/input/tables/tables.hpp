@@ -85,6 +85,16 @@ void check_times_of_files(Reader& in);
 template <class FileSpec>
 void write_grid_file(Writer& out, const FileSpec& spec);
 
+/// The keys of samples at scattered points. `outside` is one of grid_file_keys().
+Key samples_key(const std::string& columns);
+Key kernel_key();
+Key width_key();
+Key regularisation_key();
+SamplesDensitySpec sampled_density(Reader& in, const Value& value);
+SamplesVelocitySpec sampled_velocity(Reader& in, const Value& value);
+void write_part(Writer& out, const SamplesDensitySpec& spec);
+void write_part(Writer& out, const SamplesVelocitySpec& spec);
+
 constexpr double largest_lattice = 2147483648.0;  // 2^31 points: 16 GiB a column
 constexpr double largest_grid = 1099511627776.0;  // 2^40 points: of the evaluation lattice, which is held in pieces
 

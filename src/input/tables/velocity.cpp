@@ -7,12 +7,23 @@
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/named/named_fields.hpp"
 #include "input/data_files.hpp"
-#include "input/gaussian_table.hpp"
+#include "input/sample_table.hpp"
 #include "input/tables/tables.hpp"
 
 namespace gaussdrift::input {
 
 namespace {
+
+std::vector<Key> sample_keys() {
+  return {
+      samples_key("`x,y[,z],u,v[,w]`"), kernel_key(),
+      Key{.name = "divergence_free",
+          .type = Type::boolean,
+          .fallback = "false",
+          .meaning = "`true`: the field has no divergence, since one matrix kernel stands for all components. It takes "
+                     "up to 2000 samples in 2D, 1333 in 3D. `false`: each component has a function of its own",
+          .with = "samples"}};
+}
 
 std::vector<Key> gaussian_keys() {
   return {
@@ -34,8 +45,10 @@ std::vector<Key> gaussian_keys() {
        .range = positive,
        .unit = "length",
        .symbol = "1/sqrt(sigma)",
-       .meaning = "width of the Gaussians exp(-r^2/width^2). Without it, twice the average spacing of the points",
-       .with = "gaussians"},
+       .meaning = "width of the Gaussians exp(-r^2/width^2). Without it, twice the average spacing of the points. Of "
+                  "samples: width c of the kernel, without it the one with which left-out samples are predicted best",
+       .with = "gaussians",
+       .or_with = "samples"},
       {.name = "residual",
        .type = Type::number,
        .fallback = "1e-6",
@@ -46,10 +59,13 @@ std::vector<Key> gaussian_keys() {
        .type = Type::number,
        .fallback = "",
        .range = {0, infinity},
-       .meaning = "how much the fit smooths. The diagonal of its matrix is enlarged by this part. With 0 the field "
-                  "passes through all samples. Without this key it is 0. Where Gaussians can hardly be told apart, it "
-                  "is then the smallest of 1e-12, 1e-10, 1e-8 and 1e-6 with which the fit succeeds",
-       .with = "gaussians"},
+       .meaning =
+           "how much the fit smooths. The diagonal of its matrix is enlarged by this part. With 0 the field "
+           "passes through all samples. Without this key it is 0. Where Gaussians can hardly be told apart, it "
+           "is then the smallest of 1e-12, 1e-10, 1e-8 and 1e-6 with which the fit succeeds. Of samples: added to the "
+           "diagonal, in units of the kernel, 0 by default",
+       .with = "gaussians",
+       .or_with = "samples"},
       {.name = "tolerance",
        .type = Type::number,
        .fallback = "1e-8",
@@ -90,11 +106,12 @@ Section velocity_section() {
       "`_FillValue` or `missing_value` of its array names it. Numbers that programs use as a mark, such as "
       "1e20 or -9999, and numbers far outside the rest are missing too");
   of_file.insert(of_file.begin() + 1, arrays_key());
-  for (const std::vector<Key>& more : {of_file, gaussian_keys()}) keys.insert(keys.end(), more.begin(), more.end());
+  for (const std::vector<Key>& more : {of_file, gaussian_keys(), sample_keys()})
+    keys.insert(keys.end(), more.begin(), more.end());
   return {Table{.name = "velocity",
                 .required = true,
                 .meaning = "the prescribed velocity u. Several `[[velocity]]` add up",
-                .kinds = {"u", "streamfunction", "field", "file", "gaussians"}},
+                .kinds = {"u", "streamfunction", "field", "file", "gaussians", "samples"}},
           keys};
 }
 
@@ -134,7 +151,9 @@ GaussianVelocitySpec gaussians(Reader& in, const Value& value) {
   if (!in.facts.dimension || in.diagnostics.errors() > errors_before) return spec;
   spec.file = find_data_file(in.folder, value.text);
   try {
-    const GaussianTable table = read_gaussian_table(spec.file, options.kind, in.facts.dimension);
+    const SampleTable table =
+        read_sample_table(spec.file, gaussian_columns_of(options.kind, in.facts.dimension), in.facts.dimension,
+                          is_fitted(options.kind) ? Coinciding::refused : Coinciding::allowed);
     spec.model = std::make_shared<const GaussianModel>(
         make_gaussian_model(in.facts.dimension, table.positions, table.values, options));
     spec.regularisation = spec.model->regularisation;
@@ -184,6 +203,7 @@ void read_velocity(Reader& in, std::vector<VelocitySpec>& velocity) {
     if (kind == "file")
       velocity.emplace_back(grid_file<FileVelocitySpec>(in, "velocity", value, in.facts.dimension, 3));
     if (kind == "gaussians") velocity.emplace_back(gaussians(in, value));
+    if (kind == "samples") velocity.emplace_back(sampled_velocity(in, value));
     if (kind == "streamfunction") velocity.emplace_back(streamfunction(in, value));
     if (kind == "field")
       velocity.emplace_back(NamedVelocitySpec{

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/parallel.hpp"
 #include "rbf/catalogue.hpp"
 #include "rbf/check.hpp"
 #include "rbf/fit/check_fit.hpp"
@@ -39,6 +40,9 @@ struct Local {
     hessian.diagonal().array() += 2 * slope;
   }
 };
+
+/// The error of what is left out is found from so many groups, evenly spread over all.
+constexpr std::size_t most_left_out = 500;
 
 /// What is to be fitted: the matrix for a kernel, the numbers, and which of them are left out together.
 struct Problem {
@@ -73,14 +77,27 @@ Solved solve(const Problem& problem, const Function& function, const FitOptions&
   found.residual = largest > 0 ? left().cwiseAbs().maxCoeff() / largest : 0;
   // Without a group g the others predict it with the error G_gg^-1 (weights)_g: changing its numbers by that makes its
   // weights 0.
+  // Rows of G for several groups at a time: a product of matrices is quicker than as many of vectors.
+  const std::size_t groups = problem.left_out.size(), looked_at = std::min(groups, most_left_out);
+  constexpr std::size_t at_a_time = 64;
   double squares = 0;
-  for (const std::vector<Index>& group : problem.left_out) {
-    const Eigen::MatrixXd rows = system.weight_rows(group);
-    const Eigen::MatrixXd own = rows(Eigen::all, group);
-    const Eigen::VectorXd weights = found.coefficients.weights.col(0)(group);
-    squares += (sign * own).ldlt().solve(sign * weights).squaredNorm();
+  for (std::size_t first = 0; first < looked_at; first += at_a_time) {
+    const std::size_t last = std::min(looked_at, first + at_a_time);
+    std::vector<Index> indices;
+    for (std::size_t g = first; g < last; ++g)
+      for (const Index k : problem.left_out[g * groups / looked_at]) indices.push_back(k);
+    const Eigen::MatrixXd rows = system.weight_rows(indices);
+    Index begun = 0;
+    for (std::size_t g = first; g < last; ++g) {
+      const std::vector<Index>& group = problem.left_out[g * groups / looked_at];
+      const auto size = static_cast<Index>(group.size());
+      const Eigen::MatrixXd own = rows.middleRows(begun, size)(Eigen::all, group);
+      const Eigen::VectorXd weights = found.coefficients.weights.col(0)(group);
+      squares += (sign * own).ldlt().solve(sign * weights).squaredNorm();
+      begun += size;
+    }
   }
-  found.left_out = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, problem.left_out.size())));
+  found.left_out = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, looked_at)));
   return found;
 }
 
@@ -345,6 +362,36 @@ Eigen::MatrixXd DivergenceFreeInterpolant<d>::evaluate(const Eigen::Ref<const Po
         if (other != l) found.col(other) -= of.col(other);  // of the Laplacian; its own term cancels
     }
   }
+  return found;
+}
+
+template <int d>
+Eigen::MatrixXd DivergenceFreeInterpolant<d>::gradient(const Eigen::Ref<const Points<d>>& targets) const {
+  const Points<d> packed = targets;
+  detail::check_points("target", packed.data(), d, static_cast<std::size_t>(packed.cols()), d, fitted_->threads);
+  const Function& function = fitted_->report.function;
+  const Points<d>& points = fitted_->points;
+  const Eigen::MatrixXd& gamma = fitted_->weights;
+  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(packed.cols(), d * d);
+  constexpr double seconds_of_a_pair = 2e-7;
+  gaussdrift::base::parallel_for(
+      {static_cast<std::size_t>(packed.cols()),
+       seconds_of_a_pair * static_cast<double>(packed.cols()) * static_cast<double>(points.cols())},
+      fitted_->threads, [&](std::size_t target) {
+        const auto i = static_cast<Index>(target);
+        for (Index j = 0; j < points.cols(); ++j) {
+          const Eigen::Matrix<double, d, 1> x = packed.col(i) - points.col(j);
+          const detail::Profile at =
+              detail::entry_of(function.kernel).profile(static_cast<long double>(x.squaredNorm()), function.shape);
+          // D_klm phi = b (delta_kl x_m + delta_km x_l + delta_lm x_k) + a x_k x_l x_m, and D_m Laplacian phi = e x_m.
+          const double a = 8 * static_cast<double>(at.third), b = 4 * static_cast<double>(at.curvature);
+          const double e = (d + 2) * b + a * x.squaredNorm(), along = gamma.row(j) * x;
+          for (Index l = 0; l < d; ++l)
+            for (Index k = 0; k < d; ++k)
+              found(i, k + d * l) += b * ((k == l ? along : 0) + gamma(j, l) * x[k] + gamma(j, k) * x[l]) +
+                                     a * x[k] * x[l] * along - e * x[l] * gamma(j, k);
+        }
+      });
   return found;
 }
 

@@ -93,8 +93,11 @@ Interpolant<d>::Interpolant(const Function& function, const Eigen::Ref<const Poi
 }
 
 template <int d>
-Evaluator<d> Interpolant<d>::evaluator(double range, int derivative_order, std::size_t expected_targets) const {
-  return {fitted_, fitted_->evaluation(range, derivative_order, expected_targets)};
+Evaluator<d> Interpolant<d>::evaluator(double range, int derivative_order, std::size_t expected_targets,
+                                       Method method) const {
+  Options options = fitted_->evaluation(range, derivative_order, expected_targets);
+  options.method = method;
+  return {fitted_, options};
 }
 
 template <int d>

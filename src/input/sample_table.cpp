@@ -1,4 +1,4 @@
-#include "input/gaussian_table.hpp"
+#include "input/sample_table.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +14,6 @@ namespace gaussdrift::input {
 
 namespace {
 
-// A fit to two samples at one place has no solution, or no meaning.
 void check_distinct(const NamedColumns& table, std::size_t columns, std::size_t dimension, const std::string& name) {
   const std::vector<double>& rows = table.rows;
   std::vector<std::size_t> order(rows.size() / columns);
@@ -42,14 +41,14 @@ void check_distinct(const NamedColumns& table, std::size_t columns, std::size_t 
 
 }  // namespace
 
-GaussianTable read_gaussian_table(const std::filesystem::path& file, GaussianKind kind, int dimension) {
+SampleTable read_sample_table(const std::filesystem::path& file, const std::vector<std::string>& names, int dimension,
+                              Coinciding coinciding) {
   constexpr std::size_t memory_limit = std::size_t{2} << 30;
-  const std::vector<std::string> names = gaussian_columns_of(kind, dimension);
   const NamedColumns read = read_named_columns(file, names, memory_limit);
   const std::vector<double>& rows = read.rows;
   const std::size_t columns = names.size(), d = static_cast<std::size_t>(dimension);
-  if (is_fitted(kind)) check_distinct(read, columns, d, file.string());
-  GaussianTable table;
+  if (coinciding == Coinciding::refused) check_distinct(read, columns, d, file.string());
+  SampleTable table;
   for (std::size_t at = 0; at < rows.size(); at += columns) {
     const auto row = rows.begin() + static_cast<std::ptrdiff_t>(at);
     table.positions.insert(table.positions.end(), row, row + dimension);

@@ -1,0 +1,106 @@
+// A scene whose density, or velocity, is known at random points only: the error of the run is the error of the fit, and
+// the budget tells it as a cause of its own.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include "accuracy/budget.hpp"
+#include "case_text.hpp"
+#include "gaussdrift/read_case.hpp"
+#include "scratch_folder.hpp"
+
+namespace gaussdrift::accuracy {
+namespace {
+
+struct Found {
+  Budget predicted, measured;
+  double linf = 0;
+};
+
+Found run(const Case& spec) {
+  Found found;
+  LastFrame::Kept last;
+  Simulation simulation(spec);
+  simulation.observe(std::make_unique<LastFrame>(last, spec.output.times.back()));
+  found.linf = simulation.run().frames.back().second.error->linf;
+  found.measured = measure_budget(spec, make_scene(spec), last, Effort::whatever, 0);
+  found.predicted = predict_budget(spec, make_scene(spec), Effort::whatever, 0);
+  return found;
+}
+
+class SampledScene : public ::testing::Test {
+ protected:
+  template <class Function>
+  void write(const std::string& name, const std::string& header, int count, double reach, const Function& function) {
+    std::mt19937 random(1);
+    std::ofstream out(folder_ / name);
+    out.precision(17);
+    out << header << "\n";
+    const auto coordinate = [&] { return reach * (2 * static_cast<double>(random()) / 4294967296.0 - 1); };
+    for (int i = 0; i < count; ++i) {
+      const double x = coordinate(), y = coordinate();
+      out << x << "," << y;
+      for (const double value : function(x, y)) out << "," << value;
+      out << "\n";
+    }
+  }
+  Case scene(const CaseTables& tables) const { return parse_case(case_text(tables), folder_ / "scene.toml").spec; }
+
+  ScratchFolder folder_;
+};
+
+const std::string turned_gaussian = "kind = \"exact\"\nrho = \"exp(-((x - 0.2*cos(t))^2 + (y - 0.2*sin(t))^2)/0.04)\"";
+// Blobs of order 8, whose own errors are some 1e-6. The Gaussian is 1e-7 where the domain ends.
+const std::string fine = "per_axis = 101\ncutoff = \"gauss8\"";
+
+TEST_F(SampledScene, OfAGaussianAtRandomPointsReachesTheErrorOfTheFit) {
+  write("cloud.csv", "x,y,rho", 2000, 1,
+        [](double x, double y) { return std::vector<double>{std::exp(-((x - 0.2) * (x - 0.2) + y * y) / 0.04)}; });
+  // The width is the one that is chosen: given, the test takes a third of the time.
+  const Case spec = scene({.density = "samples = \"cloud.csv\"\nwidth = 0.36",
+                           .particles = fine,
+                           .time = "end = 0.5\nstep = 0.05",
+                           .evaluate = "per_axis = 61",
+                           .reference = turned_gaussian});
+  const Found found = run(spec);
+  EXPECT_LT(found.linf, 1e-3);
+  for (const Budget& budget : {found.measured, found.predicted}) {
+    ASSERT_TRUE(budget.known()) << budget.not_covered;
+    EXPECT_EQ(budget.dominates, "fit of samples");
+    EXPECT_LT(std::max({budget.smoothing, budget.quadrature, budget.time_stepping}), 0.2 * budget.fit);
+    EXPECT_NE(to_text(budget).find("fit of samples"), std::string::npos);
+  }
+  // Measured: the difference of the fit from the formula, where it is largest. Predicted: from left-out samples.
+  EXPECT_NEAR(found.measured.fit / found.linf, 1, 0.1);
+  EXPECT_GT(found.predicted.fit, 0.5 * found.linf);
+  EXPECT_LT(found.predicted.fit, 10 * found.linf);
+}
+
+TEST_F(SampledScene, WithAFormulaAloneHasNoSuchCause) {
+  const Found found = run(scene({.reference = "kind = \"characteristics\""}));
+  EXPECT_EQ(found.measured.fit, 0);
+  EXPECT_EQ(found.predicted.fit, 0);
+  EXPECT_EQ(to_text(found.predicted).find("fit of samples"), std::string::npos);
+}
+
+TEST_F(SampledScene, OfAWindAtRandomPointsTellsWhatTheFitOfTheWindDoes) {
+  write("wind.csv", "x,y,u,v", 300, 1.2, [](double x, double y) { return std::vector<double>{-y, x}; });
+  const Found found = run(scene({.velocity = "samples = \"wind.csv\"\nwidth = 0.7",
+                                 .density = "expression = \"exp(-((x - 0.2)^2 + y^2)/0.04)\"",
+                                 .particles = fine,
+                                 .time = "end = 0.5\nstep = 0.05",
+                                 .evaluate = "per_axis = 61",
+                                 .reference = turned_gaussian}));
+  ASSERT_TRUE(found.measured.known()) << found.measured.not_covered;
+  EXPECT_EQ(found.measured.dominates, "fit of samples");
+  EXPECT_NEAR(found.measured.fit / found.linf, 1, 0.1);
+  // Predicted from above: samples at the border, which the others see from one side, have the largest errors.
+  ASSERT_TRUE(found.predicted.known()) << found.predicted.not_covered;
+  EXPECT_GT(found.predicted.fit, 0.5 * found.linf);
+}
+
+}  // namespace
+}  // namespace gaussdrift::accuracy
