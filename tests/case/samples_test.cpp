@@ -87,12 +87,12 @@ TEST_F(SampledScene, WithAFormulaAloneHasNoSuchCause) {
 }
 
 TEST_F(SampledScene, OfAWindAtRandomPointsTellsWhatTheFitOfTheWindDoes) {
-  write("wind.csv", "x,y,u,v", 300, 1.2, [](double x, double y) { return std::vector<double>{-y, x}; });
+  write("wind.csv", "x,y,u,v", 150, 1.2, [](double x, double y) { return std::vector<double>{-y, x}; });
   const Found found = run(scene({.velocity = "samples = \"wind.csv\"\nwidth = 0.7",
                                  .density = "expression = \"exp(-((x - 0.2)^2 + y^2)/0.04)\"",
                                  .particles = fine,
-                                 .time = "end = 0.5\nstep = 0.05",
-                                 .evaluate = "per_axis = 61",
+                                 .time = "end = 0.5\nstep = 0.1",
+                                 .evaluate = "per_axis = 31",
                                  .reference = turned_gaussian}));
   ASSERT_TRUE(found.measured.known()) << found.measured.not_covered;
   EXPECT_EQ(found.measured.dominates, "fit of samples");
