@@ -101,7 +101,9 @@ double derivative(const Function& function, double r);
 double largest_value(const Function& function, double range);
 /// The largest |phi|, |phi'|, or of |phi''| and |phi'/r|, 0 <= r <= range: what the errors of derivatives of that order
 /// are relative to.
-/// @param order  0, 1 or 2, at most highest_derivative()
+/// @param function  the kernel and its shape
+/// @param range     of distances
+/// @param order     0, 1 or 2, at most highest_derivative()
 /// @throws InvalidArgument  as value(), or for another order
 double largest_derivative(const Function& function, double range, int order);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double finest_tolerance = 3e-14;  // below it rounding takes what the window leaves
 constexpr double glance_error = 4;          // factor by which a prediction without a look at the points may be too high
-constexpr double narrow_windows_from = 3e-7;  // tolerances below which a window of one node less serves
+constexpr double narrow_windows_from = 8e-7;  // tolerances below which a window of one node less serves
 
 /// Nodes of the lattice along each axis.
 template <int d>
