@@ -30,6 +30,8 @@ inline void expect_same(const FrameNumbers& m, const FrameNumbers& n) {
   EXPECT_EQ(m.compared, n.compared);
   EXPECT_EQ(m.untraced, n.untraced);
   EXPECT_EQ(m.inside, n.inside);
+  EXPECT_EQ(m.released, n.released);
+  EXPECT_EQ(m.decayed, n.decayed);
   ASSERT_EQ(m.left.size(), n.left.size());
   for (std::size_t r = 0; r < m.left.size(); ++r) {
     EXPECT_EQ(m.left[r].reason, n.left[r].reason);

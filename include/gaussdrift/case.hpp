@@ -134,6 +134,28 @@ struct SamplesDensitySpec : SamplesSpec {};
 /// One `[[density]]`.
 using DensitySpec = std::variant<ExpressionDensitySpec, ShapeDensitySpec, FileDensitySpec, SamplesDensitySpec>;
 
+// --- what enters during the run ---------------------------------------------------------------------------------
+
+/// point = [...]: one blob.
+struct PointSourceSpec {
+  std::vector<double> place;  ///< one number a dimension
+  double amount = 0;          ///< of a release at one time; with a rate that says it
+};
+/// points = "...": a table of blobs, each with its own time and amount, already read.
+struct PointsSourceSpec {
+  std::filesystem::path file;                       ///< absolute
+  std::shared_ptr<const std::vector<double>> rows;  ///< x, y, z in space, t, amount; row after row
+};
+/// One `[[source]]`.
+struct SourceSpec {
+  std::variant<ShapeDensitySpec, PointSourceSpec, PointsSourceSpec> what;  ///< a shape is a density to be released
+  std::optional<double> at{};  ///< everything at this time; empty: over an interval, or as the table says
+  double from = 0;             ///< begin of the interval
+  double to = 0;               ///< end of the interval
+  std::string rate{};          ///< an expression in t and the params; empty: at one time, or as the table says
+  int puffs = 0;               ///< into which the interval is divided
+};
+
 // --- discretisation ---------------------------------------------------------------------------------------------
 
 /// `[particles]`: the lattice on which particles start, and the blob that each carries.
@@ -234,16 +256,17 @@ struct ReferenceSpec {
 };
 
 /// A bound on a number of the outputs. The norms of the error are relative to those of the exact density at the same
-/// time, the mass to that at the start.
+/// time, masses to that at the start.
 struct CheckSpec {
   /// What is bounded.
   enum class Quantity {
-    linf,    ///< largest difference from the reference
-    l1,      ///< its integral
-    l2,      ///< its root mean square
-    mass,    ///< the sum of all weights
-    inside,  ///< the sum of the weights of particles inside the domain
-    left     ///< of those that have left the run
+    linf,     ///< largest difference from the reference
+    l1,       ///< its integral
+    l2,       ///< its root mean square
+    mass,     ///< the sum of all weights
+    inside,   ///< the sum of the weights of particles inside the domain
+    left,     ///< of those that have left the run
+    released  ///< of those that sources have released, not relative to anything
   };
   /// True if it is a norm of the error, which needs a reference.
   bool is_error() const { return what == Quantity::linf || what == Quantity::l1 || what == Quantity::l2; }
@@ -340,6 +363,7 @@ struct Case {
   Domain domain;                       ///< `[domain]`
   std::vector<VelocitySpec> velocity;  ///< the fields add up
   std::vector<DensitySpec> density;    ///< the densities add up
+  std::vector<SourceSpec> sources;     ///< what enters during the run
   ParticleSpec particles;              ///< `[particles]`
   TimeSpec time;                       ///< `[time]`
   EvaluateSpec evaluate;               ///< `[evaluate]`

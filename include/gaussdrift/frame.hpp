@@ -47,6 +47,9 @@ struct FrameNumbers {
   std::optional<double> inside{};
   /// What has left the run so far, for each reason that there may be, in a fixed order; empty: nothing can leave.
   std::vector<Departed> left{};
+  /// With sources: the sum of the weights that they have released so far, and what weights have lost along the paths
+  /// (reaction). mass = mass at the start + released - what has left - decayed, but for rounding.
+  std::optional<double> released{}, decayed{};
 };
 
 /// One output. What it points at belongs to the run and stays as it is until the observer returns.

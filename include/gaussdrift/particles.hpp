@@ -17,7 +17,7 @@ struct Particles {
   int dimension = 2;                                        ///< 2 or 3
   std::array<std::vector<double>, max_dimension> position;  ///< X_j, one array per axis
   std::vector<double> alpha;                                ///< weights, masses: alpha_j = h^d rho_0(x_j) at the start
-  std::vector<std::int64_t> id;  ///< index on the seeding lattice, first axis fastest; constant
+  std::vector<std::int64_t> id;  ///< index on the seeding lattice, first axis fastest; beyond it: released; constant
 
   // Only what the effects of a scene ask for; empty and 0 without them.
   std::vector<std::vector<double>> path;  ///< integrals along the paths, one array an integral, since they were settled

@@ -34,8 +34,7 @@ nlohmann::ordered_json accuracy_table(const Case& spec, double run_seconds, cons
                           ? spread_cutoff(scene.cutoff, last.particles.dimension, last.particles.spread)
                           : scene.cutoff;
   Particles images;
-  const Particles& sources =
-      summed_particles(spec.domain, scene.seeding, last.particles, reach_of_blob(blob, {}), images);
+  const Particles& sources = summed_particles(spec.domain, last.particles, reach_of_blob(blob, {}), images);
   const base::EnoughTimes enough{.long_enough = most / rows, .most = 6};
   std::vector<base::RepeatedTime> times(rows);
   std::array<double, rows> error{};

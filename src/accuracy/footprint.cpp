@@ -26,6 +26,7 @@
 #include "sim/edges.hpp"
 #include "sim/fields_on_grid.hpp"
 #include "sim/grid_pieces.hpp"
+#include "sim/releases.hpp"
 #include "sim/scene.hpp"
 #include "write/checkpoint.hpp"
 
@@ -123,12 +124,12 @@ RunMemory operator+(const RunMemory& a, const RunMemory& b) {
 }
 
 std::optional<std::size_t> pieces_of_particles(const Case& spec, std::size_t particles) {
-  if (changes_particles(spec)) return std::nullopt;
+  if (changes_particles(spec) || !spec.sources.empty()) return std::nullopt;
   return static_cast<std::size_t>(most_pieces(spec, static_cast<double>(particles)));
 }
 
 double particles_at_most(const Case& spec, Trial& trial) {
-  if (!changes_particles(spec)) return trial.carried;
+  if (!changes_particles(spec)) return trial.carried + particles_released(spec, 1);
   const double seeded = static_cast<double>(trial.particles.size()), each = trial.carried / seeded;
   Particles particles = trial.particles;
   Carrier carrier(trial.spec, trial.scene, 1);
@@ -266,7 +267,7 @@ void refuse_what_does_not_fit(const Case& spec, int threads, double most_memory)
   const Domain& domain = spec.domain;
   const auto lattice = static_cast<double>(seeding_lattice(domain, spec.particles.per_axis).size());
   Extent extent{.lattice_points = lattice,
-                .particles = lattice * (changes_particles(spec) ? 2 : 1),
+                .particles = lattice * (changes_particles(spec) ? 2 : 1) + particles_released(spec, threads),
                 .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
                 .compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none};
   const auto fits = [&](const MemoryLimit& limit) { return memory_of_run(spec, extent).all() < limit.left(); };

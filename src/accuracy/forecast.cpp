@@ -27,6 +27,7 @@
 #include "sim/grid_pieces.hpp"
 #include "sim/landings.hpp"
 #include "sim/outside.hpp"
+#include "sim/releases.hpp"
 #include "sim/tiled_density.hpp"
 #include "sim/work.hpp"
 
@@ -157,8 +158,8 @@ void try_density(const Case& spec, const Trial& trial, int threads, Forecast& re
   }
   const ProcessorClock watch;
   Particles with_images;
-  const Particles& sources = summed_particles(spec.domain, trial.scene.seeding, trial.particles,
-                                              reach_of_blob(trial.scene.cutoff, options), with_images);
+  const Particles& sources =
+      summed_particles(spec.domain, trial.particles, reach_of_blob(trial.scene.cutoff, options), with_images);
   const DensityGrid density = evaluate_density(sources, trial.scene.cutoff, grid, options, &result.density);
   const double both = result.density.evaluate_seconds + result.density.measure_seconds,
                of_sum = both > 0 ? result.density.evaluate_seconds / both : 1;
@@ -209,6 +210,10 @@ void try_steps(const Case& spec, Trial& trial, int threads, Forecast& result) {
   result.particles_at_end =
       with_halo(trial.carried, static_cast<double>(particles.size()) - seeded, each, spec.domain.dimension);
   result.particles_at_most = result.particles_at_end;
+  // On the mean of the run about half of what sources release is there.
+  result.released = particles_released(spec, threads);
+  result.particles_at_end += result.released / 2;
+  result.particles_at_most += result.released;
   const double times = result.particles_at_end / static_cast<double>(particles.size());
   const bool drifts = particles_interact(spec.effects);
   double seconds = 0;
@@ -216,6 +221,7 @@ void try_steps(const Case& spec, Trial& trial, int threads, Forecast& result) {
   if (carrier.is_adaptive()) {
     const ChosenSteps chosen = try_chosen_steps(trial.spec, trial.scene, trial.particles);
     result.steps = static_cast<std::size_t>(chosen.steps);
+    if (!spec.sources.empty()) result.steps = std::max(result.steps, landings(spec).size());
     seconds = chosen.seconds * times;
   } else {
     const bool replaced = carrier.replaces_particles() && spec.time.end > 0;

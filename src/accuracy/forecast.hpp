@@ -44,6 +44,7 @@ struct Forecast {
   double error_at_start = -1;   // largest, of rho_eps^h on the grid; negative: not known
   double particles_at_end = 0;  // with those that diffusion and remeshing add, on the mean of the run
   double particles_at_most = 0;
+  double released = 0;             // particles, by sources
   std::size_t tried_in_steps = 0;  // particles whose steps were timed
   RunMemory memory;                // beside the program
   double program_bytes = 0;        // that the program itself takes

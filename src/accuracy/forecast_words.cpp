@@ -51,6 +51,9 @@ std::string particles_text(const Case& spec, const Forecast& r) {
       fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}\n",
                   grouped(r.lattice_points), r.spacing, spec.particles.overlap, r.core_radius, spec.particles.cutoff,
                   r.whole ? "" : "about ", grouped(r.particles), besides.empty() ? "" : fmt::format(" or {}", besides));
+  if (!spec.sources.empty())
+    text += fmt::format("sources    {} release about {} particles during the run\n", spec.sources.size(),
+                        grouped(static_cast<std::size_t>(r.released)));
   if (r.seeding.left_out > 0)
     text += fmt::format(
         "           {} with less than {:g} of the largest weight are left out: {:.1e} of the mass{} "

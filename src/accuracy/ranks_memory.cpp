@@ -20,6 +20,7 @@
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "sim/edges.hpp"
+#include "sim/releases.hpp"
 #include "write/folder_lock.hpp"
 
 namespace gaussdrift::accuracy {
@@ -97,7 +98,7 @@ const Shared* exceeded(const std::vector<Shared>& limits, const std::vector<RunM
 /// More than any rank can take.
 RunMemory at_most(const Case& spec, double lattice_points) {
   return memory_of_run(spec, {.lattice_points = lattice_points,
-                              .particles = 2 * lattice_points,
+                              .particles = 2 * lattice_points + particles_released(spec, 1),
                               .grid_points = static_cast<double>(evaluation_lattice(spec).size()),
                               .compared_everywhere = spec.reference.kind != ReferenceSpec::Kind::none});
 }

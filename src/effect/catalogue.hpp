@@ -97,6 +97,8 @@ struct NamedEffect {
   /// The key with the rate at which weights decay along their paths, if that is all that the effect does: the exact
   /// density and the error budget know it then.
   std::string_view decay_rate = {};
+  /// The key with a half-life, which may stand in place of that rate: ln 2 / half-life.
+  std::string_view half_life = {};
   /// The key with a density that particles carry besides rho_0; particles start where either is.
   std::string_view carried = {};
   /// What that is called: "charge".

@@ -57,37 +57,50 @@ void Reaction::settle(Particles& particles, const double* integral, double time)
   }
 }
 
-constexpr std::string_view nothing_enters =
-    "all mass is there at the start, in [density]; [effects.reaction] lets it decay, or grow with a negative rate";
+constexpr std::string_view what_enters =
+    "[[source]] releases mass during the run; [effects.reaction] lets it decay, or grow with a negative rate";
+
+std::vector<Complaint> problems(const EffectSpec& effect, const Case&) {
+  if (effect.has("rate") || effect.has("half_life")) return {};
+  return {{"rate", "has neither \"rate\" nor \"half_life\"", "give one of them: rate = 0.5, or half_life = 3"}};
+}
 
 }  // namespace
 
 namespace named {
 
 NamedEffect reaction() {
-  return {
-      .about =
-          NamedFormula{.name = "reaction",
-                       .meaning = "the weights of the particles decay or grow along their paths: alpha' = -rate alpha. "
-                                  "The density then obeys d_t rho + div(rho u) + rate rho = 0",
-                       .parameters = {{.name = "rate",
-                                       .kind = NamedParameter::Kind::expression_in_time,
-                                       .unit = "1 / time",
-                                       .symbol = "u_0",
-                                       .meaning = "rate of decay, an expression in x, y, z, t and params; weights grow "
-                                                  "where it is negative"}}},
-      .traits = {.grows_weights = {.words = "the reaction changes the weights"}},
-      .decay_rate = "rate",
-      .elsewhere = {{"decay", "[effects.reaction] with its rate"},
-                    {"inflow", nothing_enters},
-                    {"inlet", nothing_enters},
-                    {"source", nothing_enters},
-                    {"sources", nothing_enters},
-                    {"sink", nothing_enters},
-                    {"emission", nothing_enters},
-                    {"emissions", nothing_enters}},
-      .memory = [](const EffectSpec&, int) { return EffectMemory{.integrals = 1}; },
-      .make = [](const EffectSpec&, const EffectScene& scene) { return std::make_unique<Reaction>(*scene.decay); }};
+  return {.about =
+              NamedFormula{
+                  .name = "reaction",
+                  .meaning = "the weights of the particles decay or grow along their paths: alpha' = -rate alpha. "
+                             "The density then obeys d_t rho + div(rho u) + rate rho = 0",
+                  .parameters = {{.name = "rate",
+                                  .kind = NamedParameter::Kind::expression_in_time,
+                                  .unit = "1 / time",
+                                  .symbol = "u_0",
+                                  .meaning = "rate of decay, an expression in x, y, z, t and params; weights grow "
+                                             "where it is negative",
+                                  .optional = true,
+                                  .replaced_by = "half_life"},
+                                 {.name = "half_life",
+                                  .range = positive,
+                                  .unit = "time",
+                                  .meaning = "in place of `rate`: the time in which half of every weight decays, so "
+                                             "that the rate is ln 2 / half_life everywhere",
+                                  .optional = true}}},
+          .traits = {.grows_weights = {.words = "the reaction changes the weights"}},
+          .decay_rate = "rate",
+          .half_life = "half_life",
+          .elsewhere = {{"decay", "[effects.reaction] with its rate"},
+                        {"inflow", what_enters},
+                        {"inlet", what_enters},
+                        {"sink", what_enters},
+                        {"emission", what_enters},
+                        {"emissions", what_enters}},
+          .problems = problems,
+          .memory = [](const EffectSpec&, int) { return EffectMemory{.integrals = 1}; },
+          .make = [](const EffectSpec&, const EffectScene& scene) { return std::make_unique<Reaction>(*scene.decay); }};
 }
 
 }  // namespace named

@@ -59,6 +59,7 @@ std::vector<std::filesystem::path> data_files(const Case& spec) {
   std::vector<std::filesystem::path> files;
   for (const auto& part : spec.velocity) std::visit([&](const auto& one) { add_file(one, files); }, part);
   for (const auto& part : spec.density) std::visit([&](const auto& one) { add_file(one, files); }, part);
+  for (const auto& part : spec.sources) std::visit([&](const auto& one) { add_file(one, files); }, part.what);
   return files;
 }
 
@@ -68,6 +69,7 @@ Case with_bare_names(Case spec) {
   };
   for (auto& part : spec.velocity) std::visit(shorten, part);
   for (auto& part : spec.density) std::visit(shorten, part);
+  for (auto& part : spec.sources) std::visit(shorten, part.what);
   return spec;
 }
 

@@ -75,6 +75,8 @@ class Reader {
   /// The table, or the part of it that is being read.
   const Value* table(std::string_view name) const;
   const Entry* find(std::string_view table_name, std::string_view name) const;
+  /// What stands at the top of the file under this name, one table or several.
+  const Entry* top(std::string_view name) const { return root_.find(std::string(name)); }
   /// "velocity", or "velocity[2]" for the second of several parts.
   std::string label_of(std::string_view table_name) const;
   std::string label_of(const Key& key) const;
@@ -116,6 +118,8 @@ class Reader {
   std::vector<std::size_t> choices(std::string_view table_name, std::string_view name);
   /// An expression of position, perhaps time; compiled here to find its errors. A plain number is one too.
   std::string field_expression(const Value& value, const std::string& label, bool with_time);
+  /// The same of time alone.
+  std::string time_expression(const Value& value, const std::string& label);
 
   const Source& source;
   Diagnostics& diagnostics;
@@ -146,6 +150,8 @@ class Reader {
   void check_companions(const Key& kind, const Entry& chosen);
   /// Marks parameters as used; false if one of them has no value because of an earlier error.
   bool use(const std::vector<std::string>& names);
+  std::string expression_of(const Value& value, const std::string& label, const std::vector<std::string>& variables,
+                            const std::function<std::string(const std::string& token)>& explain);
   void expression_error(const Value& value, const ExpressionError& error, const std::string& message,
                         const std::string& note);
 

@@ -15,9 +15,10 @@ namespace gaussdrift::input {
 namespace {
 
 std::vector<Section> sections() {
-  std::vector<Section> all{case_section(),    params_section(),    domain_section(),   velocity_section(),
-                           density_section(), particles_section(), time_section(),     evaluate_section(),
-                           output_section(),  reference_section(), accuracy_section(), checks_section()};
+  std::vector<Section> all{case_section(),     params_section(),  domain_section(),    velocity_section(),
+                           density_section(),  sources_section(), particles_section(), time_section(),
+                           evaluate_section(), output_section(),  reference_section(), accuracy_section(),
+                           checks_section()};
   for (const NamedEffect& effect : effects()) all.push_back(effect_section(effect));
   return all;
 }

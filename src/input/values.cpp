@@ -224,6 +224,26 @@ std::vector<std::size_t> Reader::choices(std::string_view table_name, std::strin
 }
 
 std::string Reader::field_expression(const Value& value, const std::string& label, bool with_time) {
+  std::vector<std::string> variables{"x", "y"};
+  if (facts.dimension != 2) variables.emplace_back("z");
+  if (with_time) variables.emplace_back("t");
+  return expression_of(value, label, variables, [&](const std::string& token) -> std::string {
+    if (token == "z" && facts.dimension == 2) return "z exists only in 3D; the domain has 2 dimensions";
+    if (token == "t" && !with_time) return "the density at the start cannot depend on t";
+    return "";
+  });
+}
+
+std::string Reader::time_expression(const Value& value, const std::string& label) {
+  return expression_of(value, label, {"t"}, [&](const std::string& token) {
+    const bool place = token == "x" || token == "y" || token == "z";
+    return place ? fmt::format("{} depends on the time t alone, not on {}", label, token) : "";
+  });
+}
+
+std::string Reader::expression_of(const Value& value, const std::string& label,
+                                  const std::vector<std::string>& variables,
+                                  const std::function<std::string(const std::string& token)>& explain) {
   if (value.kind == Kind::whole || value.kind == Kind::number) {
     if (!std::isfinite(value.number))
       diagnostics.error(value.place, fmt::format("{} must be finite, found {}", label, value.number));
@@ -233,17 +253,12 @@ std::string Reader::field_expression(const Value& value, const std::string& labe
     wrong_type(value, label, "an expression in a string");
     return "";
   }
-  std::vector<std::string> variables{"x", "y"};
-  if (facts.dimension != 2) variables.emplace_back("z");
-  if (with_time) variables.emplace_back("t");
   try {
     use(Expression(value.text, variables, constants()).used_names());
   } catch (const ExpressionError& error) {
     const std::string token = value.text.substr(std::min(error.position(), value.text.size()), error.length());
-    std::string message = error.what();
-    if (token == "z" && facts.dimension == 2) message = "z exists only in 3D; the domain has 2 dimensions";
-    if (token == "t" && !with_time) message = "the density at the start cannot depend on t";
-    expression_error(value, error, message, "");
+    const std::string reason = explain(token);
+    expression_error(value, error, reason.empty() ? error.what() : reason, "");
   }
   return value.text;
 }

@@ -13,6 +13,7 @@ std::string case_text(const Case& spec, const std::filesystem::path& folder) {
   write_domain(out, spec.domain);
   write_velocity(out, spec.velocity);
   write_density(out, spec.density);
+  write_sources(out, spec);
   write_particles(out, spec.particles);
   write_time(out, spec.time);
   write_evaluate(out, spec.evaluate);

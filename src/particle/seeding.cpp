@@ -197,6 +197,13 @@ Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads
 
 namespace {
 
+// Those of the lattice; released ones have ids beyond it and come last.
+std::size_t of_lattice(const Particles& particles, const Lattice& lattice) {
+  const auto end = static_cast<std::int64_t>(lattice.size());
+  return static_cast<std::size_t>(std::lower_bound(particles.id.begin(), particles.id.end(), end) -
+                                  particles.id.begin());
+}
+
 // Squares of the distances of lattice neighbours that are both here. `light`: pairs of two weights below do not count.
 // Calls alone(j) for a particle without one of its neighbours on the lattice, if that is wanted.
 template <class Alone>
@@ -204,16 +211,17 @@ double longest_square(const Particles& particles, const Lattice& lattice, const 
                       const Alone& alone) {
   double longest = 0;
   std::size_t stride = 1;
+  const std::size_t count = of_lattice(particles, lattice);
   std::vector<char> met;  // from below
   for (int k = 0; k < particles.dimension; ++k) {
     std::size_t next = 0;  // ids ascend, so that of the neighbour is found by going along
-    met.assign(particles.size(), 0);
-    for (std::size_t j = 0; j < particles.size(); ++j) {
+    met.assign(count, 0);
+    for (std::size_t j = 0; j < count; ++j) {
       const auto id = static_cast<std::size_t>(particles.id[j]);
       if (!met[j] && id / stride % lattice.points[k] > 0) alone(j);
       if (id / stride % lattice.points[k] + 1 == lattice.points[k]) continue;
-      while (next < particles.size() && static_cast<std::size_t>(particles.id[next]) < id + stride) ++next;
-      if (next == particles.size() || static_cast<std::size_t>(particles.id[next]) != id + stride) {
+      while (next < count && static_cast<std::size_t>(particles.id[next]) < id + stride) ++next;
+      if (next == count || static_cast<std::size_t>(particles.id[next]) != id + stride) {
         alone(j);
         continue;
       }
@@ -233,23 +241,25 @@ double longest_square(const Particles& particles, const Lattice& lattice, const 
   return longest;
 }
 
-double heaviest(const Particles& particles) {
+double heaviest(const Particles& particles, const Lattice& lattice) {
   double largest = 0;
-  for (const double alpha : particles.alpha) largest = std::max(largest, std::abs(alpha));
+  const std::size_t count = of_lattice(particles, lattice);
+  for (std::size_t j = 0; j < count; ++j) largest = std::max(largest, std::abs(particles.alpha[j]));
   return largest;
 }
 
 }  // namespace
 
 double largest_stretch(const Particles& particles, const Lattice& lattice, const Folding& folding) {
-  return std::sqrt(longest_square(particles, lattice, folding, 1e-6 * heaviest(particles), [](std::size_t) {})) /
+  return std::sqrt(
+             longest_square(particles, lattice, folding, 1e-6 * heaviest(particles, lattice), [](std::size_t) {})) /
          lattice.spacing;
 }
 
 double largest_stretch(const Particles& particles, const Lattice& lattice, base::Communicator& ranks,
                        const Folding& folding) {
   if (ranks.size() == 1) return largest_stretch(particles, lattice, folding);
-  double heavy = heaviest(particles);
+  double heavy = heaviest(particles, lattice);
   ranks.max(std::span(&heavy, 1));
   // Those without a neighbour here meet on the rank that has the range of its id: few, where tiles are compact.
   const std::size_t range = lattice.size() / static_cast<std::size_t>(ranks.size()) + 1;

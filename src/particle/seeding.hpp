@@ -37,7 +37,7 @@ Particles seed(const Lattice& lattice, const DensityFunction& rho_0, int threads
 
 /// The largest distance between particles that start on neighbouring lattice points, in lattice spacings: blobs of
 /// width c h overlap as long as it is below c. Pairs that weigh less than a millionth of the heaviest particle do not
-/// count. `particles` as seeded, in that order. O(number of particles). Along a periodic axis the nearest images count.
+/// count. `particles` as seeded, in that order; those with ids beyond the lattice do not count. O(number of particles). Along a periodic axis the nearest images count.
 double largest_stretch(const Particles& particles, const Lattice& lattice, const Folding& folding = {});
 
 /// The same where particles are on several ranks, in the order of ids on each.

@@ -141,6 +141,9 @@ std::string conservation(const json& frames) {
   const json departed = get(frames.front(), "left");  // by reason, where any can leave
   std::string heads = leaves ? "<th>outside the domain" : "";
   if (frames.front().contains("inside")) heads += "<th>inside the domain";
+  const auto counted = {"released", "decayed"};  // in cases with sources
+  for (const char* what : counted)
+    if (frames.front().contains(what)) heads += std::string("<th>") + what;
   for (const auto& [reason, so_far] : departed.items()) heads += "<th>left by " + escaped(reason);
   std::string text =
       fmt::format("<table class=numbers><tr><th>t<th>mass<th>change{}<th>centroid<th>minimum<th>maximum", heads);
@@ -165,6 +168,8 @@ std::string conservation(const json& frames) {
                         : is_zero(outside) ? "<td class=n>0"
                                            : "<td class=n>" + percent_text(outside.get<double>());
     if (frame.contains("inside")) edges += "<td class=n>" + number(frame.at("inside"), "{:.9g}");
+    for (const char* what : counted)
+      if (frame.contains(what)) edges += "<td class=n>" + number(frame.at(what), "{:.9g}");
     for (const auto& [reason, at_start] : departed.items())
       edges += "<td class=n>" + number(get(get(get(frame, "left"), reason.c_str()), "mass"), "{:.6g}");
     text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}{}<td class=n>{}<td class=n>{}<td class=n>{}",

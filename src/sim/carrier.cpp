@@ -55,6 +55,7 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
       folding_(folding_of(spec.domain)),
       departures_(ways_out(spec)),
+      counts_decay_(!spec.sources.empty() && !integrating_.empty()),
       tableau_(time::find_tableau(spec.time.method)),
       case_(spec),
       scene_(scene),
@@ -162,7 +163,18 @@ bool Carrier::carry(Particles& particles, Leg& leg, std::size_t steps_before, St
   const bool arrived = carry_on(particles, leg, steps_before, stages, go_on);
   if (arrived) land(particles, leg.to, stages);
   if (departures_.possible()) departures_.bring_together(ranks_);
+  if (counts_decay_) bring_decay_together();
   return arrived;
+}
+
+void Carrier::bring_decay_together() {
+  base::sum_over_ranks(ranks_, std::span(&decayed_.own, 1));
+  decayed_.together.add(decayed_.own);
+  decayed_.own = {};
+}
+
+std::optional<double> Carrier::decayed() const {
+  return counts_decay_ ? std::optional(decayed_.together.value()) : std::nullopt;
 }
 
 bool Carrier::carry_on(Particles& particles, Leg& leg, std::size_t steps_before, StageTimes& stages,
@@ -284,6 +296,7 @@ void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles) {
   bytes(taken_);
   if (adaptive_) adaptive_->pass_state(bytes);
   if (departures_.possible()) departures_.pass_state(bytes);
+  if (counts_decay_) bytes(decayed_.own, decayed_.together);
   for (const auto& effect : effects_) effect->pass_state(bytes, particles);
 }
 
@@ -323,11 +336,14 @@ void Carrier::take_own_steps(Particles& particles, const time::Interval& interva
     stages.add(stage_of(*effect), integrals / static_cast<double>(integrating_.size()));
 }
 
-void Carrier::settle(Particles& particles, double time, StageTimes& stages) const {
+void Carrier::settle(Particles& particles, double time, StageTimes& stages) {
   for (std::size_t q = 0; q < integrating_.size(); ++q)
     stages.run(stage_of(*integrating_[q]), [&] {
+      const std::vector<double> before = counts_decay_ ? particles.alpha : std::vector<double>();
       call(*integrating_[q], [&] { integrating_[q]->settle(particles, particles.path[q].data(), time); });
       std::fill(particles.path[q].begin(), particles.path[q].end(), 0.0);
+      for (std::size_t j = 0; j < before.size(); ++j)
+        if (before[j] != particles.alpha[j]) decayed_.own.add(before[j]), decayed_.own.add(-particles.alpha[j]);
     });
 }
 
@@ -377,7 +393,7 @@ void Carrier::rearrange(Particles& particles, double time, StageTimes& stages) {
   for (auto& integral : particles.path) integral.assign(particles.size(), 0.0);
 }
 
-void Carrier::land(Particles& particles, double time, StageTimes& stages) const {
+void Carrier::land(Particles& particles, double time, StageTimes& stages) {
   fold_positions(folding_, particles);
   settle(particles, time, stages);
   bring_up(particles, time, stages);

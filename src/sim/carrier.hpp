@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/exact_sum.hpp"
 #include "base/folding.hpp"
 #include "base/seam.hpp"
 #include "gaussdrift/case.hpp"
@@ -90,6 +91,9 @@ class Carrier {
   /// What may leave the run, and has.
   const Departures& departures() const { return departures_; }
 
+  /// With sources: what weights have lost along the paths so far, on all ranks. Nothing where they keep them.
+  std::optional<double> decayed() const;
+
   std::size_t steps_rejected() const { return adaptive_ ? adaptive_->rejected() : 0; }
 
   const Effects& effects() const { return effects_; }
@@ -119,7 +123,7 @@ class Carrier {
   bool all_go_on(const std::function<bool(const Leg& leg)>& go_on, const Leg& leg) const;
 
   // Brings weights and widths up to `time`, at which the positions are.
-  void land(Particles& particles, double time, StageTimes& stages) const;
+  void land(Particles& particles, double time, StageTimes& stages);
 
   void take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                   std::size_t steps_before, StageTimes& stages) const;
@@ -128,7 +132,8 @@ class Carrier {
   void exchange(Particles& particles, double time, double length, StageTimes& stages) const;
   void rearrange(Particles& particles, double time, StageTimes& stages);
   void follow(Particles& particles) const;
-  void settle(Particles& particles, double time, StageTimes& stages) const;
+  void settle(Particles& particles, double time, StageTimes& stages);
+  void bring_decay_together();
   // Takes out the particles that leave at `time`, at the end of a step.
   void leave(Particles& particles, double time, StageTimes& stages);
   void bring_up(Particles& particles, double time, StageTimes& stages) const;
@@ -141,6 +146,10 @@ class Carrier {
   bool between_steps_ = false;  // some effect acts between any two steps
   Folding folding_;             // where places beyond the domain lie in it
   Departures departures_;
+  bool counts_decay_ = false;
+  struct {
+    base::ExactSum own, together;  // of this rank since the ranks brought it together, and of all ranks until then
+  } decayed_;
   const time::Tableau& tableau_;
   const Case& case_;
   const Scene& scene_;

@@ -19,6 +19,7 @@ double mass_that_left(const CheckSpec& check, const FrameNumbers& numbers) {
 }
 
 double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumbers& numbers) {
+  if (check.what == CheckSpec::Quantity::released) return numbers.released.value_or(nan);
   if (!check.is_error()) {
     if (mass_at_start == 0) return nan;
     if (check.what == CheckSpec::Quantity::inside) return numbers.inside ? *numbers.inside / mass_at_start : nan;
@@ -35,6 +36,7 @@ double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumb
     case CheckSpec::Quantity::mass:
     case CheckSpec::Quantity::inside:
     case CheckSpec::Quantity::left:
+    case CheckSpec::Quantity::released:
       break;
   }
   return nan;
@@ -77,6 +79,8 @@ std::string to_string(CheckSpec::Quantity quantity) {
       return "inside";
     case CheckSpec::Quantity::left:
       return "left";
+    case CheckSpec::Quantity::released:
+      return "released";
   }
   return "";
 }

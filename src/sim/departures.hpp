@@ -6,7 +6,7 @@
 //     and a word for check.by each), mark() says which particles go now and for which of them;
 //   * make it in ways_out() below, where the case asks for it.
 // Everything else follows: counts are the same for any number of threads and ranks, they are kept in checkpoints, and
-// they appear in FrameNumbers::left. Particles enter by other doors; only what leaves for good belongs here.
+// they appear in FrameNumbers::left. What enters is in releases.hpp; only what leaves for good belongs here.
 #pragma once
 
 #include <cstddef>

@@ -164,11 +164,11 @@ std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const D
   return words;
 }
 
-const Particles& summed_particles(const Domain& domain, const Lattice& seeding, const Particles& particles,
-                                  double reach, Particles& images) {
+const Particles& summed_particles(const Domain& domain, const Particles& particles, double reach, Particles& images) {
+  constexpr std::int64_t ids = std::int64_t{1} << 40;  // more than lattices and sources have
   const Folding folding = folding_of(domain);
   if (!folding.folds()) return particles;
-  images = with_images(particles, folding, reach, static_cast<std::int64_t>(seeding.size()));
+  images = with_images(particles, folding, reach, ids);
   return images;
 }
 

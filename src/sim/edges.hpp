@@ -50,8 +50,7 @@ std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const D
 
 /// What a density is summed over where blobs are felt within `reach`: the particles, or, where the domain folds, `images`,
 /// which becomes the particles and their images. Throws InputError as with_images() does.
-const Particles& summed_particles(const Domain& domain, const Lattice& seeding, const Particles& particles,
-                                  double reach, Particles& images);
+const Particles& summed_particles(const Domain& domain, const Particles& particles, double reach, Particles& images);
 
 /// Puts positions beyond periodic and closed faces where they lie in the domain.
 void fold_positions(const Folding& folding, Particles& particles);

@@ -1,15 +1,41 @@
 #include "sim/landings.hpp"
 
+#include <algorithm>
+
 #include "effect/catalogue.hpp"
+#include "sim/releases.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift {
 
-std::vector<double> landings(const Case& spec) {
+namespace {
+
+std::vector<double> outputs_and_end(const Case& spec) {
   std::vector<double> times = spec.output.times;
   if (times.empty() || times.back() < spec.time.end) times.push_back(spec.time.end);
   return times;
+}
+
+}  // namespace
+
+double rounding_of_times(const Case& spec) { return 1e-12 * spec.time.end; }
+
+std::vector<double> landings(const Case& spec) {
+  const std::vector<double> kept = outputs_and_end(spec);
+  if (spec.sources.empty()) return kept;
+  const double rounding = rounding_of_times(spec);
+  std::vector<double> all = kept;
+  double last = -1;
+  for (const double time : release_times(spec)) {
+    if (time <= rounding || time >= spec.time.end || time <= last + rounding) continue;
+    const auto next = std::lower_bound(kept.begin(), kept.end(), time - rounding);
+    if (next != kept.end() && *next <= time + rounding) continue;
+    all.push_back(time);
+    last = time;
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 std::size_t total_steps(const Case& spec) {

@@ -8,8 +8,11 @@
 
 namespace gaussdrift {
 
-/// The times on which steps land exactly: outputs, and time.end.
+/// The times on which steps land exactly: outputs, time.end, and those at which sources release something.
 std::vector<double> landings(const Case& spec);
+
+/// Releases this near to a landing happen then.
+double rounding_of_times(const Case& spec);
 
 /// Steps from t = 0 to time.end with landings on all output times; 0 if they are chosen by their error.
 std::size_t total_steps(const Case& spec);

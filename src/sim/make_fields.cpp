@@ -108,11 +108,22 @@ std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads, std:
   return std::make_unique<FoldedVelocity>(std::move(velocity), folding, smooth);
 }
 
-std::unique_ptr<InitialDensity> make_density(const Case& spec) {
-  auto density = make_sum<SumDensity, InitialDensity>(spec.density, spec, 1);
+namespace {
+
+std::unique_ptr<InitialDensity> folded(std::unique_ptr<InitialDensity> density, const Case& spec) {
   const Folding folding = folding_of(spec.domain);
   if (!folding.folds()) return density;
   return std::make_unique<FoldedDensity>(std::move(density), folding);
+}
+
+}  // namespace
+
+std::unique_ptr<InitialDensity> make_density(const Case& spec) {
+  return folded(make_sum<SumDensity, InitialDensity>(spec.density, spec, 1), spec);
+}
+
+std::unique_ptr<InitialDensity> make_density(const Case& spec, const ShapeDensitySpec& shape) {
+  return folded(make_part(shape, spec, 1), spec);
 }
 
 std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& text) {

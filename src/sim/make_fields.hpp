@@ -20,6 +20,9 @@ std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads = 0,
 /// The sum of all [[density]].
 std::unique_ptr<InitialDensity> make_density(const Case& spec);
 
+/// One shape in that domain, whether it is a density of the case or what a source releases.
+std::unique_ptr<InitialDensity> make_density(const Case& spec, const ShapeDensitySpec& shape);
+
 /// An expression of place and time that the case gives.
 std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& text);
 

@@ -86,6 +86,7 @@ Heaviest heaviest(const Particles& particles, const Lattice& lattice) {
     const double weight = std::abs(particles.alpha[j]);
     found.anywhere = std::max(found.anywhere, weight);
     auto rest = static_cast<std::size_t>(particles.id[j]);
+    if (rest >= lattice.size()) continue;  // released
     for (int k = 0; k < particles.dimension; ++k) {
       const auto axis = static_cast<std::size_t>(k);
       const std::size_t i = rest % lattice.points[axis];

@@ -81,10 +81,11 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
 }  // namespace
 
 // Numbers of an output, one by one: a new one must not be forgotten here. Those about edges are there only where the
-// case has some, so that what other cases keep stays as it is.
-void pass(base::StateBytes& bytes, FrameNumbers& n, bool edges) {
-  static_assert(sizeof(FrameNumbers) == 192 + sizeof(std::string), "a number is not passed yet");
-  if (edges) {
+// case has some, and so those about sources, so that what other cases keep stays as it is.
+void pass(base::StateBytes& bytes, FrameNumbers& n, Counted counted) {
+  static_assert(sizeof(FrameNumbers) == 224 + sizeof(std::string), "a number is not passed yet");
+  if (counted.sources) bytes(n.released, n.decayed);
+  if (counted.edges) {
     std::uint64_t reasons = n.left.size();
     bytes(n.inside, reasons);
     if (reasons > most_reasons) throw std::out_of_range("particles leave for too many reasons");
@@ -181,7 +182,7 @@ void Simulation::Parts::plan_reference() {
 
 // Beside the particles the images of them that reach the grid; `images` keeps those.
 const Particles& Simulation::Parts::summed(Particles& images) const {
-  return summed_particles(case_.domain, scene_.seeding, particles_, reach_of_blob(blob(), density_options()), images);
+  return summed_particles(case_.domain, particles_, reach_of_blob(blob(), density_options()), images);
 }
 
 // The same on all ranks, which agree on how it went.
@@ -320,6 +321,7 @@ void Simulation::Parts::show_frame(double time) {
   frame.time = time;
   frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
   frame.numbers.left = carrier_.departures().so_far();
+  if (releases_.possible()) frame.numbers.released = releases_.released(), frame.numbers.decayed = carrier_.decayed();
   DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);
   summary_.stages.add("density", report.evaluate_seconds);
   summary_.stages.add("measure transform error", report.measure_seconds);
@@ -371,7 +373,7 @@ void Simulation::Parts::show_frame(double time) {
     frame.numbers.seconds = seconds_before_ + watch_.seconds();
   });
   // All ranks know what is known of the outputs, and judge the run alike.
-  base::broadcast_values(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers, counts_edges()); });
+  base::broadcast_values(ranks_, [&](base::StateBytes& bytes) { pass(bytes, frame.numbers, counted()); });
   summary_.frames.emplace_back(time, frame.numbers);
   ++index_;  // not before: a disk that fills up with pieces leaves a state without this output
   on_first([&] {

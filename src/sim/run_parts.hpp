@@ -19,10 +19,16 @@
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
 #include "sim/placement.hpp"
+#include "sim/releases.hpp"
 #include "sim/scene.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
+
+/// What a case counts besides: about the edges of the domain, and about what sources release.
+struct Counted {
+  bool edges = false, sources = false;
+};
 
 class Simulation::Parts {
  public:
@@ -57,6 +63,7 @@ class Simulation::Parts {
   void make_ready();
   void begin();
   bool carry();
+  void release(double time);
   bool is_output(double time) const {
     return std::find(case_.output.times.begin(), case_.output.times.end(), time) != case_.output.times.end();
   }
@@ -85,7 +92,9 @@ class Simulation::Parts {
   void show_frame(double time);
   bool somebody_needs_particles(const Frame& frame) const;
   void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
-  bool counts_edges() const { return case_.domain.has_edges() || carrier_.departures().possible(); }
+  Counted counted() const {
+    return {case_.domain.has_edges() || carrier_.departures().possible(), releases_.possible()};
+  }
   bool in_pieces() const { return pieces_.count() > 1; }
   /// A formula is evaluated wherever a piece is. Paths are followed from points of the thinned grid alone.
   bool compares_pieces() const {
@@ -118,6 +127,7 @@ class Simulation::Parts {
   base::AbandonWanted abandon_wanted_;
   Scene scene_;
   Carrier carrier_;
+  Releases releases_;
   std::vector<double> landings_;
   LatticePieces pieces_;  // of the evaluation lattice
   Particles particles_;
@@ -143,7 +153,7 @@ class Simulation::Parts {
   RunSummary summary_;
 };
 
-/// The numbers of an output, to be kept or told; `edges`: with those about the edges of the domain.
-void pass(base::StateBytes& bytes, FrameNumbers& numbers, bool edges);
+/// The numbers of an output, to be kept or told.
+void pass(base::StateBytes& bytes, FrameNumbers& numbers, Counted counted);
 
 }  // namespace gaussdrift

@@ -35,9 +35,9 @@ void pass(base::StateBytes& bytes, RunState& parts) {
 
 using Output = std::pair<double, FrameNumbers>;
 
-void pass(base::StateBytes& bytes, Output& output, bool edges) {
+void pass(base::StateBytes& bytes, Output& output, Counted counted) {
   bytes(output.first);
-  pass(bytes, output.second, edges);
+  pass(bytes, output.second, counted);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ void Simulation::Parts::pass_outputs(base::StateBytes& bytes) {
   if (bytes.reading()) summary_.frames.clear();
   for (std::uint64_t i = 0; i < count; ++i) {
     if (bytes.reading()) summary_.frames.emplace_back();
-    pass(bytes, summary_.frames[i], counts_edges());
+    pass(bytes, summary_.frames[i], counted());
   }
 }
 
@@ -87,7 +87,7 @@ std::vector<std::string> Simulation::Parts::outputs() {
   std::vector<std::string> all;
   for (Output& output : summary_.frames) {
     base::StateBytes bytes;
-    pass(bytes, output, counts_edges());
+    pass(bytes, output, counted());
     all.push_back(bytes.written());
   }
   return all;
@@ -97,7 +97,7 @@ void Simulation::Parts::take_outputs(const std::vector<std::string>& all) {
   summary_.frames.clear();
   for (const std::string& output : all) {
     base::StateBytes bytes(output);
-    pass(bytes, summary_.frames.emplace_back(), counts_edges());
+    pass(bytes, summary_.frames.emplace_back(), counted());
     bytes.end();
   }
 }
@@ -107,6 +107,7 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes, bool format_1, Obser
   bytes(leg_, steps_before_, index_);
   if (bytes.reading()) check_leg();
   carrier_.pass_state(bytes, particles_);
+  if (releases_.possible()) releases_.pass_state(bytes);
   bytes(summary_.transform_choice, summary_.transform_achievable);
   if (format_1)
     pass_outputs(bytes);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <span>
 
 #include "effect/catalogue.hpp"
@@ -22,8 +23,12 @@ void make_effect_fields(const Case& spec, Scene& scene) {
       if (key.empty() || !values.has(key)) return nullptr;
       return make_scalar(spec, values.text(key));
     };
-    if (auto decay = field_of(effect->decay_rate)) decays.push_back(std::move(decay));
-    scene.effect_fields.push_back({values.name, field_of(effect->decay_rate), field_of(effect->carried),
+    const auto decay_of = [&, &effect = effect, &values = values]() -> std::unique_ptr<ScalarField> {
+      if (effect->half_life.empty() || !values.has(effect->half_life)) return field_of(effect->decay_rate);
+      return make_scalar(spec, fmt::format("{}", std::numbers::ln2 / values.number(effect->half_life)));
+    };
+    if (auto decay = decay_of()) decays.push_back(std::move(decay));
+    scene.effect_fields.push_back({values.name, decay_of(), field_of(effect->carried),
                                    fmt::format("effects.{}.{}", values.name, effect->carried)});
   }
   if (decays.size() == 1) scene.decay_rate = std::move(decays.front());

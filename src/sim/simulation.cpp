@@ -70,6 +70,7 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
       place_(ranks_),
       scene_(make_scene(case_, threads_)),
       carrier_(case_, scene_, threads_, ranks_, [this](const Vector& place) { return place_.owner_of(place); }),
+      releases_(case_, scene_.seeding, scene_.threshold, threads_),
       landings_(landings(case_)),
       pieces_(scene_.evaluation, case_.evaluate.piece_points) {
   if (ranks_.size() == 1) return;
@@ -108,7 +109,8 @@ void Simulation::Parts::make_ready() {
   heavy = {place_.max(heavy.anywhere), place_.max(heavy.at_edge)};
   largest_at_start_ = heavy.anywhere / std::pow(scene_.seeding.spacing, scene_.seeding.dimension);
   beyond_at_start_ = part_beyond(scene_.density->mass(), heavy, mass_at_start_);
-  const Particles sample = place_.sample(particles_, sampled_particles);
+  Particles sample = place_.sample(particles_, sampled_particles);
+  releases_.add_places(sample, sampled_particles);
   carrier_.begin(particles_, sample);
   velocity_at_particles(0, false);
   check_density_seconds();
@@ -131,7 +133,21 @@ void Simulation::Parts::begin() {
   summary_.spacing = scene_.seeding.spacing;
   summary_.core_radius = scene_.core_radius;
   leg_ = {0, landings_.front(), 0, 0};
+  release(0);
   stage_ = Stage::under_way;
+}
+
+// What sources release at `time`, where all particles are.
+void Simulation::Parts::release(double time) {
+  if (!releases_.possible()) return;
+  bool some = false;
+  ranks_.agree_on([&] {
+    some = releases_.release(particles_, time,
+                             [&](const Vector& place) { return place_.owner_of(place) == ranks_.rank(); });
+  });
+  if (!some) return;
+  placed_at_.reset();
+  carrier_.placed(particles_);
 }
 
 // To the next landing time; false if the run is to stop before.
@@ -159,6 +175,7 @@ RunSummary Simulation::Parts::run() {
   while (wanted && landed_ < landings_.size()) {
     wanted = carry();
     if (leg_.now < leg_.to) break;
+    release(leg_.to);
     if (is_output(leg_.to)) shown = show_or_abandon(leg_.to);
     if (!shown) break;
     if (++landed_ == landings_.size()) break;

@@ -55,8 +55,7 @@ class TransformStudy {
         blob_(particles_.spread > 0 ? spread_cutoff(scene_.cutoff, particles_.dimension, particles_.spread)
                                     : scene_.cutoff) {
     Particles images;
-    const Particles& sources =
-        summed_particles(bare.domain, scene_.seeding, particles_, reach_of_blob(blob_, {}), images);
+    const Particles& sources = summed_particles(bare.domain, particles_, reach_of_blob(blob_, {}), images);
     if (&sources == &images) particles_ = std::move(images);
   }
 

@@ -40,6 +40,8 @@ class SeriesTable : public Observer {
     const FrameNumbers& first = frames.front().second;
     if (first.inside) table += ",inside";
     for (const Departed& departed : first.left) table += ",left_" + departed.reason;
+    if (first.released) table += ",released";
+    if (first.decayed) table += ",decayed";
     table += ",evaluate_seconds,seconds\n";
     for (const auto& [time, numbers] : frames) table += row(time, numbers);
     text_.begin(table);
@@ -55,6 +57,8 @@ class SeriesTable : public Observer {
     row += fmt::format(",{:.17g}", n.outside);
     if (n.inside) row += fmt::format(",{:.17g}", *n.inside);
     for (const Departed& departed : n.left) row += fmt::format(",{:.17g}", departed.mass);
+    if (n.released) row += fmt::format(",{:.17g}", *n.released);
+    if (n.decayed) row += fmt::format(",{:.17g}", *n.decayed);
     return row + fmt::format(",{:.6f},{:.6f}\n", n.evaluate_seconds, n.seconds);
   }
 

@@ -89,6 +89,8 @@ json frames_of(const Case& spec, const RunSummary& summary) {
                       {"transform_error", n.transform_error},
                       {"evaluate_seconds", n.evaluate_seconds}});
     if (n.inside) frames.back()["inside"] = *n.inside;
+    if (n.released) frames.back()["released"] = *n.released;
+    if (n.decayed) frames.back()["decayed"] = *n.decayed;
     for (const Departed& departed : n.left)
       frames.back()["left"][departed.reason] = {{"particles", departed.particles}, {"mass", departed.mass}};
     if (n.stretch > 0) frames.back()["stretch"] = n.stretch;

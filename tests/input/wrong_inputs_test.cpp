@@ -134,7 +134,8 @@ std::string expected(const std::string& text, const Wrong& wrong) {
 const char* const step_note = "step: time step; the last one before an output is shortened to end there";
 const char* const names_note = "reserved names: x, y, z, t, pi, e and the functions";
 const char* const tables_note =
-    "known tables: case, params, domain, velocity, density, particles, time, evaluate, output, reference, accuracy, "
+    "known tables: case, params, domain, velocity, density, source, particles, time, evaluate, output, reference, "
+    "accuracy, "
     "check, "
     "effects";
 
@@ -184,9 +185,9 @@ const std::vector<Wrong> wrongs = {
     {"[time]\nend", "[effects]\nreaction = 1\n[time]\nend", 30, "reaction",
      "effects.reaction must be one table [effects.reaction], found the number 1"},
     {"[time]\nend", "[effects.reaction]\nrat = 1\n[time]\nend", 30, "rat",
-     "unknown key \"rat\" in [effects.reaction]; did you mean \"rate\"?", "known keys: rate"},
-    {"[time]\nend", "[effects.reaction]\n[time]\nend", 29, "[effects.reaction]", "effects.reaction.rate is missing",
-     "rate: rate of decay, an expression in x, y, z, t and params; weights grow where it is negative"},
+     "unknown key \"rat\" in [effects.reaction]; did you mean \"rate\"?", "known keys: rate, half_life"},
+    {"[time]\nend", "[effects.reaction]\n[time]\nend", 29, "[effects.reaction]",
+     "[effects.reaction] has neither \"rate\" nor \"half_life\"", "give one of them: rate = 0.5, or half_life = 3"},
     {"[time]\nend", "[effects.reaction]\nrate = \"q*x\"\n[time]\nend", 30, "q",
      "unknown name \"q\"; known here: x, y, t, R, turn, pi, e"},
     {"[time]\nend", "[effects.diffusion]\n[time]\nend", 29, "[effects.diffusion]", "effects.diffusion.D is missing",

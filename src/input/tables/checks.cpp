@@ -20,10 +20,12 @@ Section checks_section() {
           {{.name = "what",
             .type = Type::choice,
             .required = true,
-            .choices = {"Linf", "L1", "L2", "mass", "inside", "left"},
-            .meaning = "the number to check: a norm of the error relative to that of the exact density, or a mass "
-                       "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
-                       "domain, `left` of those that have left the run. The last two need `domain.edges`"},
+            .choices = {"Linf", "L1", "L2", "mass", "inside", "left", "released"},
+            .meaning =
+                "the number to check: a norm of the error relative to that of the exact density, or a mass "
+                "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
+                "domain, `left` of those that have left the run; these two need `domain.edges`. `released` is the mass "
+                "that `[[source]]` has released, relative to nothing"},
            {.name = "by",
             .type = Type::text,
             .meaning = "with what = \"left\": the reason for which particles have left, a face of the domain as in "
@@ -64,6 +66,9 @@ void read_departure(Reader& in, const Value& what, const Case& spec, CheckSpec& 
   if (check.what == Quantity::left && reasons.empty() && in.facts.domain_valid)
     in.diagnostics.error(what.place, "no particle can leave this run",
                          "domain.edges opens ends of the domain: edges = [\"open\", \"open\"]");
+  if (check.what == Quantity::released && spec.sources.empty())
+    in.diagnostics.error(what.place, "no [[source]] releases anything in this case",
+                         "[[source]] with a shape or points");
   if (!by) return;
   check.by = in.text("check", "by");
   if (check.what != Quantity::left)

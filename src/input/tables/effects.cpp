@@ -128,6 +128,25 @@ void refuse_edges(Reader& in, const NamedEffect& effect, const EffectSpec& value
                          "\"open\" and \"unbounded\" edges go with it");
 }
 
+/// Effects that know particles of the lattice alone.
+void refuse_sources(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
+  const Entry* source = in.top("source");
+  if (!source || spec.sources.empty()) return;
+  const EffectTraits& traits = effect.traits;
+  const int dimension = spec.domain.dimension;
+  std::string reason;
+  if (traits.adds_particles.of(values, dimension)) reason = traits.adds_particles.words;
+  if (traits.replaces_particles.of(values, dimension)) reason = traits.replaces_particles.words;
+  if (!reason.empty()) reason += ", on the lattice on which released particles do not stand";
+  if (reason.empty() && traits.diffuses)
+    reason = "all blobs have the same width, and what is released later has to be narrower than the others";
+  if (reason.empty() && traits.particles_interact)
+    reason = "how far apart particles must be to move each other is chosen for those of the start";
+  if (!reason.empty())
+    in.diagnostics.error(source->place, fmt::format("[[source]] does not go with [{}]: {}", table_of(effect), reason),
+                         "leave out one of them; [effects.reaction] goes with it");
+}
+
 /// What does not go with the case, or with another effect.
 void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& spec) {
   const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
@@ -141,13 +160,16 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
                                      : "is for three dimensions, the domain has two",
              "");
     check_steps(in, *effect, values, spec);
-    if (is_complete(*effect, values)) refuse_edges(in, *effect, values, spec);
+    if (is_complete(*effect, values)) {
+      refuse_edges(in, *effect, values, spec);
+      refuse_sources(in, *effect, values, spec);
+    }
     if (!effect->problems || !is_complete(*effect, values)) continue;
     for (const Complaint& problem : effect->problems(values, spec)) {
       const Entry* entry = in.find(table_of(*effect), problem.key);
       if (entry)
         in.diagnostics.error(entry->value.place, problem.message, problem.remedy);
-      else
+      else if (!in.is_meant(fmt::format("{}.{}", table_of(*effect), problem.key)))
         refuse(values.name, problem.message, problem.remedy);
     }
   }

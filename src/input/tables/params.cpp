@@ -76,6 +76,8 @@ Params params_in_use(const Case& spec) {
       texts.push_back(stream->psi);
   for (const auto& part : spec.density)
     if (const auto* density = std::get_if<ExpressionDensitySpec>(&part)) texts.push_back(density->text);
+  for (const SourceSpec& source : spec.sources)
+    if (!source.rate.empty()) texts.push_back(source.rate);
   if (spec.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(spec.reference.rho);
   for (const auto& [effect, values] : effects_of(spec.effects))
     for (const NamedParameter& parameter : effect->about.parameters)

@@ -72,6 +72,19 @@ void read_reference(Reader& in, Case& spec) {
         fmt::format("with [effects.{}] there is no exact density to compare with, so no errors are measured", without),
         "[reference] kind = \"exact\" compares with a formula, kind = \"none\" says that this is meant");
   }
+  const Entry* source = spec.sources.empty() ? nullptr : in.top("source");
+  if (source && kind && chosen == "characteristics" && without.empty())
+    in.diagnostics.error(
+        kind->value.place,
+        "kind = \"characteristics\" does not go with [[source]]: paths that are traced back to the start "
+        "do not meet what enters later",
+        "kind = \"exact\" and a formula as rho, or kind = \"none\"");
+  if (source && !kind && !rho && without.empty()) {
+    chosen = "none";
+    in.diagnostics.warning(
+        source->place, "with [[source]] there is no exact density to compare with, so no errors are measured",
+        "[reference] kind = \"exact\" compares with a formula, kind = \"none\" says that this is meant");
+  }
   const auto index = std::find(key.choices.begin(), key.choices.end(), chosen) - key.choices.begin();
   reference.kind = static_cast<ReferenceSpec::Kind>(index);
   if (reference.kind == ReferenceSpec::Kind::exact && !rho && !in.is_meant("reference.rho"))

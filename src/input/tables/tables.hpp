@@ -38,6 +38,10 @@ Section density_section();
 void read_density(Reader& in, std::vector<DensitySpec>& density);
 void write_density(Writer& out, const std::vector<DensitySpec>& density);
 
+Section sources_section();
+void read_sources(Reader& in, Case& spec);
+void write_sources(Writer& out, const Case& spec);
+
 Section particles_section();
 void read_particles(Reader& in, ParticleSpec& particles, const Domain& domain);
 void write_particles(Writer& out, const ParticleSpec& particles);

@@ -1,0 +1,260 @@
+#include "sim/releases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <variant>
+
+#include "expression/expression.hpp"
+#include "gaussdrift/error.hpp"
+#include "particle/columns.hpp"
+#include "particle/seeding.hpp"
+#include "sim/edges.hpp"
+#include "sim/landings.hpp"
+#include "sim/make_fields.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+constexpr double most_released = 5e11;  // images of particles have larger ids (summed_particles())
+
+/// The rate of a source, and its integral.
+class Rate {
+ public:
+  Rate(const std::string& text, const Params& params, std::size_t source)
+      : rate_(text, {"t"}, params), source_(source) {}
+
+  double integral(double from, double to) const {
+    const Sum whole = sum(from, to);
+    return refined(from, to, whole.value, 1e-15 * whole.size, deepest);
+  }
+
+ private:
+  static constexpr int deepest = 20;  // bisections: a jump of the rate is found to a millionth of a puff
+
+  struct Sum {
+    double value = 0, size = 0;  // of |rate|
+  };
+
+  double at(double t) const {
+    const double value = rate_.evaluate({t});
+    if (std::isfinite(value)) return value;
+    throw NumericalError(fmt::format(
+        "the rate \"{}\" of source {} is {} at t = {:.10g}; it must be finite from \"from\" to \"to\": guard "
+        "the expression, or shorten the interval",
+        rate_.text(), source_ + 1, std::isnan(value) ? "nan" : fmt::format("{}", value), t));
+  }
+
+  // Gauss's rule of five points, exact for polynomials of degree 9.
+  Sum sum(double from, double to) const {
+    static constexpr std::array<double, 5> node{-0.906179845938663993, -0.538469310105683091, 0, 0.538469310105683091,
+                                                0.906179845938663993},
+        weight{0.236926885056189088, 0.478628670499366468, 0.568888888888888889, 0.478628670499366468,
+               0.236926885056189088};
+    const double half = (to - from) / 2, middle = from + half;
+    Sum all;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const double part = half * weight[i] * at(middle + half * node[i]);
+      all.value += part;
+      all.size += std::abs(part);
+    }
+    return all;
+  }
+
+  double refined(double from, double to, double whole, double tolerance, int depth) const {
+    const double middle = from + (to - from) / 2;
+    const Sum left = sum(from, middle), right = sum(middle, to);
+    const double both = left.value + right.value;
+    if (depth == 0 || std::abs(both - whole) <= std::max(tolerance, 4e-16 * (left.size + right.size))) return both;
+    return refined(from, middle, left.value, tolerance, depth - 1) +
+           refined(middle, to, right.value, tolerance, depth - 1);
+  }
+
+  Expression rate_;
+  std::size_t source_;
+};
+
+double boundary(const SourceSpec& source, int puff) {
+  return puff == source.puffs ? source.to : source.from + (source.to - source.from) * puff / source.puffs;
+}
+
+double middle(const SourceSpec& source, int puff) {
+  return source.from + (source.to - source.from) * (puff + 0.5) / source.puffs;
+}
+
+std::size_t columns_of_table(const Case& spec) { return static_cast<std::size_t>(spec.domain.dimension) + 2; }
+
+std::size_t rows_of(const PointsSourceSpec& table, const Case& spec) {
+  return table.rows->size() / columns_of_table(spec);
+}
+
+double time_of_row(const PointsSourceSpec& table, const Case& spec, std::size_t row) {
+  return (*table.rows)[(row + 1) * columns_of_table(spec) - 2];
+}
+
+Particles particles_of(const ShapeDensitySpec& shape, const Case& spec, const Lattice& lattice, double threshold,
+                       int threads) {
+  const auto density = make_density(spec, shape);
+  return seed(lattice,
+              {{"the density of a source", [&](const PointsView& x, double* values) { density->add(x, values); }}},
+              threshold, threads);
+}
+
+Particles particles_of(const PointSourceSpec& point, const Case& spec) {
+  Particles one;
+  one.dimension = spec.domain.dimension;
+  for (std::size_t k = 0; k < point.place.size(); ++k) one.position[k].push_back(point.place[k]);
+  one.alpha.push_back(1);
+  return one;
+}
+
+Particles particles_of(const PointsSourceSpec& table, const Case& spec) {
+  Particles all;
+  all.dimension = spec.domain.dimension;
+  const std::size_t dimension = columns_of_table(spec) - 2, rows = rows_of(table, spec);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double* const numbers = table.rows->data() + row * columns_of_table(spec);
+    for (std::size_t k = 0; k < dimension; ++k) all.position[k].push_back(numbers[k]);
+    all.alpha.push_back(numbers[dimension + 1]);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<double> release_times(const Case& spec) {
+  std::vector<double> times;
+  for (const SourceSpec& source : spec.sources) {
+    if (const auto* table = std::get_if<PointsSourceSpec>(&source.what))
+      for (std::size_t row = 0; row < rows_of(*table, spec); ++row) times.push_back(time_of_row(*table, spec, row));
+    else if (source.at)
+      times.push_back(*source.at);
+    else
+      for (int puff = 0; puff < source.puffs; ++puff) times.push_back(middle(source, puff));
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+double particles_released(const Case& spec, int threads) {
+  if (spec.sources.empty()) return 0;
+  constexpr double most_points = 1e5;
+  const Lattice whole = seeding_lattice(spec.domain, spec.particles.per_axis);
+  Lattice coarse = whole;
+  const double stride =
+      std::ceil(std::pow(std::max(1.0, static_cast<double>(whole.size()) / most_points), 1.0 / whole.dimension));
+  coarse.spacing *= stride;
+  for (int k = 0; k < whole.dimension; ++k) {
+    auto& points = coarse.points[static_cast<std::size_t>(k)];
+    points = static_cast<std::size_t>(std::ceil(static_cast<double>(points) / stride));
+  }
+  double count = 0;
+  for (const SourceSpec& source : spec.sources) {
+    double each = 1;
+    if (const auto* table = std::get_if<PointsSourceSpec>(&source.what)) {
+      count += static_cast<double>(rows_of(*table, spec));
+      continue;
+    }
+    if (const auto* shape = std::get_if<ShapeDensitySpec>(&source.what)) {
+      const auto met = particles_of(*shape, spec, coarse, spec.particles.threshold, threads).size();
+      each = std::max(1.0, static_cast<double>(met)) * std::pow(stride, whole.dimension);
+    }
+    count += each * (source.at ? 1 : source.puffs);
+  }
+  return count;
+}
+
+Releases::Releases(const Case& spec, const Lattice& lattice, double threshold, int threads)
+    : rounding_(rounding_of_times(spec)) {
+  double all = 0;
+  for (std::size_t number = 0; number < spec.sources.size(); ++number) {
+    const SourceSpec& source = spec.sources[number];
+    const auto* shape = std::get_if<ShapeDensitySpec>(&source.what);
+    const auto* point = std::get_if<PointSourceSpec>(&source.what);
+    const auto* table = std::get_if<PointsSourceSpec>(&source.what);
+    of_sources_.push_back(shape   ? particles_of(*shape, spec, lattice, threshold, threads)
+                          : point ? particles_of(*point, spec)
+                                  : particles_of(*table, spec));
+    const std::size_t count = of_sources_.back().size();
+    if (count == 0)
+      throw InputError(
+          fmt::format("the shape of source {} is 0 on every point of the particle lattice, so it releases "
+                      "nothing; move or enlarge it, or raise particles.per_axis",
+                      number + 1));
+    const auto add = [&](double time, double times, std::size_t first, std::size_t some) {
+      puffs_.push_back({time, times, number, first, some});
+      all += static_cast<double>(some);
+    };
+    if (table) {
+      for (std::size_t row = 0; row < count; ++row) add(time_of_row(*table, spec, row), 1, row, 1);
+    } else if (source.at) {
+      add(*source.at, point ? point->amount : 1, 0, count);
+    } else {
+      const Rate rate(source.rate, spec.params, number);
+      for (int puff = 0; puff < source.puffs; ++puff)
+        add(middle(source, puff), rate.integral(boundary(source, puff), boundary(source, puff + 1)), 0, count);
+    }
+  }
+  std::stable_sort(puffs_.begin(), puffs_.end(), [](const Puff& a, const Puff& b) { return a.time < b.time; });
+  if (all > most_released)
+    throw InputError(
+        fmt::format("the sources release {:.3g} particles, and at most {:.3g} can be told apart; lower "
+                    "source.puffs",
+                    all, most_released));
+  // In the order of time, so that particles stay in the order of ids when they come.
+  std::int64_t next = static_cast<std::int64_t>(lattice.size());
+  for (Puff& puff : puffs_) {
+    puff.id = next;
+    next += static_cast<std::int64_t>(puff.count);
+  }
+}
+
+bool Releases::release(Particles& particles, double time, const std::function<bool(const Vector& place)>& is_here) {
+  const std::uint64_t before = done_;
+  for (; done_ < puffs_.size() && puffs_[done_].time <= time + rounding_; ++done_) {
+    const Puff& puff = puffs_[done_];
+    const Particles& source = of_sources_[puff.source];
+    for (std::size_t i = 0; i < puff.count; ++i) {
+      const std::size_t from = puff.first + i;
+      const double weight = puff.times * source.alpha[from];
+      sum_.add(weight);
+      if (weight == 0) continue;
+      Vector place{};
+      for (int k = 0; k < source.dimension; ++k) place[k] = source.position[k][from];
+      if (!is_here(place)) continue;
+      for (int k = 0; k < source.dimension; ++k) particles.position[k].push_back(place[k]);
+      particles.alpha.push_back(weight);
+      particles.id.push_back(puff.id + static_cast<std::int64_t>(i));
+    }
+  }
+  // Integrals along their paths begin now.
+  for_each_column(particles, [&](std::string_view, std::size_t, auto& column) { column.resize(particles.size()); });
+  return done_ > before;
+}
+
+void Releases::add_places(Particles& sample, std::size_t most) const {
+  std::size_t all = 0;
+  for (const Particles& source : of_sources_) all += source.size();
+  if (all == 0 || most == 0) return;
+  const std::size_t stride = (all + most - 1) / most;
+  std::size_t number = 0;
+  for (const Particles& source : of_sources_)
+    for (std::size_t j = 0; j < source.size(); ++j, ++number) {
+      if (number % stride != 0) continue;
+      for (int k = 0; k < source.dimension; ++k) sample.position[k].push_back(source.position[k][j]);
+      sample.alpha.push_back(source.alpha[j]);
+      sample.id.push_back(std::numeric_limits<std::int64_t>::max());
+    }
+}
+
+void Releases::pass_state(base::StateBytes& bytes) {
+  bytes(done_, sum_);
+  if (done_ > puffs_.size()) throw std::out_of_range("it has released more than its sources have");
+}
+
+}  // namespace gaussdrift

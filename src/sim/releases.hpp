@@ -1,0 +1,60 @@
+// What sources release during a run, [[source]] of a case: at which times, how much, and as which particles.
+// docs/decisions/0036-releases-are-landings.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/exact_sum.hpp"
+#include "base/state_bytes.hpp"
+#include "gaussdrift/case.hpp"
+#include "gaussdrift/lattice.hpp"
+#include "gaussdrift/particles.hpp"
+
+namespace gaussdrift {
+
+/// The times at which something is released, ascending. An interval has one in the middle of each of its puffs.
+std::vector<double> release_times(const Case& spec);
+
+/// An upper estimate of the particles that are released until time.end, from a lattice of a hundred thousand points.
+double particles_released(const Case& spec, int threads);
+
+class Releases {
+ public:
+  /// Nothing where the case has no sources. Shapes are put on the points of the lattice as densities at the start are.
+  /// Throws InputError for a shape that has no point there, NumericalError for a rate that is not finite.
+  Releases(const Case& spec, const Lattice& lattice, double threshold, int threads);
+
+  /// False: nothing is ever released, and nobody need ask.
+  bool possible() const { return !puffs_.empty(); }
+
+  /// Appends the particles that are due until `time` and were not released before, those whose place `is_here`; ids
+  /// still ascend. True if some were due, here or elsewhere. All ranks call it with the same times.
+  bool release(Particles& particles, double time, const std::function<bool(const Vector& place)>& is_here);
+
+  /// The sum of the weights released so far, on all ranks.
+  double released() const { return sum_.value(); }
+
+  /// Places of some particles that are going to be released, appended to a sample of those that are there.
+  void add_places(Particles& sample, std::size_t most) const;
+
+  /// How far it is: writes it, or takes it up.
+  void pass_state(base::StateBytes& bytes);
+
+ private:
+  /// Particles [first, first + count) of those of a source, with weights `times` as large.
+  struct Puff {
+    double time = 0, times = 1;
+    std::size_t source = 0, first = 0, count = 0;
+    std::int64_t id = 0;  // of the first
+  };
+  std::vector<Particles> of_sources_;  // positions and weights alone
+  std::vector<Puff> puffs_;            // by time
+  double rounding_ = 0;                // of times
+  std::uint64_t done_ = 0;
+  base::ExactSum sum_;
+};
+
+}  // namespace gaussdrift
