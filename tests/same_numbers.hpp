@@ -32,6 +32,11 @@ inline void expect_same(const FrameNumbers& m, const FrameNumbers& n) {
   EXPECT_EQ(m.inside, n.inside);
   EXPECT_EQ(m.released, n.released);
   EXPECT_EQ(m.decayed, n.decayed);
+  ASSERT_EQ(m.stopped.has_value(), n.stopped.has_value());
+  if (m.stopped) {
+    EXPECT_EQ(m.stopped->particles, n.stopped->particles);
+    EXPECT_EQ(m.stopped->mass, n.stopped->mass);
+  }
   ASSERT_EQ(m.left.size(), n.left.size());
   for (std::size_t r = 0; r < m.left.size(); ++r) {
     EXPECT_EQ(m.left[r].reason, n.left[r].reason);

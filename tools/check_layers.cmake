@@ -57,14 +57,14 @@ set(public_mpi ranks)
 set(public_core arguments buffer dispatch simd/functions simd/product_block simd/pack)
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
-  gaussians/divergence_free gaussians/gaussian_velocity folded/folded gridded/grid_data gridded/gridded
+  gaussians/divergence_free gaussians/gaussian_velocity folded/folded gridded/grid_data gridded/gridded gridded/land
   named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar velocity/differences velocity/sampled_gradients velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read grid_file missing_data written_run)
 set(public_particle columns cutoff fgtd_points images pieces_by_id placing seeding subset tiles)
 set(public_effect catalogue drift effect path_integral)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample)
-set(public_sim carrier checks comparison departures edges fields_on_grid grid_fields grid_pieces landings make_fields outside releases run_state scene sharing stable_step stepper tiled_density transform work)
+set(public_sim carrier checks coast comparison departures edges fields_on_grid grid_fields grid_pieces landings make_fields outside releases run_state scene sharing stable_step stepper tiled_density transform work)
 set(public_write atomic_file checkpoint folder_lock output_files provenance result_folder run_folder series_table summary folder_facts vtk_files vtk_library)
 set(public_render chart on_canvas panel picture picture_series styles)
 set(public_input data_files effect_rules examples explain foreign_keys markdown points_table same_past)

@@ -40,6 +40,14 @@ enum class Edge {
   closed      ///< nothing passes it
 };
 
+/// What happens to particles that reach land, where data on a grid have no values.
+enum class AtCoast {
+  refuse,  ///< the run ends with an error
+  stop,    ///< they stay there
+  slide,   ///< they move along it
+  remove   ///< they leave the run and are counted
+};
+
 /// `[domain]`: the box on which the density is evaluated and particles start.
 struct Domain {
   int dimension = 2;            ///< 2 or 3
@@ -47,7 +55,10 @@ struct Domain {
   std::array<double, 3> max{};  ///< upper corner, above `min` on every axis
   /// The lower and the upper end of every axis. Either both or none of them are periodic.
   std::array<std::array<Edge, 2>, 3> edges{};
+  AtCoast coast = AtCoast::refuse;  ///< what happens to particles that reach land
 
+  /// True if the case says of edges or of land what happens there: then outputs tell the mass inside.
+  bool counts_inside() const { return has_edges() || coast != AtCoast::refuse; }
   /// True if the case says of any end what happens there.
   bool has_edges() const { return edges != std::array<std::array<Edge, 2>, 3>{}; }
   /// True if some end is like that.
@@ -266,7 +277,8 @@ struct CheckSpec {
     mass,     ///< the sum of all weights
     inside,   ///< the sum of the weights of particles inside the domain
     left,     ///< of those that have left the run
-    released  ///< of those that sources have released, not relative to anything
+    released, ///< of those that sources have released, not relative to anything
+    stopped   ///< of those that lie on land
   };
   /// True if it is a norm of the error, which needs a reference.
   bool is_error() const { return what == Quantity::linf || what == Quantity::l1 || what == Quantity::l2; }

@@ -24,6 +24,12 @@ struct Departed {
   double mass = 0;              ///< the sum of the weights that they had then
 };
 
+/// Particles that have reached land and stay there.
+struct Stopped {
+  std::uint64_t particles = 0;  ///< their number
+  double mass = 0;              ///< the sum of their weights
+};
+
 /// Numbers of one output, a row of series.csv.
 struct FrameNumbers {
   double mass = 0;     ///< sum_j alpha_j, the exact integral of rho_eps^h over all space
@@ -43,13 +49,15 @@ struct FrameNumbers {
   std::string no_norms;      ///< why they are NaN, for people: nothing is left to compare; empty: they are numbers
   std::size_t compared = 0;  ///< grid points that the norms are taken over; a sample if fewer than the grid has
   std::size_t untraced = 0;  ///< grid points where the reference is not known; the norms leave them out
-  /// sum of the weights of the particles inside the domain; only where the case names edges of it
+  /// sum of the weights of the particles inside the domain; only where the case says what happens at its edges or at land
   std::optional<double> inside{};
   /// What has left the run so far, for each reason that there may be, in a fixed order; empty: nothing can leave.
   std::vector<Departed> left{};
   /// With sources: the sum of the weights that they have released so far, and what weights have lost along the paths
   /// (reaction). mass = mass at the start + released - what has left - decayed, but for rounding.
   std::optional<double> released{}, decayed{};
+  /// What lies on land; only where domain.coast is "stop".
+  std::optional<Stopped> stopped{};
 };
 
 /// One output. What it points at belongs to the run and stays as it is until the observer returns.

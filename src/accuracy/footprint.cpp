@@ -199,7 +199,8 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));
   const RunMemory seed{.particles = 2 * n * particle + 450 * lines};
   // Effects between steps: as it was before the step, if that is abandoned.
-  const double before = effects.kept > 0 || spec.domain.has(Edge::open) ? n * particle : 0;
+  const double before =
+      effects.kept > 0 || spec.domain.has(Edge::open) || spec.domain.coast != AtCoast::refuse ? n * particle : 0;
   const RunMemory step =
       stays + RunMemory{.particles = 2 * n * number * (d + effects.integrals) + n * effects.step + before};
 

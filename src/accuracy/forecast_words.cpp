@@ -38,6 +38,7 @@ std::string head_text(const Case& spec, const Forecast& r) {
   if (!spec.title.empty())
     text += fmt::format("title      {}{}\n", spec.title, spec.cite.empty() ? "" : ", after " + spec.cite);
   if (domain.has_edges()) text += fmt::format("edges      {}\n", edges_text(domain));
+  if (domain.coast != AtCoast::refuse) text += fmt::format("coast      {}\n", coast_words(domain.coast));
   return text;
 }
 

@@ -184,6 +184,11 @@ void settle_missing(GridData& data, const HiddenPoints& hidden, const Marks& mar
              : "missing = \"zero\" makes a coast of it, missing = \"nearest\" continues what is beside it, missing = "
                "\"keep\" takes the number as it is; or cut the data to a region that is whole, and say with "
                "\"outside\" what stands around it");
+  if (missing == Missing::land) {
+    data.land = true;
+    data.filled = fmt::format("{} of {} values missing: land", count, all);
+    return;
+  }
   data.filled = fmt::format("{} of {} values missing, {}", count, all,
                             missing == Missing::zero ? "taken as zero" : "continued from the nearest");
   for (std::size_t t = 0; t < data.values.size(); ++t) {

@@ -18,9 +18,10 @@ enum class Missing {
   error,    // the file is refused
   zero,     // 0: a coast, towards which a velocity falls to nothing within one cell
   nearest,  // the mean of the nearest points that have values
-  keep      // nothing is taken for missing: the numbers are meant
+  keep,     // nothing is taken for missing: the numbers are meant
+  land      // NaN: there is no fluid (GridData::land)
 };
-constexpr std::array<std::string_view, 4> missing_names{"error", "zero", "nearest", "keep"};
+constexpr std::array<std::string_view, 5> missing_names{"error", "zero", "nearest", "keep", "land"};
 
 /// The points that the file itself hides; [time][point], or empty where a time hides none.
 using HiddenPoints = std::vector<std::vector<std::uint8_t>>;

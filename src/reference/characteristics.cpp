@@ -70,15 +70,15 @@ class Characteristics : public Reference {
     base::parallel_for({own, seconds_of(own * block_length_)}, options_.threads, [&](std::size_t i) {
       const std::size_t b = options_.rank + i * options_.ranks;
       const std::size_t first = b * block_length_, count = std::min(block_length_, points - first);
-      Block block = start(b, first, count);
+      Block block = start(b, first, count, time);
       // In a steady flow X(0) of x at t is that of X(t_before - t) at t_before.
       const double from = options_.steady ? time - kept_until_ : time;
       trace(block, count, from, reports[i]);
       values(block, count, rho.data() + first);
       if (reports[i].untraced > 0) {
-        const auto lost = std::find_if(rho.begin() + static_cast<std::ptrdiff_t>(first), rho.end(),
-                                       [](double value) { return std::isnan(value); });
-        reports[i].first_untraced = place(static_cast<std::size_t>(lost - rho.begin()));
+        std::size_t lost = 0;
+        while (!std::isnan(block.state[lost])) ++lost;
+        reports[i].first_untraced = place(first + lost);
       }
       if (options_.steady) kept_[b] = std::move(block);
     });
@@ -104,10 +104,11 @@ class Characteristics : public Reference {
       const std::size_t first = b * block_length_, count = std::min(block_length_, points.size() - first);
       Block block = empty_block(count);
       fill_coordinates(lattice_, points.data() + first, count, block.state.data());
+      mark_points_on_land(time, block, count);
       trace(block, count, time, reports[b]);
       values(block, count, rho.data() + first);
       for (std::size_t i = first; i < first + count && reports[b].untraced > 0; ++i)
-        if (std::isnan(rho[i])) {
+        if (std::isnan(block.state[i - first])) {
           reports[b].first_untraced = place(points[i]);
           break;
         }
@@ -116,13 +117,30 @@ class Characteristics : public Reference {
   }
 
  private:
+  // Where a path has ended, followed backwards: nowhere yet, beyond an outflow, on land, or it is a point on land itself.
+  enum End : char { not_yet, came_in, met_land, on_land };
+
   struct Block {
     std::vector<double> state;  // [component][point]: the foot so far, and the exponent
-    std::vector<char> beyond;   // the path of the point has come from beyond an outflow; empty: there is none
+    std::vector<char> beyond;   // an End of each path; empty: paths do not end
   };
 
   Block empty_block(std::size_t count) const {
-    return {std::vector<double>(components_ * count, 0.0), std::vector<char>(options_.outflows.empty() ? 0 : count, 0)};
+    return {std::vector<double>(components_ * count, 0.0), std::vector<char>(paths_end() ? count : 0, not_yet)};
+  }
+
+  bool paths_end() const { return !options_.outflows.empty() || options_.no_fluid; }
+
+  // The point i of some at which paths begin.
+  Vector point_of(const double* state, std::size_t count, std::size_t i) const {
+    Vector x{};
+    for (int k = 0; k < lattice_.dimension; ++k) x[k] = state[static_cast<std::size_t>(k) * count + i];
+    return x;
+  }
+
+  void mark_points_on_land(double time, Block& block, std::size_t count) const {
+    for (std::size_t i = 0; i < count && options_.no_fluid; ++i)
+      if (options_.no_fluid->at(time, point_of(block.state.data(), count, i))) block.beyond[i] = on_land;
   }
 
   double seconds_of(std::size_t points) const {
@@ -144,15 +162,16 @@ class Characteristics : public Reference {
     return all;
   }
 
-  Block start(std::size_t b, std::size_t first, std::size_t count) {
+  Block start(std::size_t b, std::size_t first, std::size_t count, double time) {
     if (options_.steady && !kept_[b].state.empty()) return std::move(kept_[b]);
     Block block = empty_block(count);
     fill_coordinates(lattice_, first, count, block.state.data());
+    mark_points_on_land(time, block, count);
     return block;
   }
 
   // Carries the points from `from` back to 0. Those that do not arrive become NaN; where one of many does not, the
-  // others are found by halves. Points that have come from beyond an outflow stay where they are.
+  // others are found by halves. Points whose path has ended stay where they are.
   void trace(Block& block, std::size_t count, double from, ReferenceReport& report) const {
     const Block begun = block;
     const std::vector<char>& resting = begun.beyond;
@@ -172,8 +191,7 @@ class Characteristics : public Reference {
         std::any_of(begun.state.begin(), begun.state.end(), [](double value) { return std::isnan(value); }))
       return trace_halves(block, begun, count, from, report);  // lost at an earlier output
     time::AdaptiveOptions bounds = bounds_;
-    if (!options_.outflows.empty())
-      bounds.after_step = [&](const time::StepTaken& step) { look_beyond(step, count, block.beyond); };
+    if (paths_end()) bounds.after_step = [&](const time::StepTaken& step) { look_beyond(step, count, block.beyond); };
     const time::AdaptiveResult result = time::integrate_adaptively(rate, from, 0, count, bounds, block.state.data());
     constexpr std::size_t stages = 12;
     report.rates += stages * count * (result.steps + result.rejected);
@@ -192,6 +210,7 @@ class Characteristics : public Reference {
 
   // Between its ends a path is looked at as the cubic through both places and velocities.
   void look_beyond(const time::StepTaken& step, std::size_t count, std::vector<char>& beyond) const {
+    look_for_land(step.from, step.before, step.to, step.after, count, beyond);
     const double length = step.to - step.from;
     for (const Outflow& outflow : options_.outflows)
       for (std::size_t i = 0; i < count; ++i) {
@@ -199,15 +218,22 @@ class Characteristics : public Reference {
         const double a = step.before[at], b = step.after[at], va = length * step.rate_before[at],
                      vb = length * step.rate_after[at];
         const auto is_beyond = [&](double x) { return x < outflow.low || x > outflow.high; };
-        if (is_beyond(b)) beyond[i] = 1;
+        if (is_beyond(b) && !beyond[i]) beyond[i] = came_in;
         if (beyond[i]) continue;
         // x(s) = a + va s + (3 (b - a) - 2 va - vb) s^2 + (va + vb - 2 (b - a)) s^3 is extreme where x'(s) = 0.
         const double c2 = 3 * (b - a) - 2 * va - vb, c3 = va + vb - 2 * (b - a), root = c2 * c2 - 3 * c3 * va;
         if (!(root >= 0)) continue;
         const double q = -(c2 + std::copysign(std::sqrt(root), c2));
         for (const double s : {c3 != 0 ? q / (3 * c3) : -1.0, q != 0 ? va / q : -1.0})
-          if (s > 0 && s < 1 && is_beyond(a + s * (va + s * (c2 + s * c3)))) beyond[i] = 1;
+          if (s > 0 && s < 1 && is_beyond(a + s * (va + s * (c2 + s * c3)))) beyond[i] = came_in;
       }
+  }
+
+  void look_for_land(double from, const double* before, double to, const double* after, std::size_t count,
+                     std::vector<char>& beyond) const {
+    for (std::size_t i = 0; i < count && options_.no_fluid; ++i)
+      if (!beyond[i] && options_.no_fluid->between(from, point_of(before, count, i), to, point_of(after, count, i)))
+        beyond[i] = met_land;
   }
 
   // Traces by fixed steps. Points do not see each other, so a lost one does not affect the others.
@@ -234,8 +260,9 @@ class Characteristics : public Reference {
       for (const Outflow& outflow : options_.outflows)
         for (std::size_t i = 0; i < count; ++i) {
           const double x = state[static_cast<std::size_t>(outflow.axis) * count + i];
-          if (x < outflow.low || x > outflow.high) block.beyond[i] = 1;
+          if ((x < outflow.low || x > outflow.high) && !block.beyond[i]) block.beyond[i] = came_in;
         }
+      look_for_land(t, before.data(), t - length, state.data(), count, block.beyond);
     }
     report.rates += static_cast<std::size_t>(tableau.stages) * count * steps;
     for (std::size_t i = 0; i < count; ++i) {
@@ -283,8 +310,11 @@ class Characteristics : public Reference {
     const double* exponent = block.state.data() + static_cast<std::size_t>(lattice_.dimension) * count;
     for (std::size_t i = 0; i < count; ++i) {
       // Shapes answer a NaN with 0: comparisons with it are false.
-      if (!block.beyond.empty() && block.beyond[i])
-        rho[i] = 0;
+      const char end = block.beyond.empty() ? char{not_yet} : block.beyond[i];
+      if (end == on_land)
+        rho[i] = nan;
+      else if (end != not_yet)
+        rho[i] = end == met_land ? options_.no_fluid->from_there : 0;
       else if (std::isnan(block.state[i]))
         rho[i] = nan;
       else if (growth_ && rho[i] != 0)

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "field/density/density.hpp"
@@ -24,6 +25,14 @@ struct Outflow {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 };
 
+/// Land: where there is no fluid.
+struct NoFluid {
+  std::function<bool(double t, const Vector& x)> at;
+  /// Whether the straight way between two places of a path meets it.
+  std::function<bool(double from, const Vector& a, double to, const Vector& b)> between;
+  double from_there = std::numeric_limits<double>::quiet_NaN();  // the density on paths that come from there
+};
+
 struct CharacteristicsOptions {
   double tolerance = 1e-12;  // of a step: of the foot relative to the longest side of the lattice, and of the exponent
   bool smooth = true;        // false: u or g has kinks; the path of every point then takes steps of its own
@@ -33,7 +42,8 @@ struct CharacteristicsOptions {
   const time::Tableau* steps_by = nullptr;  // a method of fixed steps of length `step` instead, on any path
   double step = 0;
   int threads = 0;
-  std::vector<Outflow> outflows{};  // there is no density beyond: paths that come from there bring 0
+  std::vector<Outflow> outflows{};    // there is no density beyond: paths that come from there bring 0
+  std::optional<NoFluid> no_fluid{};  // the density there is NaN, and is not meant to be known
   // evaluate() follows every `ranks`-th block of points from this one on, and leaves 0 for the others.
   std::size_t rank = 0, ranks = 1;
 };

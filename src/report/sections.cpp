@@ -144,6 +144,7 @@ std::string conservation(const json& frames) {
   const auto counted = {"released", "decayed"};  // in cases with sources
   for (const char* what : counted)
     if (frames.front().contains(what)) heads += std::string("<th>") + what;
+  if (frames.front().contains("stopped")) heads += "<th>stopped at the coast";
   for (const auto& [reason, so_far] : departed.items()) heads += "<th>left by " + escaped(reason);
   std::string text =
       fmt::format("<table class=numbers><tr><th>t<th>mass<th>change{}<th>centroid<th>minimum<th>maximum", heads);
@@ -170,6 +171,7 @@ std::string conservation(const json& frames) {
     if (frame.contains("inside")) edges += "<td class=n>" + number(frame.at("inside"), "{:.9g}");
     for (const char* what : counted)
       if (frame.contains(what)) edges += "<td class=n>" + number(frame.at(what), "{:.9g}");
+    if (frame.contains("stopped")) edges += "<td class=n>" + number(get(get(frame, "stopped"), "mass"), "{:.6g}");
     for (const auto& [reason, at_start] : departed.items())
       edges += "<td class=n>" + number(get(get(get(frame, "left"), reason.c_str()), "mass"), "{:.6g}");
     text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}{}<td class=n>{}<td class=n>{}<td class=n>{}",

@@ -56,6 +56,7 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
       folding_(folding_of(spec.domain)),
       departures_(ways_out(spec)),
       counts_decay_(!spec.sources.empty() && !integrating_.empty()),
+      coast_(spec.domain.coast != AtCoast::refuse ? scene.coast.get() : nullptr),
       tableau_(time::find_tableau(spec.time.method)),
       case_(spec),
       scene_(scene),
@@ -193,7 +194,7 @@ std::size_t Carrier::carry(Particles& particles, double from, double to, std::si
 // that are chosen set positions once all ranks have agreed.
 bool Carrier::attempt(Particles& particles, const std::function<void()>& steps) {
   if (!abandon_wanted_) return steps(), true;
-  const bool changed = between_steps_ || departures_.possible();
+  const bool changed = between_steps_ || looks_at_steps();
   const bool only_moved = !changed && !adaptive_ && ranks_.size() > 1;
   base::StateBytes effects;
   pass_state(effects, particles);
@@ -220,13 +221,14 @@ bool Carrier::adapt(Particles& particles, Leg& leg, std::size_t steps_before, St
     double reached = leg.now;
     const bool taken = attempt(particles, [&] {
       const base::Stopwatch watch;
+      if (coast_) began_ = particles.position;
       const double before = adaptive_->drift_seconds();
       reached = adaptive_->advance(particles, leg.now, leg.to, steps_before + leg.steps);
       const double drifts = adaptive_->drift_seconds() - before;
       stages.add("transport", watch.seconds() - drifts);
       for (const auto& effect : effects_)
         if (effect->drift()) stages.add(stage_of(*effect), drifts / static_cast<double>(drifts_.size()));
-      leave(particles, reached, stages);
+      arrive(particles, leg.now, reached, stages);
       if (between_steps_) {
         settle(particles, reached, stages);
         rearrange(particles, reached, stages);
@@ -256,7 +258,7 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
   ranks_.max(std::span(&most, 1));
   const std::size_t stages_a_step =
       std::max<std::size_t>(1, static_cast<std::size_t>(most) * static_cast<std::size_t>(tableau_.stages));
-  const bool quick = drifts_.empty() && !between_steps_ && !departures_.possible();
+  const bool quick = drifts_.empty() && !between_steps_ && !looks_at_steps();
   const std::size_t batch = quick ? std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000) : 1;
   while (leg.steps < interval.steps()) {
     const std::size_t count = std::min(batch, interval.steps() - leg.steps);
@@ -271,14 +273,14 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
 
 void Carrier::advance(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                       std::size_t steps_before, StageTimes& stages) {
-  if (!between_steps_ && !departures_.possible())
-    return take_steps(particles, interval, first, count, steps_before, stages);
+  if (!between_steps_ && !looks_at_steps()) return take_steps(particles, interval, first, count, steps_before, stages);
   // Strang's splitting: half a step of exchange on either side of each step; two halves that meet are one.
   for (std::size_t i = first; i < first + count; ++i) {
     const double half = interval.length(i) / 2;
     if (i == 0) exchange(particles, interval.start(i), half, stages);
+    if (coast_) began_ = particles.position;
     take_steps(particles, interval, i, 1, steps_before, stages);
-    leave(particles, interval.start(i + 1), stages);
+    arrive(particles, interval.start(i), interval.start(i + 1), stages);
     if (!between_steps_) continue;
     if (i == 0 || taken_.empty()) taken_.push_back({interval, i, 0});
     ++taken_.back().steps;
@@ -347,8 +349,11 @@ void Carrier::settle(Particles& particles, double time, StageTimes& stages) {
     });
 }
 
-void Carrier::leave(Particles& particles, double time, StageTimes& stages) {
-  if (!departures_.possible()) return;
+void Carrier::arrive(Particles& particles, double from, double time, StageTimes& stages) {
+  if (!looks_at_steps()) return;
+  if (coast_)
+    stages.run("coast", [&] { ranks_.agree_on([&] { coast_->meet(began_, particles, from, time, threads_); }); });
+  if (!departures_.possible()) return fold_positions(folding_, particles);
   settle(particles, time, stages);  // what leaves is counted with the weight that it has now
   std::int64_t some = 0;
   stages.run("edges", [&] {

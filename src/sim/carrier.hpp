@@ -1,6 +1,7 @@
 // Carries the particles of a scene through transport and its effects, from time to time. method.md, sections 4 and 8.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/stage_times.hpp"
 #include "sim/adaptive_stepper.hpp"
+#include "sim/coast.hpp"
 #include "sim/departures.hpp"
 #include "sim/effects.hpp"
 #include "sim/stable_step.hpp"
@@ -134,8 +136,10 @@ class Carrier {
   void follow(Particles& particles) const;
   void settle(Particles& particles, double time, StageTimes& stages);
   void bring_decay_together();
-  // Takes out the particles that leave at `time`, at the end of a step.
-  void leave(Particles& particles, double time, StageTimes& stages);
+  // Steps end one by one, with a look at what has come to an edge or to land.
+  bool looks_at_steps() const { return departures_.possible() || coast_; }
+  // At the end of a step: what has come to land meets the coast, and what leaves is taken out.
+  void arrive(Particles& particles, double from, double time, StageTimes& stages);
   void bring_up(Particles& particles, double time, StageTimes& stages) const;
 
   base::Communicator alone_;
@@ -150,6 +154,8 @@ class Carrier {
   struct {
     base::ExactSum own, together;  // of this rank since the ranks brought it together, and of all ranks until then
   } decayed_;
+  const Coast* coast_ = nullptr;                          // null: nobody looks at it
+  std::array<std::vector<double>, max_dimension> began_;  // positions at the start of a step, where there is a coast
   const time::Tableau& tableau_;
   const Case& case_;
   const Scene& scene_;

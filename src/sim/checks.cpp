@@ -22,6 +22,8 @@ double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumb
   if (check.what == CheckSpec::Quantity::released) return numbers.released.value_or(nan);
   if (!check.is_error()) {
     if (mass_at_start == 0) return nan;
+    if (check.what == CheckSpec::Quantity::stopped)
+      return numbers.stopped ? numbers.stopped->mass / mass_at_start : nan;
     if (check.what == CheckSpec::Quantity::inside) return numbers.inside ? *numbers.inside / mass_at_start : nan;
     return (check.what == CheckSpec::Quantity::left ? mass_that_left(check, numbers) : numbers.mass) / mass_at_start;
   }
@@ -37,6 +39,7 @@ double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumb
     case CheckSpec::Quantity::inside:
     case CheckSpec::Quantity::left:
     case CheckSpec::Quantity::released:
+    case CheckSpec::Quantity::stopped:
       break;
   }
   return nan;
@@ -81,6 +84,8 @@ std::string to_string(CheckSpec::Quantity quantity) {
       return "left";
     case CheckSpec::Quantity::released:
       return "released";
+    case CheckSpec::Quantity::stopped:
+      return "stopped";
   }
   return "";
 }

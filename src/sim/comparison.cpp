@@ -36,6 +36,18 @@ std::vector<Outflow> outflows_of(const Domain& domain) {
   return outflows;
 }
 
+/// No fluid comes from land. What slides along a coast may leave it, and how much is not known.
+std::optional<NoFluid> land_of(const Scene& scene) {
+  const Coast* coast = scene.coast.get();
+  if (!coast) return std::nullopt;
+  NoFluid land{[coast](double t, const Vector& x) { return coast->is_land(t, x); },
+               [coast](double from, const Vector& a, double to, const Vector& b) {
+                 return coast->crossing(from, a, to, b).has_value();
+               }};
+  if (coast->rule() == AtCoast::stop || coast->rule() == AtCoast::remove) land.from_there = 0;
+  return land;
+}
+
 }  // namespace
 
 std::unique_ptr<Reference> make_reference(const Case& spec, const Scene& scene, int threads,
@@ -66,6 +78,7 @@ std::unique_ptr<Reference> make_reference(const Case& spec, const Scene& scene, 
                               .step = by_steps ? spec.time.step / 2 : 0,
                               .threads = threads,
                               .outflows = outflows_of(spec.domain),
+                              .no_fluid = land_of(scene),
                               .rank = following.rank,
                               .ranks = following.ranks});
     }

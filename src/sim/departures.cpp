@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "particle/columns.hpp"
+#include "sim/coast.hpp"
 #include "sim/open_faces.hpp"
 
 namespace gaussdrift {
@@ -13,6 +14,7 @@ namespace gaussdrift {
 std::vector<std::unique_ptr<WayOut>> ways_out(const Case& spec) {
   std::vector<std::unique_ptr<WayOut>> ways;
   if (spec.domain.has(Edge::open)) ways.push_back(std::make_unique<OpenFaces>(spec.domain));
+  if (spec.domain.coast == AtCoast::remove) ways.push_back(std::make_unique<CoastTakes>(spec));
   return ways;
 }
 

@@ -1,7 +1,8 @@
-// Particles that leave a run for good, counted by reason: those that pass an open face of the domain. After every step
+// Particles that leave a run for good, counted by reason: those that pass an open face of the domain, or reach
+// a coast that takes them. After every step
 // the run asks each way of leaving which particles go, takes them out, and adds up their number and mass.
 //
-// Another way, say a coast that takes what reaches it, is one more class:
+// Another way is one more class:
 //   * derive it from WayOut in a file of its own: reasons() names its reasons (a column of series.csv, a row of the page
 //     and a word for check.by each), mark() says which particles go now and for which of them;
 //   * make it in ways_out() below, where the case asks for it.

@@ -72,6 +72,20 @@ std::vector<Face> faces_of(const Domain& domain, Edge edge) {
   return faces;
 }
 
+std::string coast_words(AtCoast rule) {
+  switch (rule) {
+    case AtCoast::stop:
+      return "particles that reach land stay there";
+    case AtCoast::slide:
+      return "particles that reach land move along it";
+    case AtCoast::remove:
+      return "particles that reach land leave the run and are counted";
+    case AtCoast::refuse:
+      break;
+  }
+  return "a particle that reaches land ends the run";
+}
+
 std::string edges_text(const Domain& domain) {
   constexpr std::array<const char*, 4> words{"unbounded", "periodic", "open", "closed"};  // in the order of Edge
   const auto word = [&](Edge edge) { return words[static_cast<std::size_t>(edge)]; };

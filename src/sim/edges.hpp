@@ -28,6 +28,9 @@ std::vector<Face> faces_of(const Domain& domain, Edge edge);
 /// "x periodic, y closed and open", for people.
 std::string edges_text(const Domain& domain);
 
+/// What happens to particles that reach land, for people.
+std::string coast_words(AtCoast rule);
+
 /// How places beyond periodic and closed faces lie in the domain.
 Folding folding_of(const Domain& domain);
 

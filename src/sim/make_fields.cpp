@@ -13,6 +13,7 @@
 #include "field/folded/folded.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
 #include "field/gridded/gridded.hpp"
+#include "field/gridded/land.hpp"
 #include "field/named/named_fields.hpp"
 #include "field/samples/sampled_density.hpp"
 #include "field/samples/sampled_velocity.hpp"
@@ -53,7 +54,10 @@ GridInterpolator interpolator(const FileSpec& part) {
           named_choice<Outside>(outside_names, part.outside)};
 }
 
-std::unique_ptr<VelocityField> make_part(const FileVelocitySpec& part, const Case& /*spec*/, int /*threads*/) {
+std::unique_ptr<VelocityField> make_part(const FileVelocitySpec& part, const Case& spec, int /*threads*/) {
+  if (part.data->land)
+    return std::make_unique<CoastalVelocity>(interpolator(part), outside_of(part),
+                                             spec.domain.coast != AtCoast::refuse);
   return std::make_unique<GriddedVelocity>(interpolator(part));
 }
 
@@ -97,6 +101,8 @@ std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& spec,
 }
 
 }  // namespace
+
+Outside outside_of(const FileVelocitySpec& part) { return named_choice<Outside>(outside_names, part.outside); }
 
 std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads, std::vector<std::string>* misfits) {
   auto velocity = make_sum<SumField, VelocityField>(spec.velocity, spec, threads);

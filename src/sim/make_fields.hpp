@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "field/density/density.hpp"
+#include "field/gridded/grid_data.hpp"
 #include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
 #include "gaussdrift/case.hpp"
@@ -16,6 +17,9 @@ namespace gaussdrift {
 /// for all points at once; 0 for all. misfits: gets what is wrong with it at edges that are periodic or closed.
 std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads = 0,
                                              std::vector<std::string>* misfits = nullptr);
+
+/// What holds outside of its grid.
+Outside outside_of(const FileVelocitySpec& part);
 
 /// The sum of all [[density]].
 std::unique_ptr<InitialDensity> make_density(const Case& spec);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -32,9 +33,19 @@ namespace {
 constexpr std::uint64_t most_reasons = 1000;  // for which particles leave: more is no state of a run
 
 /// What a particle adds to the sums of a frame.
-enum Addend : std::size_t { mass, weight, outside, inside, centroid };  // the last has a number an axis
+enum Addend : std::size_t {
+  mass,
+  weight,
+  outside,
+  inside,
+  stopped,
+  stopped_mass,
+  centroid  // has a number an axis
+};
 
-FrameNumbers measure_particles(const Particles& particles, const Domain& domain, const Placement& place, int threads) {
+/// stops: whether particle j lies on land, for good; empty: none does.
+FrameNumbers measure_particles(const Particles& particles, const Domain& domain, const Placement& place, int threads,
+                               const std::function<bool(std::size_t j)>& stops) {
   const std::vector<double> sums = place.sums(particles, centroid + static_cast<std::size_t>(particles.dimension),
                                               threads, [&](std::size_t j, double* of_particle) {
                                                 const double alpha = particles.alpha[j];
@@ -43,6 +54,9 @@ FrameNumbers measure_particles(const Particles& particles, const Domain& domain,
                                                 const bool is_out = is_outside(particles, j, domain);
                                                 of_particle[outside] = is_out ? std::abs(alpha) : 0;
                                                 of_particle[inside] = is_out ? 0 : alpha;
+                                                const bool lies = stops && stops(j);
+                                                of_particle[stopped] = lies ? 1 : 0;
+                                                of_particle[stopped_mass] = lies ? alpha : 0;
                                                 for (int k = 0; k < particles.dimension; ++k)
                                                   of_particle[centroid + static_cast<std::size_t>(k)] =
                                                       alpha * particles.position[k][j];
@@ -51,7 +65,8 @@ FrameNumbers measure_particles(const Particles& particles, const Domain& domain,
   numbers.mass = sums[mass];
   numbers.weight = sums[weight];
   numbers.outside = sums[weight] > 0 ? sums[outside] / sums[weight] : 0;
-  if (domain.has_edges()) numbers.inside = sums[inside];
+  if (domain.counts_inside()) numbers.inside = sums[inside];
+  if (stops) numbers.stopped = {static_cast<std::uint64_t>(sums[stopped]), sums[stopped_mass]};
   // Where positive and negative weights cancel there is no centre of mass.
   const bool cancelled = std::abs(numbers.mass) <= 1e-12 * numbers.weight;
   for (int k = 0; k < particles.dimension; ++k)
@@ -81,10 +96,15 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
 }  // namespace
 
 // Numbers of an output, one by one: a new one must not be forgotten here. Those about edges are there only where the
-// case has some, and so those about sources, so that what other cases keep stays as it is.
+// case has some, and so those about land and sources, so that what other cases keep stays as it is.
 void pass(base::StateBytes& bytes, FrameNumbers& n, Counted counted) {
-  static_assert(sizeof(FrameNumbers) == 224 + sizeof(std::string), "a number is not passed yet");
+  static_assert(sizeof(FrameNumbers) == 248 + sizeof(std::string), "a number is not passed yet");
   if (counted.sources) bytes(n.released, n.decayed);
+  if (counted.stopped) {
+    Stopped stopped = n.stopped.value_or(Stopped{});
+    bytes(stopped.particles, stopped.mass);
+    n.stopped = stopped;
+  }
   if (counted.edges) {
     std::uint64_t reasons = n.left.size();
     bytes(n.inside, reasons);
@@ -124,7 +144,9 @@ void Simulation::Parts::place(double from) {
   if (ranks_.size() > 1 || carrier_.departures().possible()) carrier_.placed(particles_);
 }
 
-double Simulation::Parts::mass() const { return measure_particles(particles_, case_.domain, place_, threads_).mass; }
+double Simulation::Parts::mass() const {
+  return measure_particles(particles_, case_.domain, place_, threads_, {}).mass;
+}
 
 // [j][dimension], or nothing if only looked at. Throws NumericalError where the field is not finite.
 std::vector<double> Simulation::Parts::velocity_at_particles(double time, bool wanted) const {
@@ -145,6 +167,9 @@ std::vector<double> Simulation::Parts::velocity_at_particles(double time, bool w
   velocity.resize(count * dimension);
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
+  if (case_.domain.coast == AtCoast::stop && scene_.coast)
+    for (std::size_t j = 0; j < count; ++j)  // what lies on land does not move
+      if (scene_.coast->is_land(time, particles_.view().at(j))) std::fill_n(&velocity[j * dimension], dimension, 0.0);
   return velocity;
 }
 
@@ -319,7 +344,10 @@ void Simulation::Parts::show_frame(double time) {
   Frame frame;
   frame.index = index_;
   frame.time = time;
-  frame.numbers = measure_particles(particles_, case_.domain, place_, threads_);
+  std::function<bool(std::size_t)> stops;
+  if (case_.domain.coast == AtCoast::stop)
+    stops = [&](std::size_t j) { return scene_.coast && scene_.coast->is_land(time, particles_.view().at(j)); };
+  frame.numbers = measure_particles(particles_, case_.domain, place_, threads_, stops);
   frame.numbers.left = carrier_.departures().so_far();
   if (releases_.possible()) frame.numbers.released = releases_.released(), frame.numbers.decayed = carrier_.decayed();
   DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);

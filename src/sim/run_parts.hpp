@@ -25,9 +25,9 @@
 
 namespace gaussdrift {
 
-/// What a case counts besides: about the edges of the domain, and about what sources release.
+/// What a case counts besides: about edges of the domain and land, and about what sources release.
 struct Counted {
-  bool edges = false, sources = false;
+  bool edges = false, sources = false, stopped = false;
 };
 
 class Simulation::Parts {
@@ -93,7 +93,8 @@ class Simulation::Parts {
   bool somebody_needs_particles(const Frame& frame) const;
   void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
   Counted counted() const {
-    return {case_.domain.has_edges() || carrier_.departures().possible(), releases_.possible()};
+    return {case_.domain.counts_inside() || carrier_.departures().possible(), releases_.possible(),
+            case_.domain.coast == AtCoast::stop};
   }
   bool in_pieces() const { return pieces_.count() > 1; }
   /// A formula is evaluated wherever a piece is. Paths are followed from points of the thinned grid alone.

@@ -49,6 +49,7 @@ Scene make_scene(const Case& spec, int threads) {
   const Domain& domain = spec.domain;
   scene.velocity = make_velocity(spec, threads, &scene.misfits);
   scene.density = make_density(spec);
+  if (auto coast = std::make_unique<Coast>(spec); coast->exists()) scene.coast = std::move(coast);
   make_effect_fields(spec, scene);
   scene.threshold = spec.particles.threshold;
   scene.seeding = seeding_lattice(domain, spec.particles.per_axis);

@@ -12,6 +12,7 @@
 #include "gaussdrift/lattice.hpp"
 #include "particle/cutoff.hpp"
 #include "particle/seeding.hpp"
+#include "sim/coast.hpp"
 
 namespace gaussdrift {
 
@@ -34,6 +35,7 @@ struct Scene {
   double core_radius = 0;  // eps = c h
   double threshold = 0;    // particles.threshold
   Cutoff cutoff;
+  std::unique_ptr<Coast> coast;      // null: the data have no land
   std::vector<std::string> misfits;  // what is wrong with the velocity at the edges of the domain, for people
 };
 

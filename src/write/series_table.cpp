@@ -39,6 +39,7 @@ class SeriesTable : public Observer {
     table += ",outside";
     const FrameNumbers& first = frames.front().second;
     if (first.inside) table += ",inside";
+    if (first.stopped) table += ",stopped";
     for (const Departed& departed : first.left) table += ",left_" + departed.reason;
     if (first.released) table += ",released";
     if (first.decayed) table += ",decayed";
@@ -56,6 +57,7 @@ class SeriesTable : public Observer {
     if (errors_) row += fmt::format(",{:.6e},{:.6e},{:.6e}", error.l1, error.l2, error.linf);
     row += fmt::format(",{:.17g}", n.outside);
     if (n.inside) row += fmt::format(",{:.17g}", *n.inside);
+    if (n.stopped) row += fmt::format(",{:.17g}", n.stopped->mass);
     for (const Departed& departed : n.left) row += fmt::format(",{:.17g}", departed.mass);
     if (n.released) row += fmt::format(",{:.17g}", *n.released);
     if (n.decayed) row += fmt::format(",{:.17g}", *n.decayed);

@@ -91,6 +91,7 @@ json frames_of(const Case& spec, const RunSummary& summary) {
     if (n.inside) frames.back()["inside"] = *n.inside;
     if (n.released) frames.back()["released"] = *n.released;
     if (n.decayed) frames.back()["decayed"] = *n.decayed;
+    if (n.stopped) frames.back()["stopped"] = {{"particles", n.stopped->particles}, {"mass", n.stopped->mass}};
     for (const Departed& departed : n.left)
       frames.back()["left"][departed.reason] = {{"particles", departed.particles}, {"mass", departed.mass}};
     if (n.stretch > 0) frames.back()["stretch"] = n.stretch;

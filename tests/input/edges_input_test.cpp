@@ -41,6 +41,27 @@ TEST(Edges, ThatAreNoneAreRefused) {
   expect_has(with_edges("[\"open\", [\"closed\", [\"open\"]]]"), "must be a string");
 }
 
+TEST(Coast, IsReadWrittenAndRefusedWhereItDoesNotGo) {
+  for (const auto& [word, rule] :
+       {std::pair{"stop", AtCoast::stop}, {"slide", AtCoast::slide}, {"remove", AtCoast::remove}}) {
+    const ReadResult read = parse_case(cone, "cone.toml", {std::string("domain.coast=") + word});
+    EXPECT_EQ(read.spec.domain.coast, rule);
+    ASSERT_EQ(read.warnings.size(), 1u);
+    expect_has(read.warnings[0], "domain.coast has no effect: there is no land");
+    EXPECT_EQ(parse_case(gaussdrift::case_text(read.spec), "again.toml").spec.domain.coast, rule);
+  }
+  EXPECT_EQ(gaussdrift::case_text(parse_case(cone, "cone.toml").spec).find("coast"), std::string::npos);
+  const auto with_coast = [](const std::string& text) { return errors(text, {"domain.coast=stop"}); };
+  expect_has(errors(cone, {"domain.coast=stopp"}), "did you mean \"stop\"?");
+  expect_has(with_coast(cone + "[effects.remesh]\nevery = 3\n"), "domain.coast does not go with [effects.remesh]");
+  expect_has(with_coast(cone + "[effects.diffusion]\nD = 0.1\nmethod = \"particle-exchange\"\n"),
+             "method = \"core-spreading\" goes with a coast");
+  expect_has(with_coast(cone + "[accuracy]\ntarget = 1e-3\n"),
+             "no settings can be chosen for a target with domain.coast");
+  expect_has(with_coast(cone + "[[check]]\nwhat = \"left\"\nmax = 1\n"), "no particle can leave this run");
+  expect_has(errors(cone + "[[check]]\nwhat = \"stopped\"\nmax = 1\n", {}), "no particle of this run stops");
+}
+
 TEST(Edges, NeedASpacingThatDividesTheLength) {
   EXPECT_EQ(with_edges("[\"periodic\", \"closed\"]", {"domain.max=[1, 0.5]", "particles.per_axis=301"}), "");
   const std::string words = with_edges("[\"periodic\", \"closed\"]", {"domain.max=[1, 0.5]", "particles.per_axis=300"});

@@ -35,7 +35,7 @@ TEST(Wind, WithLandIsRefusedAndRunsWithTheRemediesThatAreOffered) {
   write_file(folder / "coast.toml", coast);
   for (const char* mark : {"1e20", "nan", "-9999"}) {
     write_file(folder / "wind.vti", wind(mark));
-    const Outcome refused = gaussdrift_in(folder, "run coast.toml");
+    const Outcome refused = gaussdrift_in(folder, "run coast.toml --set velocity.missing=error");
     EXPECT_EQ(refused.exit_code, 3);
     EXPECT_NE(refused.err.find("wind of wind.vti has no value at (-1, -1): "), std::string::npos) << refused.err;
     EXPECT_NE(refused.err.find("(27 of 81 values are missing)"), std::string::npos) << refused.err;
@@ -47,6 +47,37 @@ TEST(Wind, WithLandIsRefusedAndRunsWithTheRemediesThatAreOffered) {
       const double x = summary["frames"].back()["centroid"][0];  // started at 0.3, for 2 s at -1
       EXPECT_GT(x, from) << missing;                             // the coast stops it within the cell before -0.5
       EXPECT_LT(x, to) << missing;
+    }
+  }
+}
+
+TEST(Wind, WithLandRunsUntilAParticleReachesIt) {
+  const ScratchFolder folder;
+  write_file(folder / "coast.toml", coast);
+  for (const char* mark : {"1e20", "nan", "-9999"}) {
+    write_file(folder / "wind.vti", wind(mark));  // the coast is at x = -0.375
+    EXPECT_EQ(gaussdrift_in(folder, "run coast.toml --force --set time.end=0.4").exit_code, 0);
+    const Outcome ashore = gaussdrift_in(folder, "run coast.toml --force");
+    EXPECT_EQ(ashore.exit_code, 4);
+    for (const char* words : {"particle ", " at t = 0.", "has reached land, where wind of wind.vti has no value",
+                              "domain.coast = \"stop\", \"slide\" or \"remove\""})
+      EXPECT_NE(ashore.err.find(words), std::string::npos) << ashore.err;
+    for (const auto& [rule, stopped] : {std::pair{"stop", true}, {"remove", false}}) {
+      const Outcome run = gaussdrift_in(
+          folder, std::string("run coast.toml --force --set domain.coast=") + rule + " --set output.report=html");
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+      const auto summary = parsed_json(read_file(folder / "output/coast/summary.json"));
+      const double mass = summary["frames"].front()["mass"];
+      const auto last = summary["frames"].back();
+      const double there = stopped ? last["stopped"]["mass"] : last["left"]["coast"]["mass"];
+      EXPECT_NEAR(there, mass, 1e-12 * mass);
+      if (stopped) {
+        EXPECT_NEAR(double(last["centroid"][0]), -0.375, 1e-9);
+      }
+      const std::string head = read_file(folder / "output/coast/series.csv").substr(0, 300);
+      EXPECT_NE(head.find(stopped ? ",inside,stopped," : ",inside,left_coast,"), std::string::npos) << head;
+      EXPECT_NE(read_file(folder / "output/coast/index.html").find(stopped ? "stopped at the coast" : "left by coast"),
+                std::string::npos);
     }
   }
 }

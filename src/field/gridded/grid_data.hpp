@@ -22,6 +22,7 @@ struct GridData {
   std::size_t components = 1;
   std::vector<std::vector<double>>
       values;          // [time][point * components + component], points with the first axis fastest
+  bool land = false;   // some values are NaN: there is land, without any fluid
   std::string filled;  // "12 of 100 values missing, taken as zero"; empty: none are
 
   std::size_t points() const;
@@ -62,6 +63,7 @@ class GridInterpolator {
   /// "u of wind.pvd on 100 x 50 points, 12 times, cubic, 0 outside".
   std::string describe() const;
   const GridData& data() const { return *data_; }
+  const std::shared_ptr<const GridData>& shared_data() const { return data_; }
 
  private:
   struct Stencil;

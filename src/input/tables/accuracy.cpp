@@ -43,6 +43,9 @@ void read_accuracy(Reader& in, Case& spec) {
   if (const Entry* written = in.find("accuracy", "target"); written && !spec.sources.empty())
     in.diagnostics.error(written->value.place, "no settings can be chosen for a target with [[source]]",
                          "the error is predicted for what is there at the start; leave out accuracy.target");
+  if (const Entry* written = in.find("accuracy", "target"); written && spec.domain.coast != AtCoast::refuse)
+    in.diagnostics.error(written->value.place, "no settings can be chosen for a target with domain.coast",
+                         "the error is predicted for flows without land; leave out accuracy.target");
   std::string without;
   for (const auto& [effect, values] : effects_of(spec.effects))
     if (without.empty() && effect->decay_rate.empty()) without = values.name;

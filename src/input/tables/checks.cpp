@@ -20,16 +20,17 @@ Section checks_section() {
           {{.name = "what",
             .type = Type::choice,
             .required = true,
-            .choices = {"Linf", "L1", "L2", "mass", "inside", "left", "released"},
+            .choices = {"Linf", "L1", "L2", "mass", "inside", "left", "released", "stopped"},
             .meaning =
                 "the number to check: a norm of the error relative to that of the exact density, or a mass "
                 "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
-                "domain, `left` of those that have left the run; these two need `domain.edges`. `released` is the mass "
-                "that `[[source]]` has released, relative to nothing"},
+                "domain, `left` of those that have left the run, `stopped` of those that lie at a coast. `inside` and "
+                "`left` need `domain.edges` or `domain.coast`, `stopped` needs coast = \"stop\". `released` is the mass that `[[source]]` has "
+                 "released, relative to nothing"},
            {.name = "by",
             .type = Type::text,
             .meaning = "with what = \"left\": the reason for which particles have left, a face of the domain as in "
-                       "`x_max`. Without it all of them count"},
+                       "`x_max`, or `coast`. Without it all of them count"},
            {.name = "max", .type = Type::number, .meaning = "the number must not be larger"},
            {.name = "min", .type = Type::number, .meaning = "the number must not be smaller"},
            {.name = "at",
@@ -60,12 +61,18 @@ void read_departure(Reader& in, const Value& what, const Case& spec, CheckSpec& 
   using Quantity = CheckSpec::Quantity;
   const Entry* by = in.find("check", "by");
   const std::vector<std::string> reasons = reasons_to_leave(spec);
-  if (check.what == Quantity::inside && !spec.domain.has_edges() && in.facts.domain_valid)
-    in.diagnostics.error(what.place, "what is inside the domain is counted only where domain.edges is given",
+  if (check.what == Quantity::inside && !spec.domain.counts_inside() && in.facts.domain_valid)
+    in.diagnostics.error(what.place,
+                         "what is inside the domain is counted only where domain.edges or domain.coast is given",
                          "without edges, check \"mass\"; outside in series.csv is the part that is not inside");
   if (check.what == Quantity::left && reasons.empty() && in.facts.domain_valid)
-    in.diagnostics.error(what.place, "no particle can leave this run",
-                         "domain.edges opens ends of the domain: edges = [\"open\", \"open\"]");
+    in.diagnostics.error(
+        what.place, "no particle can leave this run",
+        "domain.edges opens ends of the domain: edges = [\"open\", \"open\"]; coast = \"remove\" takes "
+        "what reaches land");
+  if (check.what == Quantity::stopped && spec.domain.coast != AtCoast::stop && in.facts.domain_valid)
+    in.diagnostics.error(what.place, "no particle of this run stops",
+                         "coast = \"stop\" in [domain] stops what reaches land");
   if (check.what == Quantity::released && spec.sources.empty())
     in.diagnostics.error(what.place, "no [[source]] releases anything in this case",
                          "[[source]] with a shape or points");

@@ -31,7 +31,13 @@ Section domain_section() {
                 "upper one, as in `[\"periodic\", [\"closed\", \"open\"]]`. `unbounded`: nothing, particles go on "
                 "beyond it. `periodic`: what goes out comes in at the other end. `open`: particles that pass it leave "
                 "the run and are counted. `closed`: nothing passes, particles are reflected and the density has no "
-                "flux there"}}};
+                "flux there"},
+           {.name = "coast",
+            .type = Type::choice,
+            .choices = {"stop", "slide", "remove"},
+            .meaning = "what happens to particles that reach land, where a velocity in a file has no values: `stop`, "
+                       "they stay there; `slide`, they move along it; `remove`, they leave the run and are counted. "
+                       "Without it a particle that reaches land ends the run with an error"}}};
 }
 
 namespace {
@@ -120,6 +126,11 @@ void read_domain(Reader& in, Domain& domain) {
                          "min must be less than max on every axis");
   }
   read_edges(in, domain);
+  if (const Entry* coast = in.find("domain", "coast")) {
+    const Key& key = find_key("domain", "coast");
+    if (const auto rule = in.choice_in(coast->value, key, in.label_of(key)))
+      domain.coast = static_cast<AtCoast>(*rule + 1);  // without the key: refuse, the first one
+  }
   in.facts.domain_valid = valid;
   in.facts.box = {domain.dimension, domain.min, domain.max};
 }
@@ -132,6 +143,9 @@ void write_domain(Writer& out, const Domain& domain) {
   out.entry("min", corner(domain.min));
   out.entry("max", corner(domain.max));
   if (domain.has_edges()) out.entry("edges", written_edges(domain));
+  if (domain.coast != AtCoast::refuse)
+    out.entry("coast",
+              written(std::string(find_key("domain", "coast").choices[static_cast<std::size_t>(domain.coast) - 1])));
 }
 
 }  // namespace gaussdrift::input

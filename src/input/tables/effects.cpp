@@ -147,6 +147,21 @@ void refuse_sources(Reader& in, const NamedEffect& effect, const EffectSpec& val
                          "leave out one of them; [effects.reaction] goes with it");
 }
 
+/// Effects that put particles on a lattice, which knows no land.
+void refuse_coast(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
+  const Entry* coast = in.find("domain", "coast");
+  if (!coast) return;
+  const EffectTraits& traits = effect.traits;
+  for (const auto* trait : {&traits.adds_particles, &traits.replaces_particles})
+    if (trait->of(values, spec.domain.dimension)) {
+      in.diagnostics.error(coast->value.place,
+                           fmt::format("domain.coast does not go with [{}]: {}, on a lattice that knows no land",
+                                       table_of(effect), trait->words),
+                           traits.diffuses ? "method = \"core-spreading\" goes with a coast" : "leave out one of them");
+      return;
+    }
+}
+
 /// What does not go with the case, or with another effect.
 void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, EffectSpec>>& read, const Case& spec) {
   const auto refuse = [&](const std::string& name, const std::string& what, const std::string& remedy) {
@@ -163,6 +178,7 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
     if (is_complete(*effect, values)) {
       refuse_edges(in, *effect, values, spec);
       refuse_sources(in, *effect, values, spec);
+      refuse_coast(in, *effect, values, spec);
     }
     if (!effect->problems || !is_complete(*effect, values)) continue;
     for (const Complaint& problem : effect->problems(values, spec)) {

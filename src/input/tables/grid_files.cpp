@@ -35,7 +35,7 @@ std::vector<Key> grid_file_keys(std::string_view outside, const std::string& mis
       {.name = "missing",
        .type = Type::choice,
        .fallback = "error",
-       .choices = {read::missing_names.begin(), read::missing_names.end()},
+       .choices = {read::missing_names.begin(), read::missing_names.end() - 1},  // land: of a velocity
        .meaning = missing,
        .with = "file"},
       {.name = "missing_value",

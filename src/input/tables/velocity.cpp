@@ -5,6 +5,7 @@
 
 #include "base/catalogue.hpp"
 #include "field/gaussians/gaussian_velocity.hpp"
+#include "field/gridded/grid_data.hpp"
 #include "field/named/named_fields.hpp"
 #include "input/data_files.hpp"
 #include "input/sample_table.hpp"
@@ -100,12 +101,17 @@ Section velocity_section() {
                   "times the velocity is linear. The path is relative to the case file"});
   std::vector<Key> of_file = grid_file_keys(
       "error",
-      "what to do where the file has no value. `error` refuses the file, `zero` makes a coast, `nearest` "
+      "what to do where the file has no value. `land`: there is no fluid, and `domain.coast` says what happens to "
+      "particles that come there. `error` refuses the file, `zero` puts a velocity of 0 there, `nearest` "
       "takes the mean of the nearest points that have a value, `keep` takes every number as it is. A value "
       "is missing if it is not finite, if `vtkGhostType` or `vtkValidPointMask` hides it, or if "
       "`_FillValue` or `missing_value` of its array names it. Numbers that programs use as a mark, such as "
       "1e20 or -9999, and numbers far outside the rest are missing too");
   of_file.insert(of_file.begin() + 1, arrays_key());
+  const auto missing =
+      std::find_if(of_file.begin(), of_file.end(), [](const Key& key) { return key.name == "missing"; });
+  missing->fallback = "land";
+  missing->choices.insert(missing->choices.begin(), "land");
   for (const std::vector<Key>& more : {of_file, gaussian_keys(), sample_keys()})
     keys.insert(keys.end(), more.begin(), more.end());
   return {Table{.name = "velocity",
@@ -197,6 +203,19 @@ ExpressionVelocitySpec expression_velocity(Reader& in, const Value& value) {
 
 }  // namespace
 
+namespace {
+
+void warn_of_no_land(Reader& in, const std::vector<VelocitySpec>& velocity) {
+  const Entry* coast = in.find("domain", "coast");
+  if (!coast || in.diagnostics.errors() > 0) return;
+  for (const VelocitySpec& part : velocity)
+    if (const auto* file = std::get_if<FileVelocitySpec>(&part); file && file->data->land) return;
+  in.diagnostics.warning(coast->place, "domain.coast has no effect: there is no land",
+                         "land is where a velocity in a file has no values, with missing = \"land\"");
+}
+
+}  // namespace
+
 void read_velocity(Reader& in, std::vector<VelocitySpec>& velocity) {
   in.each_part("velocity", [&](std::string_view kind, const Value& value) {
     if (kind == "u") velocity.emplace_back(expression_velocity(in, value));
@@ -209,6 +228,7 @@ void read_velocity(Reader& in, std::vector<VelocitySpec>& velocity) {
       velocity.emplace_back(NamedVelocitySpec{
           value.text, in.arguments(find_key("velocity", kind), find_named_field(value.text).about, value)});
   });
+  warn_of_no_land(in, velocity);
 }
 
 namespace {
