@@ -76,7 +76,7 @@ TEST(Wind, WithLandRunsUntilAParticleReachesIt) {
       }
       const std::string head = read_file(folder / "output/coast/series.csv").substr(0, 300);
       EXPECT_NE(head.find(stopped ? ",inside,stopped," : ",inside,left_coast,"), std::string::npos) << head;
-      EXPECT_NE(read_file(folder / "output/coast/index.html").find(stopped ? "stopped at the coast" : "left by coast"),
+      EXPECT_NE(read_file(folder / "output/coast/report.html").find(stopped ? "stopped at the coast" : "left by coast"),
                 std::string::npos);
     }
   }
