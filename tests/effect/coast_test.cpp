@@ -232,7 +232,7 @@ TEST(Coast, LeavesTheExactDensityOutOnLandAndHasNoneFromThere) {
 
 TEST(Coast, HasTheBitsOfOneThreadOnRanksAndAfterAStop) {
   for (const AtCoast rule : {AtCoast::stop, AtCoast::slide, AtCoast::remove}) {
-    const Case spec = scene(rule, 0.3, {"particles.per_axis=81", "effects.reaction.rate=1+x", "time.step=0.01"});
+    const Case spec = scene(rule, 0.3, {"particles.per_axis=41", "effects.reaction.rate=1+x", "time.step=0.02"});
     Simulation whole(spec, 1), threads(spec, 3), saving(spec, 1), resumed(spec, 1);
     const RunSummary once = whole.run();
     threads.run();
