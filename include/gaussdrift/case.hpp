@@ -83,16 +83,30 @@ struct NamedVelocitySpec {
   std::string field;    ///< its name
   Arguments arguments;  ///< all of its parameters
 };
+/// `time = { start = ..., unit = ... }`: how the times of data become those of the scene.
+struct FileClock {
+  std::string start;                     ///< a date of the data at which the scene begins; empty: see start_number
+  std::optional<double> start_number{};  ///< the same as a time of the data
+  std::string unit;                      ///< of the time of the scene: "h"; empty: see unit_number
+  std::optional<double> unit_number{};   ///< how much of the data's time is 1 in the scene
+};
 /// file = "...": data on a grid (docs/cases.md), already read.
-struct FileVelocitySpec {
-  std::filesystem::path file;            ///< absolute
+struct GridFileSpec {
+  std::filesystem::path file;            ///< absolute; its name may be a pattern
   std::vector<std::string> arrays;       ///< as written: one, or one a component; empty: the only one
   std::string interpolation;             ///< linear | cubic
+  std::string time_interpolation;        ///< linear | cubic
   std::string outside;                   ///< what holds outside of the grid: error | clamp | zero
   std::string missing;                   ///< what holds where the file has no value
   std::optional<double> missing_value;   ///< a number that marks missing data, besides those that are recognised
+  std::optional<FileClock> clock;        ///< the times of the scene
+  std::optional<double> level;           ///< of a fourth dimension, the layer that is read
+  std::string gaps;                      ///< what happens where a snapshot is missing: warn | error | bridge
+  std::string duplicates;                ///< which of two snapshots for one time counts: error | first | last
   std::shared_ptr<const GridData> data;  ///< the numbers
 };
+/// A velocity on a grid.
+struct FileVelocitySpec : GridFileSpec {};
 /// gaussians = "...": divergence-free Gaussians at the points of a table, already read and fitted.
 struct GaussianVelocitySpec {
   std::filesystem::path file;  ///< absolute
@@ -130,16 +144,8 @@ struct ShapeDensitySpec {
   std::string shape;    ///< its name
   Arguments arguments;  ///< all of its parameters
 };
-/// file = "...": data on a grid, already read.
-struct FileDensitySpec {
-  std::filesystem::path file;            ///< absolute
-  std::vector<std::string> arrays;       ///< as written: one; empty: the only one
-  std::string interpolation;             ///< linear | cubic
-  std::string outside;                   ///< what holds outside of the grid: error | clamp | zero
-  std::string missing;                   ///< what holds where the file has no value
-  std::optional<double> missing_value;   ///< a number that marks missing data, besides those that are recognised
-  std::shared_ptr<const GridData> data;  ///< the numbers
-};
+/// A density on a grid.
+struct FileDensitySpec : GridFileSpec {};
 /// samples = "...": a function through the values of a table of scattered points.
 struct SamplesDensitySpec : SamplesSpec {};
 /// One `[[density]]`.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "accuracy/causes.hpp"
 #include "effect/catalogue.hpp"
+#include "field/gridded/grid_data.hpp"
 
 namespace gaussdrift::accuracy {
 
@@ -14,6 +16,9 @@ std::string budget_not_covered(const Case& spec) {
   if (spec.domain.has_edges()) return "what the edges of the domain do to errors is not known to it";
   if (!spec.sources.empty()) return "what sources release is not known to it";
   if (spec.domain.coast != AtCoast::refuse) return "what a coast does to errors is not known to it";
+  for (const VelocitySpec& part : spec.velocity)
+    if (const auto* file = std::get_if<FileVelocitySpec>(&part); file && file->data->levels)
+      return "the velocity is read on the way, and every path of an exact density would read it again";
   if (spec.output.times.empty()) return "there is no output";
   return "";
 }

@@ -14,6 +14,7 @@
 #include "core/dispatch.hpp"
 #include "mpi/ranks.hpp"
 #include "read/grid_file.hpp"
+#include "read/netcdf/netcdf_file.hpp"
 #include "render/styles.hpp"
 #include "write/vtk_files.hpp"
 #include "write/vtk_library.hpp"
@@ -83,6 +84,8 @@ ExitCode doctor(const DoctorOptions& options) {
       {"vectors", fmt::format("{}: {} numbers at once in the Gauss transform", vectors.name, vectors.lanes)});
   findings.push_back({"ranks", mpi::library().empty() ? "one: built without MPI (Debian: libopenmpi-dev)"
                                                       : fmt::format("several, by {}", mpi::library())});
+  findings.push_back({"NetCDF", read::netcdf_library().empty() ? "not read: built without it (Debian: libnetcdf-dev)"
+                                                               : fmt::format("read, by {}", read::netcdf_library())});
   std::string pattern = (fs::temp_directory_path() / "gaussdrift-doctor.XXXXXX").string();
   if (!mkdtemp(pattern.data()))
     throw FileError(fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));

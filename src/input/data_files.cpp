@@ -17,9 +17,11 @@ namespace {
 template <class Spec>
 void add_file(const Spec& spec, std::vector<std::filesystem::path>& files) {
   if constexpr (requires { spec.file; }) {
-    files.push_back(spec.file);
+    for (const std::filesystem::path& file : read::files_of_pattern(spec.file)) files.push_back(file);
+    std::error_code error;
     if (spec.file.extension() == ".pvd")
-      for (const read::SeriesEntry& entry : read::read_series(spec.file)) files.push_back(entry.file);
+      for (const read::SeriesEntry& entry : read::read_series(spec.file, false))
+        if (std::filesystem::exists(entry.file, error)) files.push_back(entry.file);
   }
 }
 

@@ -143,6 +143,8 @@ std::string type_text(const Key& key) {
     case Type::ends:
       return fmt::format("a list with one of {} for each axis, or with a pair of them for its two ends",
                          quoted_list(key.choices));
+    case Type::clock:
+      return "a table { start = ..., unit = ... }";
   }
   return "";
 }

@@ -24,7 +24,8 @@ enum class Type {
   expressions,  // a list of strings in x, y, z, t and params, one a dimension
   choice,       // one of `choices`
   choices,      // a list of some of `choices`
-  ends          // one of `choices` for each axis, or a pair of them for its two ends
+  ends,         // one of `choices` for each axis, or a pair of them for its two ends
+  clock         // a table { start = a date or number, unit = a unit or number }
 };
 
 struct Key {

@@ -72,6 +72,12 @@ Json value_schema(const Key& key) {
       list["maxItems"] = 3;
       return list;
     }
+    case Type::clock: {
+      Range above_zero;
+      above_zero.least = 0, above_zero.least_open = true;
+      Json properties = {{"start", number_schema("number", {})}, {"unit", number_schema("number", above_zero)}};
+      return {{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
+    }
   }
   return true;
 }

@@ -9,7 +9,9 @@
 #include <limits>
 
 #include "read/file_bytes.hpp"
+#include "read/netcdf/netcdf_grid.hpp"
 #include "read/stored_grid.hpp"
+#include "read/vector_names.hpp"
 
 namespace gaussdrift::read {
 
@@ -25,7 +27,7 @@ StoredGrid open_grid(const std::filesystem::path& file) {
         kind == ".pvd" ? fmt::format("{} is a series of files; one file is needed here", name_of(file))
         : kind.empty() ? fmt::format("{} has no ending", name_of(file))
                        : fmt::format("{} has the ending \"{}\"", name_of(file), kind),
-        fmt::format("{}known files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of these)",
+        fmt::format("{}known files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of these), .nc (NetCDF)",
                     way.empty() ? "" : way + "; "));
   }
   return StoredGrid(file);
@@ -42,22 +44,8 @@ std::vector<std::string> parts_of_a_vector(const std::vector<ArrayInfo>& arrays,
   std::vector<std::string> scalars;
   for (const ArrayInfo& array : arrays)
     if (array.components == 1) scalars.push_back(array.name);
-  static const std::vector<std::vector<std::string>> usual{{"u", "v", "w"},    {"U", "V", "W"},    {"vx", "vy", "vz"},
-                                                           {"ux", "uy", "uz"}, {"Vx", "Vy", "Vz"}, {"uo", "vo", "wo"},
-                                                           {"u10", "v10"}};
-  for (const auto& names : usual) {
-    if (names.size() < count) continue;
-    const std::vector<std::string> some(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count));
-    if (std::all_of(some.begin(), some.end(), [&](const std::string& name) {
-          return std::find(scalars.begin(), scalars.end(), name) != scalars.end();
-        }))
-      return some;
-  }
+  if (std::vector<std::string> usual = usual_components(scalars, count); !usual.empty()) return usual;
   return scalars.size() == count ? scalars : std::vector<std::string>{};
-}
-
-std::string in_quotes(const std::vector<std::string>& names) {
-  return fmt::format("[\"{}\"]", fmt::join(names, "\", \""));
 }
 
 /// Suggests what could be written instead.
@@ -67,7 +55,7 @@ std::string array_remedy(const std::vector<ArrayInfo>& arrays, const GridRequest
       return fmt::format("for example \"{}\"", array.name);
   if (const auto parts = parts_of_a_vector(arrays, request.least_components);
       request.least_components > 1 && !parts.empty())
-    return fmt::format("arrays = {} takes the components from arrays of their own", in_quotes(parts));
+    return fmt::format("arrays = {} takes the components from arrays of their own", in_brackets(parts));
   return "";
 }
 
@@ -117,7 +105,7 @@ std::vector<ArrayInfo> chosen(const StoredGrid& grid, const std::filesystem::pat
   if (components < request.least_components || components > request.most_components)
     throw GridFileError(
         fmt::format("the array{} {} of {} {} {} component{}, needed: {}", found.size() > 1 ? "s" : "",
-                    found.size() > 1 ? in_quotes(names) : fmt::format("\"{}\"", names[0]), name_of(file),
+                    found.size() > 1 ? in_brackets(names) : fmt::format("\"{}\"", names[0]), name_of(file),
                     found.size() > 1 ? "have" : "has", components, components == 1 ? "" : "s",
                     request.least_components == request.most_components
                         ? fmt::format("{}", request.least_components)
@@ -215,7 +203,8 @@ std::string way_to_read(const std::filesystem::path& file) {
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return kind == name; });
   };
-  if (is({"nc", "nc4", "cdf", "netcdf", "grib", "grb", "grib2", "h5", "hdf", "hdf5"}))
+  if (is({"nc", "nc4", "cdf", "netcdf"})) return "a velocity or density of a case is read from NetCDF";
+  if (is({"grib", "grb", "grib2", "h5", "hdf", "hdf5"}))
     return "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
   if (is({"png", "jpg", "jpeg", "tif", "tiff", "bmp", "gif"}))
     return "ParaView opens the picture as image data: save it as .vti, with the coordinates that its pixels should "
@@ -284,20 +273,66 @@ std::pair<std::vector<double>, std::vector<std::uint8_t>> in_order(const StoredG
 
 }  // namespace
 
+bool is_netcdf(const std::filesystem::path& file) {
+  const std::string kind = file.extension().string();
+  return kind == ".nc" || kind == ".nc4" || kind == ".cdf" || kind == ".netcdf";
+}
+
+namespace {
+
+/// The files of a series, those that are there and count.
+std::vector<SeriesEntry> entries_of(const std::filesystem::path& file, const GridRequest& request, GridData& result) {
+  if (file.extension() != ".pvd") return {{file, 0, 0}};
+  const std::vector<SeriesEntry> all = read_series(file, request.duplicates == Duplicates::error);
+  std::vector<Stamp> stamps;
+  std::size_t left_out = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (std::error_code error; !std::filesystem::exists(all[i].file, error)) {
+      if (request.gaps != Gaps::bridge)
+        throw GridFileError(fmt::format("there is no file {}, which line {} of {} names for t = {}",
+                                        all[i].file.string(), all[i].line, name_of(file), all[i].time),
+                            "paths in a series are relative to its folder");
+      ++left_out;
+      continue;
+    }
+    stamps.push_back({all[i].time, fmt::format("t = {}", all[i].time), i, 0});
+  }
+  if (stamps.empty()) throw GridFileError(fmt::format("no file that {} names is there", name_of(file)));
+  settle_duplicates(stamps, request.duplicates, name_of(file));
+  look_for_gaps(stamps, request.gaps, name_of(file), result.warnings);
+  std::vector<SeriesEntry> entries;
+  for (const Stamp& stamp : stamps) entries.push_back(all[stamp.file]);
+  if (left_out > 0)
+    result.clock = fmt::format("{} snapshot{} left out that {} not there", left_out, left_out == 1 ? "" : "s",
+                               left_out == 1 ? "is" : "are");
+  return entries;
+}
+
+/// The times of a series of ParaView are numbers without a unit.
+void set_clock(GridData& data, const SceneClock& clock, const std::string& name) {
+  if (!clock.start.empty())
+    throw GridFileError(fmt::format("{} has no dates, and time.start is \"{}\"", name, clock.start),
+                        "time = { start = NUMBER } names a time as the file has it");
+  if (!clock.unit.empty())
+    throw GridFileError(fmt::format("the times of {} have no unit, and time.unit is \"{}\"", name, clock.unit),
+                        "time = { unit = NUMBER } says how much of them is 1 in the scene");
+  const double start = clock.start_number.value_or(data.times.front()), unit = clock.unit_number.value_or(1);
+  for (double& time : data.times) time = (time - start) / unit;
+  data.clock += fmt::format("{}t = 0 at time {:.10g} of the file", data.clock.empty() ? "" : ", ", start);
+}
+
+}  // namespace
+
 std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const GridRequest& request) {
-  const bool is_series = file.extension() == ".pvd";
-  const std::vector<SeriesEntry> entries = is_series ? read_series(file) : std::vector<SeriesEntry>{{file, 0, 0}};
+  if (is_netcdf(file)) return read_netcdf_grid(file, request);
   auto result = std::make_shared<GridData>();
+  const std::vector<SeriesEntry> entries = entries_of(file, request, *result);
   const int dimension = result->dimension = request.dimension;
   HiddenPoints hidden;
   std::vector<std::string> names;
   std::vector<double> fills;
   if (request.missing_value) fills.push_back(*request.missing_value);
   for (const SeriesEntry& entry : entries) {
-    if (std::error_code error; is_series && !std::filesystem::exists(entry.file, error))
-      throw GridFileError(fmt::format("there is no file {}, which line {} of {} names for t = {}", entry.file.string(),
-                                      entry.line, name_of(file), entry.time),
-                          "paths in a series are relative to its folder");
     StoredGrid grid = open_grid(entry.file);
     check_shape(grid, entry.file, dimension);
     const std::vector<ArrayInfo> arrays = chosen(grid, entry.file, request);
@@ -328,6 +363,7 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
   const bool keep = request.missing == Missing::keep;
   settle_missing(*result, hidden, keep ? Marks{} : recognise_marks(*result, fills, request.decays), request.missing,
                  names);
+  if (request.clock) set_clock(*result, *request.clock, name_of(file));
   return result;
 }
 

@@ -1,5 +1,5 @@
-// Data on grids from ParaView files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of them). stored_grid.hpp
-// reads the files; here their contents become numbers on ascending axes.
+// Data on grids from files of ParaView, .vti (image data), .vtr (rectilinear grid), .pvd (a series of them), and of NetCDF.
+// stored_grid.hpp and netcdf/ read the files; here their contents become numbers on ascending axes.
 #pragma once
 
 #include <array>
@@ -12,8 +12,20 @@
 #include "field/gridded/grid_data.hpp"
 #include "read/grid_file_error.hpp"
 #include "read/missing_data.hpp"
+#include "read/time_series.hpp"
 
 namespace gaussdrift::read {
+
+/// How the times of data become those of a scene.
+struct SceneClock {
+  std::string start{};                   // a date at which the scene begins
+  std::optional<double> start_number{};  // or a time of the data
+  std::string unit{};                    // of the time of the scene, "h"; velocities follow it
+  std::optional<double> unit_number{};   // or how much of the data's time it is; velocities stay as they are
+};
+
+/// More than that is not held: of longer series the times that are needed are read on the way.
+constexpr double most_bytes_held = 268435456;
 
 /// What is wanted of a file.
 struct GridRequest {
@@ -23,8 +35,15 @@ struct GridRequest {
   Missing missing = Missing::error;       // what stands where the file has no value
   std::optional<double> missing_value{};  // marks missing data, besides the marks that are recognised
   bool decays = false;                    // the data span many powers of ten by nature, as densities do
+  std::optional<SceneClock> clock{};
+  std::optional<double> level{};  // of a further dimension: the layer that is read
+  Gaps gaps = Gaps::warn;
+  Duplicates duplicates = Duplicates::error;
+  std::size_t times_at_once = 2;  // that a value depends on
+  double most_held = most_bytes_held;
 };
 
+/// Reads .vti, .vtr, .pvd, or NetCDF (.nc), of which the name may be a pattern: wind_*.nc.
 /// A grid one layer thick along z is 2D. Axes that descend are turned round. Data of cells stand at the middles of the
 /// cells, and in the outer half of the outermost cells their value holds. At most 2 GiB of numbers are read.
 /// Throws GridFileError: no such file or array, not VTK's XML, wrong number of components or dimensions, numbers that
@@ -37,8 +56,13 @@ struct SeriesEntry {
   double time = 0;
   std::size_t line = 0;  // of the series that names it
 };
-/// The files that a .pvd lists, relative to its folder. Throws GridFileError.
-std::vector<SeriesEntry> read_series(const std::filesystem::path& file);
+/// The files that a .pvd lists, relative to its folder. Throws GridFileError: two for one time, if there must be one.
+std::vector<SeriesEntry> read_series(const std::filesystem::path& file, bool each_time_once = true);
+
+/// By its ending.
+bool is_netcdf(const std::filesystem::path& file);
+/// The files that a name with * and ? stands for, in the order of the alphabet; the file itself if it has none or exists.
+std::vector<std::filesystem::path> files_of_pattern(const std::filesystem::path& file);
 
 /// An array of one .vti or .vtr, as it is: values may be NaN.
 struct GridSnapshot {

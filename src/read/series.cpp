@@ -11,7 +11,7 @@
 
 namespace gaussdrift::read {
 
-std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
+std::vector<SeriesEntry> read_series(const std::filesystem::path& file, bool each_time_once) {
   FileBytes bytes(file);
   const std::string name = bytes.name();
   const XmlFile xml = read_xml(bytes);
@@ -44,12 +44,14 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& file) {
                                       stamp ? entries.back().file.filename().string() : *data),
                           "every file of a series of several has its own: timestep=\"0.5\"");
     timeless = !stamp;
-    if (!entries.empty() && entry.time == entries.back().time)
+    if (each_time_once && !entries.empty() && entry.time == entries.back().time)
       throw GridFileError(
           fmt::format("{}: {} and {} of line {} are both for t = {}", place, *data,
                       entries.back().file.filename().string(), entries.back().line, entry.time),
           "one file a time is read, because parts may overlap and disagree. Parts of one grid are put together in "
-          "ParaView: open the series, apply the filter Resample To Image, save the data as .vti with all times");
+          "ParaView: open the series, apply the filter Resample To Image, save the data as .vti with all times. Of two "
+          "whole "
+          "snapshots duplicates = \"first\" or \"last\" takes one");
     if (!entries.empty() && entry.time < entries.back().time)
       throw GridFileError(
           fmt::format("{}: the times of {} do not ascend: {} after {}", place, name, entry.time, entries.back().time));

@@ -261,8 +261,10 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
   const bool quick = drifts_.empty() && !between_steps_ && !looks_at_steps();
   const std::size_t batch = quick ? std::clamp<std::size_t>(stages_a_batch / stages_a_step, 1, 1000) : 1;
   while (leg.steps < interval.steps()) {
-    const std::size_t count = std::min(batch, interval.steps() - leg.steps);
     const std::size_t first = leg.steps;
+    std::size_t count = std::min(batch, interval.steps() - first);
+    const double held = scene_.velocity->held_until(interval.start(first));
+    while (count > 1 && interval.start(first + count) > held) --count;
     if (!attempt(particles, [&] { advance(particles, interval, first, count, steps_before, stages); })) return false;
     leg.steps += count;
     leg.now = interval.start(leg.steps);

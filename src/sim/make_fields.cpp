@@ -51,7 +51,8 @@ Choice named_choice(const std::array<std::string_view, n>& names, const std::str
 template <class FileSpec>
 GridInterpolator interpolator(const FileSpec& part) {
   return {part.data, named_choice<Interpolation>(interpolation_names, part.interpolation),
-          named_choice<Outside>(outside_names, part.outside)};
+          named_choice<Outside>(outside_names, part.outside),
+          named_choice<Interpolation>(interpolation_names, part.time_interpolation)};
 }
 
 std::unique_ptr<VelocityField> make_part(const FileVelocitySpec& part, const Case& spec, int /*threads*/) {

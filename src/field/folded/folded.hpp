@@ -26,6 +26,7 @@ class FoldedVelocity : public VelocityField {
   bool is_smooth() const override { return smooth_ && field_->is_smooth(); }
   bool is_solenoidal() const override { return smooth_ && field_->is_solenoidal(); }
   bool evaluates_in_blocks() const override { return field_->evaluates_in_blocks(); }
+  double held_until(double t) const override { return field_->held_until(t); }
   double cost() const override { return field_->cost(); }
   double fit_error() const override { return field_->fit_error(); }
   std::string why_not_finite(double t, const Vector& x) const override;

@@ -26,9 +26,12 @@ struct GridInterpolator::Stencil {
   bool lost = false;  // outside, and that is an error
 };
 
-struct GridInterpolator::TimeWeights {
-  std::size_t first = 0;
-  double second_weight = 0;  // of first + 1
+/// The values of the times around a moment. Linear: the second one has the weight 1 - weight[0].
+struct GridInterpolator::Moment {
+  int length = 1;
+  std::array<double, 4> weight{1};
+  std::array<const double*, 4> values{};
+  std::array<GridLevels::Values, 4> kept{};  // so that they stay while they are used
 };
 
 namespace {
@@ -45,11 +48,46 @@ std::vector<std::array<double, 3>> parabolas(const std::vector<double>& axis) {
   return derivatives;
 }
 
+struct Cubic {
+  std::size_t first = 0;
+  int length = 0;
+  std::array<double, 4> weight{}, slope{};
+};
+
+/// f = h00 f_0 + h10 h f_0' + h01 f_1 + h11 h f_1' at the part s of a cell of length h, f' of the parabola through three
+/// points.
+Cubic hermite(std::size_t cell, std::size_t cells, double h, double s,
+              const std::vector<std::array<double, 3>>& parabola) {
+  const double s2 = s * s, s3 = s2 * s;
+  const double h00 = 2 * s3 - 3 * s2 + 1, h10 = s3 - 2 * s2 + s, h01 = 3 * s2 - 2 * s3, h11 = s3 - s2;
+  const double d00 = 6 * (s2 - s) / h, d10 = 3 * s2 - 4 * s + 1, d01 = -d00, d11 = 3 * s2 - 2 * s;
+  Cubic result;
+  result.first = cell == 0 ? 0 : cell - 1;
+  const std::size_t last = std::min(cell + 2, cells);
+  result.length = static_cast<int>(last - result.first) + 1;
+  const auto place = [&](std::size_t point) { return point - result.first; };
+  const auto add_slope = [&](std::size_t point, double value, double derivative) {
+    const std::size_t middle = std::clamp<std::size_t>(point, 1, cells - 1);  // of the parabola
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.weight[place(middle - 1 + i)] += value * parabola[point][i];
+      result.slope[place(middle - 1 + i)] += derivative * parabola[point][i];
+    }
+  };
+  result.weight[place(cell)] = h00;
+  result.weight[place(cell + 1)] = h01;
+  result.slope[place(cell)] = d00;
+  result.slope[place(cell + 1)] = d01;
+  add_slope(cell, h * h10, d10);
+  add_slope(cell + 1, h * h11, d11);
+  return result;
+}
+
 }  // namespace
 
-GridInterpolator::GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside)
-    : data_(std::move(data)), interpolation_(interpolation), outside_(outside) {
-  if (data_->times.empty() || data_->values.size() != data_->times.size())
+GridInterpolator::GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside,
+                                   Interpolation in_time)
+    : data_(std::move(data)), interpolation_(interpolation), outside_(outside), in_time_(in_time) {
+  if (data_->times.empty() || (!data_->levels && data_->values.size() != data_->times.size()))
     throw std::invalid_argument("grid data without times");
   for (const auto& values : data_->values)
     if (values.size() != data_->points() * data_->components)
@@ -64,6 +102,7 @@ GridInterpolator::GridInterpolator(std::shared_ptr<const GridData> data, Interpo
     if (even) inverse_spacing_[k] = 1 / spacing;
     if (interpolation_ == Interpolation::cubic && axis.size() > 2) parabola_[k] = parabolas(axis);
   }
+  if (in_time_ == Interpolation::cubic && data_->times.size() > 2) parabola_of_times_ = parabolas(data_->times);
 }
 
 GridInterpolator::Stencil GridInterpolator::stencil(int k, double x) const {
@@ -93,39 +132,52 @@ GridInterpolator::Stencil GridInterpolator::stencil(int k, double x) const {
     result.weight = {1 - s, s};
     result.slope = {-1 / h, 1 / h};
   } else {
-    // f = h00 f_0 + h10 h f_0' + h01 f_1 + h11 h f_1', f' of the parabola through three points.
-    const double s2 = s * s, s3 = s2 * s;
-    const double h00 = 2 * s3 - 3 * s2 + 1, h10 = s3 - 2 * s2 + s, h01 = 3 * s2 - 2 * s3, h11 = s3 - s2;
-    const double d00 = 6 * (s2 - s) / h, d10 = 3 * s2 - 4 * s + 1, d01 = -d00, d11 = 3 * s2 - 2 * s;
-    result.first = cell == 0 ? 0 : cell - 1;
-    const std::size_t last = std::min(cell + 2, cells);
-    result.length = static_cast<int>(last - result.first) + 1;
-    const auto place = [&](std::size_t point) { return point - result.first; };
-    const auto add_slope = [&](std::size_t point, double value, double derivative) {
-      const std::size_t middle = std::clamp<std::size_t>(point, 1, cells - 1);  // of the parabola
-      const std::array<double, 3>& parabola = parabola_[k][point];
-      for (std::size_t i = 0; i < 3; ++i) {
-        result.weight[place(middle - 1 + i)] += value * parabola[i];
-        result.slope[place(middle - 1 + i)] += derivative * parabola[i];
-      }
-    };
-    result.weight[place(cell)] = h00;
-    result.weight[place(cell + 1)] = h01;
-    result.slope[place(cell)] = d00;
-    result.slope[place(cell + 1)] = d01;
-    add_slope(cell, h * h10, d10);
-    add_slope(cell + 1, h * h11, d11);
+    const Cubic cubic = hermite(cell, cells, h, s, parabola_[k]);
+    result.first = cubic.first;
+    result.length = cubic.length;
+    result.weight = cubic.weight;
+    result.slope = cubic.slope;
   }
   if (flat) result.slope = {};
   return result;
 }
 
-GridInterpolator::TimeWeights GridInterpolator::at(double t) const {
+GridInterpolator::Moment GridInterpolator::at(double t) const {
   const auto& times = data_->times;
-  if (times.size() == 1 || t <= times.front()) return {0, 0};
-  if (t >= times.back()) return {times.size() - 1, 0};
-  const auto first = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin()) - 1;
-  return {first, (t - times[first]) / (times[first + 1] - times[first])};
+  Moment moment;
+  std::size_t first = 0;
+  if (times.size() > 1 && t >= times.back()) {
+    first = times.size() - 1;
+  } else if (times.size() > 1 && t > times.front()) {
+    first = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin()) - 1;
+    const double h = times[first + 1] - times[first], s = (t - times[first]) / h;
+    if (!parabola_of_times_.empty()) {
+      const Cubic cubic = hermite(first, times.size() - 1, h, s, parabola_of_times_);
+      first = cubic.first;
+      moment.length = cubic.length;
+      moment.weight = cubic.weight;
+    } else if (s > 0) {
+      moment.length = 2;
+      moment.weight = {1 - s, s};
+    }
+  }
+  for (int i = 0; i < moment.length; ++i) {
+    const std::size_t time = first + static_cast<std::size_t>(i);
+    if (data_->levels) moment.kept[i] = data_->levels->at(time);
+    moment.values[i] = (data_->levels ? *moment.kept[i] : data_->values[time]).data();
+  }
+  return moment;
+}
+
+double GridInterpolator::held_until(double t) const {
+  const auto& times = data_->times;
+  if (!data_->levels) return std::numeric_limits<double>::infinity();
+  const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t) - times.begin());
+  const std::size_t before = after > 0 ? after - 1 : 0;
+  // Of cubics one more on either side.
+  const std::size_t around = parabola_of_times_.empty() ? 0 : 2, held = data_->levels->most_held();
+  const std::size_t last = before + (held > around + 1 ? held - around - 1 : 1);
+  return last + 1 < times.size() ? times[last] : std::numeric_limits<double>::infinity();
 }
 
 namespace {
@@ -153,6 +205,17 @@ double gather(const GridData& data, const std::array<const double*, max_dimensio
   return sum;
 }
 
+/// value(values of a time), between the times around a moment.
+template <class Moment, class Value>
+double between_times(const Moment& moment, const Value& value) {
+  const double first = value(moment.values[0]);
+  if (moment.length == 1) return first;
+  if (moment.length == 2) return first + moment.weight[1] * (value(moment.values[1]) - first);
+  double sum = moment.weight[0] * first;
+  for (int i = 1; i < moment.length; ++i) sum += moment.weight[i] * value(moment.values[i]);
+  return sum;
+}
+
 }  // namespace
 
 template <class Use>
@@ -170,54 +233,45 @@ void GridInterpolator::each_place(const PointsView& x, const Use& use) const {
 }
 
 void GridInterpolator::add(double t, const PointsView& x, std::size_t count, double* const* sums) const {
-  const TimeWeights time = at(t);
+  const Moment moment = at(t);
   each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
     if (lost)
       for (std::size_t c = 0; c < count; ++c) sums[c][i] = std::numeric_limits<double>::quiet_NaN();
     if (!inside) return;
     const std::array<const double*, max_dimension> weights{stencils[0].weight.data(), stencils[1].weight.data(),
                                                            stencils[2].weight.data()};
-    for (std::size_t c = 0; c < count; ++c) {
-      double value = gather(*data_, weights, stencils, data_->values[time.first].data() + c);
-      if (time.second_weight > 0) {
-        const double next = gather(*data_, weights, stencils, data_->values[time.first + 1].data() + c);
-        value += time.second_weight * (next - value);
-      }
-      sums[c][i] += value;
-    }
+    for (std::size_t c = 0; c < count; ++c)
+      sums[c][i] +=
+          between_times(moment, [&](const double* values) { return gather(*data_, weights, stencils, values + c); });
   });
 }
 
-double GridInterpolator::slope(const TimeWeights& time, const std::array<Stencil, max_dimension>& stencils, int axis,
+double GridInterpolator::slope(const Moment& moment, const std::array<Stencil, max_dimension>& stencils, int axis,
                                int component) const {
   std::array<const double*, max_dimension> weights{stencils[0].weight.data(), stencils[1].weight.data(),
                                                    stencils[2].weight.data()};
   weights[axis] = stencils[axis].slope.data();
-  double value = gather(*data_, weights, stencils, data_->values[time.first].data() + component);
-  if (time.second_weight > 0) {
-    const double next = gather(*data_, weights, stencils, data_->values[time.first + 1].data() + component);
-    value += time.second_weight * (next - value);
-  }
-  return value;
+  return between_times(moment,
+                       [&](const double* values) { return gather(*data_, weights, stencils, values + component); });
 }
 
 void GridInterpolator::add_divergence(double t, const PointsView& x, double* sums) const {
-  const TimeWeights time = at(t);
+  const Moment moment = at(t);
   each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
     if (lost) sums[i] = std::numeric_limits<double>::quiet_NaN();
     if (!inside) return;
-    for (int k = 0; k < x.dimension; ++k) sums[i] += slope(time, stencils, k, k);
+    for (int k = 0; k < x.dimension; ++k) sums[i] += slope(moment, stencils, k, k);
   });
 }
 
 void GridInterpolator::add_gradient(double t, const PointsView& x,
                                     const std::array<std::array<double*, max_dimension>, max_dimension>& slopes) const {
-  const TimeWeights time = at(t);
+  const Moment moment = at(t);
   each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
     for (int k = 0; k < x.dimension; ++k)
       for (int l = 0; l < x.dimension; ++l) {
         if (lost) slopes[k][l][i] = std::numeric_limits<double>::quiet_NaN();
-        if (inside) slopes[k][l][i] += slope(time, stencils, l, k);
+        if (inside) slopes[k][l][i] += slope(moment, stencils, l, k);
       }
   });
 }
@@ -238,11 +292,14 @@ std::string GridInterpolator::why_lost(const Vector& x) const {
 std::string GridInterpolator::describe() const {
   std::vector<std::size_t> sizes;
   for (int k = 0; k < data_->dimension; ++k) sizes.push_back(data_->axis[k].size());
-  return fmt::format("{} on {} points{}, {}, outside: {}{}{}", data_->name, fmt::join(sizes, " x "),
-                     data_->times.size() == 1 ? "" : fmt::format(" at {} times", data_->times.size()),
+  std::string times;
+  if (data_->times.size() > 1)
+    times = fmt::format(" at {} times{}", data_->times.size(),
+                        in_time_ == Interpolation::cubic ? " (cubic between them)" : "");
+  const auto also = [](const std::string& text) { return text.empty() ? "" : ", " + text; };
+  return fmt::format("{} on {} points{}, {}, outside: {}{}{}", data_->name, fmt::join(sizes, " x "), times,
                      interpolation_names[static_cast<std::size_t>(interpolation_)],
-                     outside_names[static_cast<std::size_t>(outside_)], data_->filled.empty() ? "" : ", ",
-                     data_->filled);
+                     outside_names[static_cast<std::size_t>(outside_)], also(data_->clock), also(data_->filled));
 }
 
 }  // namespace gaussdrift

@@ -8,9 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "field/gridded/grid_levels.hpp"
 #include "gaussdrift/points.hpp"
 
 namespace gaussdrift {
+
+/// What is odd about data, and what can be done about it.
+struct DataWarning {
+  std::string message, remedy;
+};
 
 /// One array of a file or of a series of files.
 struct GridData {
@@ -21,9 +27,12 @@ struct GridData {
   std::vector<double> times;                            // ascending; one: the same at all times
   std::size_t components = 1;
   std::vector<std::vector<double>>
-      values;          // [time][point * components + component], points with the first axis fastest
-  bool land = false;   // some values are NaN: there is land, without any fluid
-  std::string filled;  // "12 of 100 values missing, taken as zero"; empty: none are
+      values;  // [time][point * components + component], points with the first axis fastest; empty if `levels` has them
+  std::shared_ptr<const GridLevels> levels{};  // values that are read when they are needed
+  bool land = false;                           // some values are NaN: there is land, without any fluid
+  std::string filled;                          // "12 of 100 values missing, taken as zero"; empty: none are
+  std::string clock;                           // "t = 0 at 2020-01-03 00:00, in hours"; empty: nothing to tell
+  std::vector<DataWarning> warnings;
 
   std::size_t points() const;
 };
@@ -33,6 +42,9 @@ enum class Interpolation {
   cubic    // Hermite cubics with slopes of parabolas: third order, continuously differentiable
 };
 constexpr std::array<std::string_view, 2> interpolation_names{"linear", "cubic"};
+
+/// How many times a value depends on.
+constexpr std::size_t times_of(Interpolation in_time) { return in_time == Interpolation::linear ? 2 : 4; }
 
 /// What stands outside the grid.
 enum class Outside {
@@ -45,10 +57,11 @@ constexpr std::array<std::string_view, 3> outside_names{"error", "clamp", "zero"
 class GridInterpolator {
  public:
   /// Throws std::invalid_argument if the sizes of the data do not fit each other.
-  GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside);
+  GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside,
+                   Interpolation in_time = Interpolation::linear);
 
-  /// sums[c][i] += component c at x_i, for c < count. Linear in time; before the first and after the last time their
-  /// values hold.
+  /// sums[c][i] += component c at x_i, for c < count. Before the first and after the last time their values hold. Throws
+  /// what reading values throws.
   void add(double t, const PointsView& x, std::size_t count, double* const* sums) const;
   /// sums[i] += sum_k d component k / d x_k, of the interpolating function itself.
   void add_divergence(double t, const PointsView& x, double* sums) const;
@@ -60,6 +73,8 @@ class GridInterpolator {
   std::string why_lost(const Vector& x) const;
 
   bool is_steady() const { return data_->times.size() == 1; }
+  /// Until when values from `t` on can be had in any order without reading one twice.
+  double held_until(double t) const;
   /// "u of wind.pvd on 100 x 50 points, 12 times, cubic, 0 outside".
   std::string describe() const;
   const GridData& data() const { return *data_; }
@@ -67,23 +82,24 @@ class GridInterpolator {
 
  private:
   struct Stencil;
-  struct TimeWeights;
+  struct Moment;
   Stencil stencil(int axis, double x) const;
-  TimeWeights at(double t) const;
+  Moment at(double t) const;
   // use(i, inside, lost, stencils) for each point.
   template <class Use>
   void each_place(const PointsView& x, const Use& use) const;
   // The derivative along `axis` of a component, from the stencils of a place.
-  double slope(const TimeWeights& time, const std::array<Stencil, max_dimension>& stencils, int axis,
-               int component) const;
+  double slope(const Moment& moment, const std::array<Stencil, max_dimension>& stencils, int axis, int component) const;
 
   std::shared_ptr<const GridData> data_;
   Interpolation interpolation_;
   Outside outside_;
+  Interpolation in_time_;
   std::array<double, max_dimension> inverse_spacing_{};  // of evenly spaced axes; 0: not evenly spaced
   // The derivative at a point of an axis, of the parabola through it and its neighbours (at the ends: the next two): a
   // weight for each of the three. Only for cubics.
   std::array<std::vector<std::array<double, 3>>, max_dimension> parabola_;
+  std::vector<std::array<double, 3>> parabola_of_times_;
 };
 
 }  // namespace gaussdrift

@@ -24,6 +24,7 @@ class GriddedVelocity : public VelocityField {
     grid_.add_gradient(t, x, gradients.slope);
   }
   bool is_steady() const override { return grid_.is_steady(); }
+  double held_until(double t) const override { return grid_.held_until(t); }
   bool is_smooth() const override { return false; }
   double cost() const override { return 10; }
   std::string why_not_finite(double /*t*/, const Vector& x) const override { return grid_.why_lost(x); }

@@ -24,6 +24,12 @@ bool SumField::is_smooth() const {
   return std::all_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_smooth(); });
 }
 
+double SumField::held_until(double t) const {
+  double until = std::numeric_limits<double>::infinity();
+  for (const auto& field : fields_) until = std::min(until, field->held_until(t));
+  return until;
+}
+
 double SumField::cost() const {
   double sum = 0;
   for (const auto& field : fields_) sum += field->cost();

@@ -23,6 +23,7 @@ class SumField : public VelocityField {
   bool is_solenoidal() const override;
   std::optional<Vector> flow(double from, double to, const Vector& x) const override;
   bool evaluates_in_blocks() const override;
+  double held_until(double t) const override;
   double cost() const override;
   double fit_error() const override;
   std::string why_not_finite(double t, const Vector& x) const override;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -44,6 +45,9 @@ class VelocityField {
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
   /// True if a point costs no more in calls for a few hundred points than in one call for all.
   virtual bool evaluates_in_blocks() const { return true; }
+  /// Until when values from `t` on may be asked for in any order. Beyond, a field that reads its data on the way may have
+  /// to read them twice: then all points go as far as that before any goes on.
+  virtual double held_until(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
   /// What a value costs, roughly, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
   /// The error of u, estimated as a root mean square, where it is fitted to samples; 0 where it is a formula.

@@ -16,7 +16,8 @@ Section density_section() {
   keys.push_back(
       {.name = "file",
        .meaning =
-           "a file of ParaView with the density on a grid: .vti or .vtr. The path is relative to the case file"});
+           "a file with the density on a grid: of ParaView (.vti, .vtr) or NetCDF (.nc). The path is relative to the "
+           "case file"});
   const std::vector<Key> of_file =
       grid_file_keys("zero", "what to do where the file has no value. The choices are those of `velocity.missing`");
   keys.insert(keys.end(), of_file.begin(), of_file.end());

@@ -1,12 +1,15 @@
 // Data on grids that [velocity] and [density] name.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/number.hpp"
 #include "field/gridded/grid_data.hpp"
 #include "input/data_files.hpp"
 #include "input/tables/tables.hpp"
+#include "read/calendar.hpp"
 #include "read/grid_file.hpp"
 #include "read/missing_data.hpp"
 
@@ -22,6 +25,24 @@ std::vector<Key> grid_file_keys(std::string_view outside, const std::string& mis
        .fallback = "linear",
        .choices = {interpolation_names.begin(), interpolation_names.end()},
        .meaning = "between grid points: `linear`, or `cubic` with continuous derivatives",
+       .with = "file"},
+      {.name = "time_interpolation",
+       .type = Type::choice,
+       .fallback = "linear",
+       .choices = {interpolation_names.begin(), interpolation_names.end()},
+       .meaning = "between the times of the data: `linear`, or `cubic`, by four times instead of two",
+       .with = "file"},
+      {.name = "time",
+       .type = Type::clock,
+       .meaning =
+           "the clock of the scene. `start` is the date, or the time of the file, at which it shows 0: \"2020-01-03 "
+           "12:00\". `unit` is its unit: \"s\", \"min\", \"h\" or \"d\", and velocities become lengths per that "
+           "unit; or a number, how much of the file's time is 1, and velocities stay as written. Without `time`, "
+           "NetCDF counts in its own unit from its first time, and a series of ParaView keeps its times",
+       .with = "file"},
+      {.name = "level",
+       .type = Type::number,
+       .meaning = "in NetCDF with a further dimension, such as a depth: the layer that is read, by its coordinate",
        .with = "file"},
       {.name = "outside",
        .type = Type::choice,
@@ -41,6 +62,20 @@ std::vector<Key> grid_file_keys(std::string_view outside, const std::string& mis
       {.name = "missing_value",
        .type = Type::number,
        .meaning = "a number that marks missing data. The usual marks are recognised without it",
+       .with = "file"},
+      {.name = "gaps",
+       .type = Type::choice,
+       .fallback = "warn",
+       .choices = {read::gaps_names.begin(), read::gaps_names.end()},
+       .meaning = "what to do where a snapshot is missing in an even series: `warn`, or `error`. `bridge` interpolates "
+                  "over it, also over files that a series names and that are not there, and over snapshots without any "
+                  "value",
+       .with = "file"},
+      {.name = "duplicates",
+       .type = Type::choice,
+       .fallback = "error",
+       .choices = {read::duplicates_names.begin(), read::duplicates_names.end()},
+       .meaning = "what to do with two snapshots for one time: `error`, or take the `first` or the `last`",
        .with = "file"}};
 }
 
@@ -98,6 +133,60 @@ std::vector<std::string> array_names(Reader& in, std::string_view table_name, in
   return names;
 }
 
+/// A date, or a number.
+void read_start(Reader& in, const Value& value, FileClock& clock) {
+  if (value.kind == Kind::text)
+    clock.start = value.text;
+  else if (value.kind == Kind::whole || value.kind == Kind::number)
+    clock.start_number = value.number;
+  else
+    in.wrong_type(value, "time.start", "a date in a string, as \"2020-01-03 12:00\", or a number");
+}
+
+/// A unit of time, or a number.
+void read_unit(Reader& in, const Value& value, FileClock& clock) {
+  const bool is_number = value.kind == Kind::whole || value.kind == Kind::number;
+  if (value.kind == Kind::text && read::seconds_of_unit(value.text))
+    clock.unit = value.text;
+  else if (value.kind == Kind::text)
+    in.diagnostics.error(value.place, fmt::format("\"{}\" is no unit of time that is known", value.text),
+                         "known units: \"s\", \"min\", \"h\", \"d\", or a number of the file's own unit");
+  else if (is_number && value.number > 0 && std::isfinite(value.number))
+    clock.unit_number = value.number;
+  else if (is_number)
+    in.diagnostics.error(value.place, fmt::format("time.unit must be greater than 0, found {}", value.number));
+  else
+    in.wrong_type(value, "time.unit", "a unit in a string, as \"h\", or a number");
+}
+
+std::optional<FileClock> read_clock(Reader& in, std::string_view table_name) {
+  const Entry* entry = in.find(table_name, "time");
+  if (!entry) return std::nullopt;
+  const Key& key = find_key(table_name, "time");
+  if (entry->value.kind != Kind::table) {
+    in.wrong_type(entry->value, in.label_of(key), type_text(key));
+    return std::nullopt;
+  }
+  FileClock clock;
+  for (const Entry& part : entry->value.entries) {
+    if (part.name == "start")
+      read_start(in, part.value, clock);
+    else if (part.name == "unit")
+      read_unit(in, part.value, clock);
+    else
+      in.diagnostics.error(part.place, fmt::format("unknown key \"{}\" in {}", part.name, in.label_of(key)),
+                           "known keys: start, unit");
+  }
+  return clock;
+}
+
+/// The choice of that name, or the first one after a complaint.
+template <class Choice, std::size_t n>
+Choice choice_of(const std::array<std::string_view, n>& names, const std::string& name) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  return at == names.end() ? Choice{} : static_cast<Choice>(at - names.begin());
+}
+
 }  // namespace
 
 /// Data on a grid, read at once so that everything wrong with it has its place in the case file.
@@ -107,6 +196,11 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
   FileSpec spec;
   spec.arrays = array_names(in, table_name, most_components);
   spec.interpolation = in.choice(table_name, "interpolation");
+  spec.time_interpolation = in.choice(table_name, "time_interpolation");
+  spec.clock = read_clock(in, table_name);
+  if (const auto level = in.number(table_name, "level")) spec.level = level->number;
+  spec.gaps = in.choice(table_name, "gaps");
+  spec.duplicates = in.choice(table_name, "duplicates");
   spec.outside = in.choice(table_name, "outside");
   spec.missing = in.choice(table_name, "missing");
   if (const auto mark = in.number(table_name, "missing_value")) spec.missing_value = mark->number;
@@ -117,15 +211,23 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
   if (!in.facts.dimension) return spec;
   spec.file = find_data_file(in.folder, value.text);
   try {
-    const auto missing = std::find(read::missing_names.begin(), read::missing_names.end(), spec.missing);
-    spec.data =
-        read::read_grid(spec.file, {.arrays = spec.arrays,
-                                    .dimension = in.facts.dimension,
-                                    .least_components = static_cast<std::size_t>(least_components),
-                                    .most_components = static_cast<std::size_t>(most_components),
-                                    .missing = static_cast<read::Missing>(missing - read::missing_names.begin()),
-                                    .missing_value = spec.missing_value,
-                                    .decays = most_components == 1});
+    std::optional<read::SceneClock> clock;
+    if (spec.clock) clock = {spec.clock->start, spec.clock->start_number, spec.clock->unit, spec.clock->unit_number};
+    spec.data = read::read_grid(
+        spec.file, {.arrays = spec.arrays,
+                    .dimension = in.facts.dimension,
+                    .least_components = static_cast<std::size_t>(least_components),
+                    .most_components = static_cast<std::size_t>(most_components),
+                    .missing = choice_of<read::Missing>(read::missing_names, spec.missing),
+                    .missing_value = spec.missing_value,
+                    .decays = most_components == 1,
+                    .clock = clock,
+                    .level = spec.level,
+                    .gaps = choice_of<read::Gaps>(read::gaps_names, spec.gaps),
+                    .duplicates = choice_of<read::Duplicates>(read::duplicates_names, spec.duplicates),
+                    .times_at_once = times_of(choice_of<Interpolation>(interpolation_names, spec.time_interpolation))});
+    for (const DataWarning& warning : spec.data->warnings)
+      in.diagnostics.warning(value.place, warning.message, warning.remedy);
     in.facts.grid_files.push_back({value.place, spec.data});
     if (spec.outside == "error" && most_components == 1) check_covers_domain(in, *spec.data, value.place);
   } catch (const read::GridFileError& error) {
@@ -151,15 +253,33 @@ void check_times_of_files(Reader& in) {
   }
 }
 
+namespace {
+
+std::string written(const FileClock& clock) {
+  std::vector<std::string> parts;
+  if (!clock.start.empty()) parts.push_back("start = " + input::written(clock.start));
+  if (clock.start_number) parts.push_back("start = " + input::written(*clock.start_number));
+  if (!clock.unit.empty()) parts.push_back("unit = " + input::written(clock.unit));
+  if (clock.unit_number) parts.push_back("unit = " + input::written(*clock.unit_number));
+  return fmt::format("{{ {} }}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
 template <class FileSpec>
 void write_grid_file(Writer& out, const FileSpec& spec) {
   out.entry("file", out.data_file(spec.file));
   if (spec.arrays.size() == 1) out.entry("array", written(spec.arrays[0]));
   if (spec.arrays.size() > 1) out.entry("arrays", written(spec.arrays));
   out.entry("interpolation", written(spec.interpolation));
+  out.entry("time_interpolation", written(spec.time_interpolation));
+  if (spec.clock) out.entry("time", written(*spec.clock));
+  if (spec.level) out.entry("level", written(*spec.level));
   out.entry("outside", written(spec.outside));
   out.entry("missing", written(spec.missing));
   if (spec.missing_value) out.entry("missing_value", written(*spec.missing_value));
+  out.entry("gaps", written(spec.gaps));
+  out.entry("duplicates", written(spec.duplicates));
 }
 
 template void write_grid_file(Writer&, const FileVelocitySpec&);

@@ -5,6 +5,7 @@
 
 #include "effect/catalogue.hpp"
 #include "input/tables/tables.hpp"
+#include "field/gridded/grid_data.hpp"
 #include "render/styles.hpp"
 
 namespace gaussdrift::input {
@@ -52,6 +53,18 @@ bool shows_error(std::string_view style) {
 
 using Kind = Value::Kind;
 
+namespace {
+
+/// A velocity whose data are read on the way, each time once for all particles; empty: there is none.
+std::string read_on_the_way(const Case& spec) {
+  for (const VelocitySpec& part : spec.velocity)
+    if (const auto* file = std::get_if<FileVelocitySpec>(&part); file && file->data && file->data->levels)
+      return file->data->name;
+  return "";
+}
+
+}  // namespace
+
 void read_reference(Reader& in, Case& spec) {
   ReferenceSpec& reference = spec.reference;
   const Key& key = find_key("reference", "kind");
@@ -84,6 +97,17 @@ void read_reference(Reader& in, Case& spec) {
     in.diagnostics.warning(
         source->place, "with [[source]] there is no exact density to compare with, so no errors are measured",
         "[reference] kind = \"exact\" compares with a formula, kind = \"none\" says that this is meant");
+  }
+  if (const std::string data = read_on_the_way(spec); !data.empty() && chosen == "characteristics") {
+    const std::string why =
+        fmt::format("{} is too long to be held, and every path of an exact density would read it again", data);
+    constexpr const char* remedy = "kind = \"none\" leaves the exact density out; or take fewer times or points";
+    if (kind)
+      in.diagnostics.error(kind->value.place, why, remedy);
+    else
+      in.diagnostics.warning(in.table("velocity") ? in.table("velocity")->place : in.source.end(),
+                             why + ", so no errors are measured", remedy);
+    chosen = "none";
   }
   const auto index = std::find(key.choices.begin(), key.choices.end(), chosen) - key.choices.begin();
   reference.kind = static_cast<ReferenceSpec::Kind>(index);
