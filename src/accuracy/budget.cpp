@@ -25,8 +25,8 @@ std::string budget_not_covered(const Case& spec) {
 
 // One by one: a new one must not be forgotten here.
 void pass(base::StateBytes& bytes, Budget& b) {
-  bytes(b.time_stepping, b.smoothing, b.quadrature, b.transform, b.left_out, b.total, b.dominates, b.advice, b.probes,
-        b.outside, b.particles, b.lowest, b.highest, b.not_covered, b.too_dear);
+  bytes(b.time_stepping, b.smoothing, b.quadrature, b.transform, b.left_out, b.total, b.interpolation, b.dominates,
+        b.advice, b.probes, b.outside, b.particles, b.lowest, b.highest, b.not_covered, b.too_dear);
 }
 
 void LastFrame::frame(const Frame& frame) {
@@ -48,6 +48,9 @@ std::string to_text(const Budget& budget) {
     text +=
         fmt::format("  {:<17} {:<8.2g}{}\n", cause.name, error, budget.dominates == cause.name ? " <- dominates" : "");
   }
+  if (budget.interpolation > 0)
+    text += fmt::format("  {:<17} {:<8.2g} of the data, which the exact density does not know\n", "interpolation",
+                        budget.interpolation);
   for (const std::string& advice : budget.advice) text += fmt::format("hint   {}\n", advice);
   return text;
 }
@@ -58,6 +61,7 @@ nlohmann::ordered_json to_json(const Budget& budget) {
   for (const Cause& cause : causes)
     if (cause.error != &Budget::fit || budget.fit > 0) json[cause.key] = budget.*cause.error;
   json["total"] = budget.total;
+  if (budget.interpolation > 0) json["interpolation"] = budget.interpolation;
   json["dominates"] = budget.dominates;
   json["probes"] = budget.probes;
   json["advice"] = budget.advice;

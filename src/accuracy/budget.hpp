@@ -26,7 +26,8 @@ struct Budget {
   double left_out = 0;       // what the blobs of all points below particles.threshold can make together, at most
   double fit = 0;            // what samples leave open that density or velocity are fitted to; 0 without such
   double total = 0;
-  std::string dominates;            // "smoothing", ...
+  double interpolation = 0;  // of data of a velocity on a grid: what they miss, which is not in the total; 0: none
+  std::string dominates;     // "smoothing", ...
   std::vector<std::string> advice;  // what could be saved, what would help
   std::size_t probes = 0;           // points at which the causes were told apart
   double outside = 0;               // part of sum |alpha_j| outside the domain at the last output

@@ -10,6 +10,7 @@
 #include "accuracy/advice.hpp"
 #include "accuracy/carrying.hpp"
 #include "accuracy/causes.hpp"
+#include "accuracy/interpolation.hpp"
 #include "accuracy/known_density.hpp"
 #include "accuracy/other_lattices.hpp"
 #include "accuracy/probes.hpp"
@@ -66,7 +67,9 @@ std::optional<ProbePlan> choose_probe_plan(const Case& spec, const Scene& scene,
     }
     const double exact_work = work_of_a_path(spec, scene, particles, sharp, allowed);
     plans.push_back({way.widths, way.stride, sharp, sharp.exactly && exact_work < step_work ? sharp : steps});
-    work.push_back({exact_work / std::pow(way.stride, particles.dimension), std::min(exact_work, step_work)});
+    const double fewer_points = carryings_for_interpolation(spec) * step_work;
+    work.push_back(
+        {(exact_work + fewer_points) / std::pow(way.stride, particles.dimension), std::min(exact_work, step_work)});
   }
   for (const std::size_t least : {std::min<std::size_t>(2, places.size()), std::size_t{1}})
     for (std::size_t i = 0; i < plans.size(); ++i) {
@@ -202,6 +205,10 @@ class Measurement {
     std::iota(all.begin(), all.end(), std::size_t{0});
     Particles followed = at_start(ran_thin, all, scene_);
     for (double& alpha : followed.alpha) alpha *= cells;
+    if (interpolates_velocity(spec_)) {
+      const double error = interpolation_error(spec_, scene_, followed, plan_.probes, 1, threads_);
+      if (std::isfinite(error)) budget_.interpolation = at_least_rounding(error / norm_);
+    }
     if (!carry(spec_, scene_, plan_.sharp, followed)) return not_covered(lost_paths);
     exactly_ = sums_at(plan_.probes, followed, scene_.cutoff, threads_);
     const std::vector<double> stepped = sums_at(plan_.probes, ran_thin, scene_.cutoff, threads_);

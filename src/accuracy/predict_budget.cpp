@@ -7,6 +7,7 @@
 #include "accuracy/advice.hpp"
 #include "accuracy/carrying.hpp"
 #include "accuracy/causes.hpp"
+#include "accuracy/interpolation.hpp"
 #include "accuracy/known_density.hpp"
 #include "accuracy/other_lattices.hpp"
 #include "accuracy/probes.hpp"
@@ -88,7 +89,8 @@ double work_of_prediction(const Case& spec, const Scene& scene, const Particles&
     const double thin = std::min(n, 3000 * std::pow(2, d));
     const double steps = thin * rates_of_steps(spec, scene);
     work += static_cast<double>(higher_cutoffs(spec).size()) * sum;
-    work += smooth ? std::min(steps, 4e7) * scene.velocity->cost() + thin * sharp : 3 * steps * scene.velocity->cost();
+    work += smooth ? std::min(steps, 4e7) * scene.velocity->cost() + thin * sharp
+                   : (3 + carryings_for_interpolation(spec)) * steps * scene.velocity->cost();
   }
   return work;
 }
@@ -204,6 +206,12 @@ class Prediction {
         places.push_back({sample_.points[i], grid_point(scene_.evaluation, sample_.points[i]), exact_[i]});
     budget_.time_stepping = predict_time_stepping(spec_, scene_, seeded_, places, norm_, paths_);
     if (std::isnan(budget_.time_stepping)) return not_covered(lost_paths);
+    if (interpolates_velocity(spec_)) {
+      const Particles thin = thin_enough(spec_, scene_, seeded_);
+      const double error =
+          interpolation_error(spec_, scene_, thin, places, affordable_steps(spec_, scene_, thin), threads_);
+      if (std::isfinite(error)) budget_.interpolation = at_least_rounding(error / norm_);
+    }
     budget_.transform = error_of_sums();
     budget_.left_out = bound_of_left_out(scene_, seeding_, seeded_, carried_, norm_);
     budget_.fit = fit_of_samples(scene_, seeded_, density_, time(), norm_);

@@ -30,6 +30,7 @@ std::string one_line(const accuracy::Budget& budget) {
   for (const auto& [value, name] : causes)
     text += fmt::format("{}{} {:.1e}{}", text.empty() ? "" : ", ", name, value,
                         name == budget.dominates ? " dominates" : "");
+  if (budget.interpolation > 0) text += fmt::format("; interpolation of the data {:.1e}", budget.interpolation);
   return text;
 }
 

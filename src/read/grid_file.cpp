@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "read/file_bytes.hpp"
+#include "read/matrix.hpp"
 #include "read/netcdf/netcdf_grid.hpp"
 #include "read/stored_grid.hpp"
 #include "read/vector_names.hpp"
@@ -21,13 +22,15 @@ std::string name_of(const std::filesystem::path& file) { return file.filename().
 
 StoredGrid open_grid(const std::filesystem::path& file) {
   check_readable(file);
-  if (const std::string kind = file.extension().string(); kind != ".vti" && kind != ".vtr") {
+  if (const std::string kind = file.extension().string();
+      kind != ".vti" && kind != ".vtr" && kind != ".pvti" && kind != ".vtk") {
     const std::string way = way_to_read(file);
     throw GridFileError(
         kind == ".pvd" ? fmt::format("{} is a series of files; one file is needed here", name_of(file))
         : kind.empty() ? fmt::format("{} has no ending", name_of(file))
                        : fmt::format("{} has the ending \"{}\"", name_of(file), kind),
-        fmt::format("{}known files: .vti (image data), .vtr (rectilinear grid), .pvd (a series of these), .nc (NetCDF)",
+        fmt::format("{}known files: .vti and .pvti (image data), .vtr (rectilinear grid), .vtk (both, legacy), .pvd (a "
+                    "series of these); for a velocity or density of a case also .nc (NetCDF)",
                     way.empty() ? "" : way + "; "));
   }
   return StoredGrid(file);
@@ -203,13 +206,12 @@ std::string way_to_read(const std::filesystem::path& file) {
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return kind == name; });
   };
-  if (is({"nc", "nc4", "cdf", "netcdf"})) return "a velocity or density of a case is read from NetCDF";
   if (is({"grib", "grb", "grib2", "h5", "hdf", "hdf5"}))
     return "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
   if (is({"png", "jpg", "jpeg", "tif", "tiff", "bmp", "gif"}))
     return "ParaView opens the picture as image data: save it as .vti, with the coordinates that its pixels should "
            "have";
-  if (is({"vtk", "vts", "vtu", "vtp", "vtm", "pvti", "pvtr", "pvts", "pvtu", "xmf", "xdmf", "foam", "case", "vtkhdf"}))
+  if (is({"vts", "vtu", "vtp", "vtm", "pvtr", "pvts", "pvtu", "xmf", "xdmf", "foam", "case", "vtkhdf"}))
     return "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
   if (is({"csv", "txt", "dat"})) return "scattered points of a velocity are read from a table by gaussians = \"...\"";
   return "";
@@ -321,10 +323,50 @@ void set_clock(GridData& data, const SceneClock& clock, const std::string& name)
   data.clock += fmt::format("{}t = 0 at time {:.10g} of the file", data.clock.empty() ? "" : ", ", start);
 }
 
+/// Each number is the value of a cell of the frame.
+GridData in_frame(const Matrix& matrix, const Frame& frame, const std::string& name) {
+  GridData data;
+  data.name = name;
+  data.times = {0};
+  std::array<std::vector<std::size_t>, 2> from;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const std::size_t cells = k == 0 ? matrix.columns : matrix.rows;
+    const double length = (frame.max[k] - frame.min[k]) / static_cast<double>(cells);
+    data.axis[k].push_back(frame.min[k]);
+    from[k].push_back(0);
+    for (std::size_t i = 0; i < cells; ++i) {
+      data.axis[k].push_back(frame.min[k] + length * (static_cast<double>(i) + 0.5));
+      from[k].push_back(i);
+    }
+    data.axis[k].push_back(frame.max[k]);
+    from[k].push_back(cells - 1);
+  }
+  data.values.emplace_back();
+  for (const std::size_t row : from[1])
+    for (const std::size_t column : from[0]) data.values[0].push_back(matrix.values[row * matrix.columns + column]);
+  return data;
+}
+
+std::shared_ptr<const GridData> read_matrix(const std::filesystem::path& file, const GridRequest& request) {
+  const std::string name = name_of(file);
+  if (request.dimension != 2)
+    throw GridFileError(fmt::format("{} has two dimensions, the domain has {}", name, request.dimension));
+  const bool is_picture = file.extension() == ".png";
+  if (!request.arrays.empty()) throw GridFileError(fmt::format("{} has no arrays with names", name), "leave array out");
+  auto data = std::make_shared<GridData>(
+      in_frame(is_picture ? read_grey_png(file) : read_csv_matrix(file), *request.frame, name));
+  std::vector<double> named;
+  if (request.missing_value) named.push_back(*request.missing_value);
+  settle_missing(*data, {{}}, request.missing == Missing::keep ? Marks{} : recognise_marks(*data, named, true),
+                 request.missing, {name});
+  return data;
+}
+
 }  // namespace
 
 std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, const GridRequest& request) {
   if (is_netcdf(file)) return read_netcdf_grid(file, request);
+  if (request.frame && (file.extension() == ".png" || file.extension() == ".csv")) return read_matrix(file, request);
   auto result = std::make_shared<GridData>();
   const std::vector<SeriesEntry> entries = entries_of(file, request, *result);
   const int dimension = result->dimension = request.dimension;

@@ -16,6 +16,11 @@
 
 namespace gaussdrift::read {
 
+/// Where a picture or a table of numbers lies.
+struct Frame {
+  std::array<double, max_dimension> min{}, max{};
+};
+
 /// How the times of data become those of a scene.
 struct SceneClock {
   std::string start{};                   // a date at which the scene begins
@@ -35,6 +40,7 @@ struct GridRequest {
   Missing missing = Missing::error;       // what stands where the file has no value
   std::optional<double> missing_value{};  // marks missing data, besides the marks that are recognised
   bool decays = false;                    // the data span many powers of ten by nature, as densities do
+  std::optional<Frame> frame{};           // of .png and .csv, which are read only where there is one
   std::optional<SceneClock> clock{};
   std::optional<double> level{};  // of a further dimension: the layer that is read
   Gaps gaps = Gaps::warn;

@@ -11,6 +11,7 @@
 #include "read/grid_description.hpp"
 #include "read/grid_file_error.hpp"
 #include "read/number_array.hpp"
+#include "read/whole_grid.hpp"
 
 namespace gaussdrift::read {
 
@@ -41,6 +42,7 @@ struct StoredGrid::Parts {
   double time = 0;
   bool overlapping = false;                         // the pieces
   std::array<std::vector<std::uint8_t>, 2> hidden;  // points, cells
+  std::optional<WholeGrid> whole;                   // files that are read at once
 
   void describe(const std::filesystem::path& path) {
     const bool image = path.extension() == ".vti";
@@ -184,6 +186,20 @@ struct StoredGrid::Parts {
     if (!hidden[1].empty()) hide_points_of_hidden_cells();
   }
 
+  void load_whole(const std::vector<ArrayInfo>& wanted) {
+    for (const ArrayInfo& array : wanted)
+      for (std::size_t i = 0; i < whole->arrays.size(); ++i)
+        if (whole->arrays[i].name == array.name && whole->arrays[i].on_cells == array.on_cells) {
+          values.push_back(whole->values[i]);
+          break;
+        }
+    axis = std::move(whole->axis);
+    rounding = whole->rounding;
+    hidden = std::move(whole->hidden);
+    time = whole->time;
+    whole->values.clear();
+  }
+
   /// A point is hidden if all the cells around it are.
   void hide_points_of_hidden_cells() {
     std::array<std::size_t, 3> cells{};
@@ -207,6 +223,12 @@ struct StoredGrid::Parts {
 };
 
 StoredGrid::StoredGrid(const std::filesystem::path& file) : parts_(std::make_unique<Parts>(file)) {
+  if (file.extension() == ".vtk" || file.extension() == ".pvti") {
+    parts_->whole = file.extension() == ".vtk" ? read_legacy_vtk(file) : read_pvti(file);
+    parts_->points = parts_->whole->points;
+    parts_->arrays = parts_->whole->arrays;
+    return;
+  }
   parts_->describe(file);
   const GridDescription& about = parts_->description;
   double count = 1;
@@ -234,6 +256,7 @@ double StoredGrid::time() const { return parts_->time; }
 
 void StoredGrid::load(const std::vector<ArrayInfo>& wanted) {
   Parts& parts = *parts_;
+  if (parts.whole) return parts.load_whole(wanted);
   const GridDescription& about = parts.description;
   double points = 1;
   for (const std::size_t length : parts.points) points *= static_cast<double>(length);

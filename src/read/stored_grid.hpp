@@ -1,4 +1,4 @@
-// One .vti or .vtr as it stands: its points, its arrays. A file is not believed: attributes, extents, pieces, lengths and
+// One .vti, .vtr, .pvti or legacy .vtk as it stands: its points, its arrays. A file is not believed: attributes, extents, pieces, lengths and
 // sizes are checked before memory is taken for what they claim.
 #pragma once
 

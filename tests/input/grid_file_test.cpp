@@ -122,7 +122,7 @@ TEST_F(GridFile, ThatCannotBeUsedIsRefusedWithItsPlaceInTheCase) {
   write_vti("rho.vti", 2, 2, 1, "rho", 1, "0 0 0 0");
   std::ofstream(folder_ / "damaged.vti")
       << "<VTKFile type=\"ImageData\" version=\"1.0\"><ImageData WholeExtent=\"0 1 0";
-  for (const char* name : {"text.txt", "wind.nc", "wind.png"}) std::ofstream(folder_ / name) << "u v\n";
+  for (const char* name : {"text.txt", "wind.nc", "wind.h5", "wind.png"}) std::ofstream(folder_ / name) << "u v\n";
   write_series("empty.pvd", "");
   write_series("lost.pvd", "<DataSet timestep=\"0\" file=\"nowhere.vti\"/>");
   write_series("back.pvd", "<DataSet timestep=\"1\" file=\"wind.vti\"/><DataSet timestep=\"0\" file=\"wind.vti\"/>");
@@ -144,7 +144,8 @@ TEST_F(GridFile, ThatCannotBeUsedIsRefusedWithItsPlaceInTheCase) {
       {"file = \"thick.vti\"", "the grid of thick.vti has 2 x 2 x 2 points, but the domain has 2 dimensions"},
       {"file = \"rho.vti\"", "the array \"rho\" of rho.vti has 1 component, needed: 2 or 3"},
       {"file = \"damaged.vti\"", "damaged.vti is "},
-      {"file = \"wind.nc\"", "ParaView opens the file: apply its filter Resample To Image and save the data as .vti"},
+      {"file = \"wind.nc\"", "wind.nc is "},
+      {"file = \"wind.h5\"", "ParaView opens the file: apply its filter Resample To Image and save the data as .vti"},
       {"file = \"wind.png\"", "ParaView opens the picture as image data: save it as .vti"},
       {"file = \"text.txt\"", "text.txt has the ending \".txt\""},
       {"file = \"empty.pvd\"", "the series empty.pvd is empty"},

@@ -57,7 +57,8 @@ class Netcdf : public GridFile {
     std::vector<double> u, v;
     for (std::size_t t = 0; t < wanted.times.size(); ++t)
       for (std::size_t j = 0; j < wanted.y.size(); ++j)
-        for (std::size_t i = 0; i < 4; ++i) u.push_back(100. * double(t) + 10. * double(j) + double(i)), v.push_back(-u.back());
+        for (std::size_t i = 0; i < 4; ++i)
+          u.push_back(100. * double(t) + 10. * double(j) + double(i)), v.push_back(-u.back());
     file.values("time", wanted.times, wanted.times.size());
     file.values("u", u, wanted.times.size());
     file.values("v", v, wanted.times.size());
@@ -99,10 +100,10 @@ TEST_F(Netcdf, axes_that_descend_are_turned) {
 }
 
 TEST_F(Netcdf, axes_are_known_by_attributes_in_any_order_of_dimensions) {
-  for (const auto& [attribute, of_a, of_b] : std::vector<std::array<std::string, 3>>{
-           {"axis", "X", "Y"},
-           {"standard_name", "projection_x_coordinate", "projection_y_coordinate"},
-           {"units", "degrees_east", "degrees_north"}}) {
+  for (const auto& [attribute, of_a, of_b] :
+       std::vector<std::array<std::string, 3> >{{"axis", "X", "Y"},
+                                                {"standard_name", "projection_x_coordinate", "projection_y_coordinate"},
+                                                {"units", "degrees_east", "degrees_north"}}) {
     {
       NetcdfWriter file(folder_ / "permuted.nc");
       file.dimension("a", 2);
@@ -198,8 +199,9 @@ TEST_F(Netcdf, a_layer_is_taken_where_there_is_one_and_asked_for_where_there_are
   write({5});
   EXPECT_EQ(wind("sea.nc", {})->values[0], (Numbers{5, 6, 7, 8}));
   write({5, 50});
-  EXPECT_NE(refusal("sea.nc", {}).find("2 layers along depth, and the domain has 2 dimensions\nlevel = 5 takes the first "
-                                       "one; depth is one of 5, 50"),
+  EXPECT_NE(refusal("sea.nc", {})
+                .find("2 layers along depth, and the domain has 2 dimensions\nlevel = 5 takes the first "
+                      "one; depth is one of 5, 50"),
             std::string::npos);
   EXPECT_EQ(wind("sea.nc", {.level = 50})->values[0], (Numbers{50, 51, 52, 53}));
   EXPECT_NE(refusal("sea.nc", {.level = 20}).find("no layer 20 along depth"), std::string::npos);
@@ -262,19 +264,20 @@ TEST_F(Netcdf, velocities_follow_a_unit_of_the_scene_and_a_warning_tells_where_u
 
 TEST_F(Netcdf, calendars_count_their_own_days) {
   // From 28 February to 1 March of a leap year.
-  for (const auto& [calendar, hours] : std::vector<std::pair<std::string, double>>{{"", 48},
-                                                                                   {"gregorian", 48},
-                                                                                   {"proleptic_gregorian", 48},
-                                                                                   {"noleap", 24},
-                                                                                   {"365_day", 24},
-                                                                                   {"360_day", 72}}) {
+  for (const auto& [calendar, hours] : std::vector<std::pair<std::string, double> >{{"", 48},
+                                                                                    {"gregorian", 48},
+                                                                                    {"proleptic_gregorian", 48},
+                                                                                    {"noleap", 24},
+                                                                                    {"365_day", 24},
+                                                                                    {"360_day", 72}}) {
     write_wind("wind.nc", {.times = {0, 100}, .time_units = "hours since 2000-02-28", .calendar = calendar});
     EXPECT_EQ(times_of("wind.nc", read::SceneClock{.start = "2000-03-01"}), (Numbers{-hours, 100 - hours})) << calendar;
   }
   write_wind("wind.nc", {.calendar = "lunar"});
   EXPECT_NE(refusal("wind.nc", vector_of()).find("calendar \"lunar\""), std::string::npos);
   write_wind("wind.nc", {.time_units = "months since 2000-01-01"});
-  EXPECT_NE(refusal("wind.nc", vector_of()).find("\"months since 2000-01-01\", which is not understood"), std::string::npos);
+  EXPECT_NE(refusal("wind.nc", vector_of()).find("\"months since 2000-01-01\", which is not understood"),
+            std::string::npos);
 }
 
 TEST_F(Netcdf, a_pattern_is_a_series_in_the_order_of_time) {
@@ -287,13 +290,15 @@ TEST_F(Netcdf, a_pattern_is_a_series_in_the_order_of_time) {
   EXPECT_EQ(data->values[3][0], 100);
   EXPECT_NE(refusal("breeze_*.nc", vector_of()).find("there is no file breeze_*.nc in"), std::string::npos);
   write_wind("wind_c.nc", {.y = {10, 20, 31}});
-  EXPECT_NE(refusal("wind_*.nc", vector_of()).find("the grid of wind_c.nc differs from that of wind_a.nc"), std::string::npos);
+  EXPECT_NE(refusal("wind_*.nc", vector_of()).find("the grid of wind_c.nc differs from that of wind_a.nc"),
+            std::string::npos);
 }
 
 TEST_F(Netcdf, two_snapshots_for_one_time_are_refused_or_one_is_taken) {
   write_wind("wind.nc", {.times = {0, 1, 1, 2}});
-  EXPECT_NE(refusal("wind.nc", vector_of()).find("wind.nc has two snapshots for 2000-01-01 01:00\nduplicates = \"first\""),
-            std::string::npos);
+  EXPECT_NE(
+      refusal("wind.nc", vector_of()).find("wind.nc has two snapshots for 2000-01-01 01:00\nduplicates = \"first\""),
+      std::string::npos);
   read::GridRequest request = vector_of();
   request.duplicates = read::Duplicates::first;
   EXPECT_EQ(wind("wind.nc", request)->values[1][0], 100);
@@ -327,7 +332,8 @@ TEST_F(Netcdf, a_snapshot_without_values_is_a_missing_one) {
     file.values("x", {0, 1});
     file.values("rho", {1, 1, 1, 1, NC_FILL_DOUBLE, NC_FILL_DOUBLE, NC_FILL_DOUBLE, NC_FILL_DOUBLE, 3, 3, 3, 3}, 3);
   }
-  EXPECT_NE(refusal("rho.nc", {.missing = Missing::zero}).find("rho.nc at time 1 has no values at all"), std::string::npos);
+  EXPECT_NE(refusal("rho.nc", {.missing = Missing::zero}).find("rho.nc at time 1 has no values at all"),
+            std::string::npos);
   const auto data = wind("rho.nc", {.gaps = read::Gaps::bridge});
   EXPECT_EQ(data->times, (Numbers{0, 2}));
   EXPECT_EQ(data->filled, "1 snapshot without values left out");
@@ -385,8 +391,9 @@ TEST_F(Netcdf, values_that_are_missing_on_the_way_end_the_run_with_their_place) 
     data->levels->at(1);
     ADD_FAILURE() << "the missing value was not seen";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("in wind.nc at 2000-01-01 01:00: [u, v] of wind.nc has no value at (1, 0)"),
-              std::string::npos)
+    EXPECT_NE(
+        std::string(error.what()).find("in wind.nc at 2000-01-01 01:00: [u, v] of wind.nc has no value at (1, 0)"),
+        std::string::npos)
         << error.what();
   }
 }
@@ -417,7 +424,8 @@ TEST_F(Netcdf, what_is_not_on_one_straight_grid_is_refused) {
     file.values("x", {0, 1});
     file.values("y", {0, 1});
   }
-  EXPECT_NE(refusal("odd.nc", vector_of()).find("\"u\" (y x xs) and \"v\" (y x x) on different grids"), std::string::npos);
+  EXPECT_NE(refusal("odd.nc", vector_of()).find("\"u\" (y x xs) and \"v\" (y x x) on different grids"),
+            std::string::npos);
   {
     NetcdfWriter file(folder_ / "curved.nc");
     for (const char* name : {"j", "i"}) file.dimension(name, 2);
@@ -443,7 +451,8 @@ TEST_F(Netcdf, carries_the_particles_of_a_case) {
 TEST_F(Netcdf, the_text_of_a_case_names_its_clock_again) {
   write_wind("wind.nc", {.times = {0, 6}, .units = "m h-1"});
   const ReadResult first = parse_case(
-      case_with("file = \"wind.nc\"\ntime = { start = \"2000-01-01 01:00\", unit = \"h\" }\ntime_interpolation = \"cubic\""),
+      case_with(
+          "file = \"wind.nc\"\ntime = { start = \"2000-01-01 01:00\", unit = \"h\" }\ntime_interpolation = \"cubic\""),
       folder_ / "cone.toml", {"time.end=1", "output.times=[1]"});
   const std::string text = case_text(first.spec);
   EXPECT_NE(text.find("time = { start = \"2000-01-01 01:00\", unit = \"h\" }"), std::string::npos) << text;

@@ -76,9 +76,11 @@ class ScipyPaths : public GridFile {
 
   /// The largest distance of a particle from where SciPy brings it.
   double worst(const std::string& name, double most_held = read::most_bytes_held) const {
-    const auto data = read::read_grid(
-        folder_ / name,
-        {.arrays = {"u", "v"}, .least_components = 2, .most_components = 2, .times_at_once = 4, .most_held = most_held});
+    const auto data = read::read_grid(folder_ / name, {.arrays = {"u", "v"},
+                                                       .least_components = 2,
+                                                       .most_components = 2,
+                                                       .times_at_once = 4,
+                                                       .most_held = most_held});
     double worst = 0;
     for (const Interpolation order : {Interpolation::linear, Interpolation::cubic}) {
       const GriddedVelocity velocity(GridInterpolator(data, order, Outside::error, order));
@@ -106,7 +108,8 @@ class ScipyPaths : public GridFile {
       const time::Interval interval(0, 3, step);
       Stepper(velocity, time::find_tableau("rk4"), 1).advance(particles, interval, 0, interval.steps(), 0);
       for (std::size_t j = 0; j < ends.size(); ++j)
-        worst = std::max(worst, std::hypot(particles.position[0][j] - ends[j][0], particles.position[1][j] - ends[j][1]));
+        worst =
+            std::max(worst, std::hypot(particles.position[0][j] - ends[j][0], particles.position[1][j] - ends[j][1]));
     }
     return worst;
   }

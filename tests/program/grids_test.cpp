@@ -114,7 +114,7 @@ TEST(Wind, ThatAParticleLeavesIsNamedWithTheAxisByEveryMethod) {
 
 TEST(Wind, OfAnotherKindIsAnsweredWithWhatIsPossible) {
   const ScratchFolder folder;
-  for (const char* kind : {"nc", "png", "vtu"}) {
+  for (const char* kind : {"h5", "png", "vtu"}) {
     write_file(folder / (std::string("wind.") + kind), "data");
     std::string text = coast;
     text.replace(text.find("wind.vti"), 8, std::string("wind.") + kind);
@@ -123,8 +123,10 @@ TEST(Wind, OfAnotherKindIsAnsweredWithWhatIsPossible) {
     EXPECT_EQ(run.exit_code, 3);
     EXPECT_NE(run.err.find("ParaView opens the "), std::string::npos) << run.err;
   }
-  EXPECT_NE(gaussdrift_in(folder, "run wind.nc").err.find("wind.nc is not a case but data; ParaView opens"),
+  EXPECT_NE(gaussdrift_in(folder, "run wind.h5").err.find("wind.h5 is not a case but data; ParaView opens"),
             std::string::npos);
+  write_file(folder / "wind.nc", "data");
+  EXPECT_NE(gaussdrift_in(folder, "run wind.nc").err.find("wind.nc is data on a grid, not a case"), std::string::npos);
   EXPECT_NE(gaussdrift_in(folder, "compare wind.png wind.png").err.find("ParaView opens the picture"),
             std::string::npos);
   write_file(folder / "a.toml", small_case);

@@ -51,6 +51,50 @@ double divergence(const GridInterpolator& grid, const Vector& x) {
   return sum;
 }
 
+TEST(GridInterpolator, GivesTwoComponentsAtOnceAsOneByOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-0.2, 1.2), moment(-1, 4);
+  for (const bool stretch : {false, true})
+    for (const Outside outside : {Outside::error, Outside::clamp, Outside::zero})
+      for (const Interpolation in_time : {Interpolation::linear, Interpolation::cubic}) {
+        auto data =
+            std::make_shared<GridData>(*sampled(2, 7,
+                                                {[](double x, double y, double) { return std::sin(9 * x) + y; },
+                                                 [](double x, double y, double) { return std::cos(7 * y) * x; }},
+                                                stretch));
+        for (int t = 1; t < 4; ++t) {
+          data->times.push_back(t + 0.1 * t * t);
+          data->values.push_back(data->values[0]);
+          for (double& number : data->values.back()) number = std::sin(number + t);
+        }
+        const GridInterpolator grid(data, Interpolation::linear, outside, in_time);
+        for (int trial = 0; trial < 200; ++trial) {
+          const Vector x{place(random), place(random), 0};
+          const double t = moment(random);
+          const PointsView view{2, 1, {&x[0], &x[1], nullptr}};
+          double u = 0, v = 0, alone = 0;
+          double* const both[] = {&u, &v};
+          double* const one[] = {&alone};
+          grid.add(t, view, 2, both);
+          grid.add(t, view, 1, one);
+          EXPECT_TRUE(u == alone || (std::isnan(u) && std::isnan(alone))) << u << " " << alone;
+          EXPECT_EQ(std::isnan(u), std::isnan(v));
+        }
+      }
+}
+
+TEST(GridInterpolator, IsExactForParabolasInTimeWithCubics) {
+  auto data = std::make_shared<GridData>(*sampled(2, 2, {[](double, double, double) { return 0; }}));
+  data->times = {0, 1, 1.5, 4};
+  const auto parabola = [](double t) { return 1 - 3 * t + 2 * t * t; };
+  data->values.clear();
+  for (const double t : data->times) data->values.emplace_back(4, parabola(t));
+  const GridInterpolator cubic(data, Interpolation::linear, Outside::error, Interpolation::cubic);
+  for (const double t : {0., 0.3, 1., 1.2, 1.5, 3.9, 4.})
+    EXPECT_NEAR(value(cubic, t, {0.5, 0.5, 0}), parabola(t), 1e-13);
+  EXPECT_EQ(value(cubic, 5, {0.5, 0.5, 0}), parabola(4));
+}
+
 TEST(GridInterpolator, ReproducesWhatItsOrderPromises) {
   const Function linear = [](double x, double y, double z) { return 1 + x - 2 * y + 3 * z + x * y; };
   const Function square = [](double x, double y, double z) { return x * x - y * y * x + z * z; };

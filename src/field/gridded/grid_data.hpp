@@ -82,7 +82,10 @@ class GridInterpolator {
 
  private:
   struct Stencil;
+  struct Spot;
   struct Moment;
+  Spot find(int axis, double x) const;
+  void add_plane_vector(const Moment& moment, const PointsView& x, double* const* sums) const;
   Stencil stencil(int axis, double x) const;
   Moment at(double t) const;
   // use(i, inside, lost, stencils) for each point.

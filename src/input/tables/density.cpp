@@ -16,8 +16,9 @@ Section density_section() {
   keys.push_back(
       {.name = "file",
        .meaning =
-           "a file with the density on a grid: of ParaView (.vti, .vtr) or NetCDF (.nc). The path is relative to the "
-           "case file"});
+           "a file of ParaView with the density on a grid (.vti, .pvti, .vtr, legacy .vtk), or of NetCDF (.nc). Or a "
+           "picture (.png), from 0 for black to 1 for white, or rows of numbers (.csv), the uppermost first: they fill "
+           "the domain. The path is relative to the case file"});
   const std::vector<Key> of_file =
       grid_file_keys("zero", "what to do where the file has no value. The choices are those of `velocity.missing`");
   keys.insert(keys.end(), of_file.begin(), of_file.end());

@@ -213,6 +213,8 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
   try {
     std::optional<read::SceneClock> clock;
     if (spec.clock) clock = {spec.clock->start, spec.clock->start_number, spec.clock->unit, spec.clock->unit_number};
+    std::optional<read::Frame> frame;  // of a picture: the domain
+    if (most_components == 1 && in.facts.domain_valid) frame = {in.facts.box.min, in.facts.box.max};
     spec.data = read::read_grid(
         spec.file, {.arrays = spec.arrays,
                     .dimension = in.facts.dimension,
@@ -221,6 +223,7 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
                     .missing = choice_of<read::Missing>(read::missing_names, spec.missing),
                     .missing_value = spec.missing_value,
                     .decays = most_components == 1,
+                    .frame = frame,
                     .clock = clock,
                     .level = spec.level,
                     .gaps = choice_of<read::Gaps>(read::gaps_names, spec.gaps),

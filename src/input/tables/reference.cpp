@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "effect/catalogue.hpp"
-#include "input/tables/tables.hpp"
 #include "field/gridded/grid_data.hpp"
+#include "input/tables/tables.hpp"
 #include "render/styles.hpp"
 
 namespace gaussdrift::input {

@@ -146,13 +146,57 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& file)
 
 NetcdfFile::~NetcdfFile() = default;
 
+namespace {
+
+double padded(double bytes) { return 4 * std::ceil(bytes / 4); }
+
+/// Bytes of the header of a classic file, without what is left free behind it.
+class Header {
+ public:
+  Header(int file, int format)
+      : file_(file), count_(format == NC_FORMAT_CDF5 ? 8 : 4), offset_(format == NC_FORMAT_CLASSIC ? 4 : 8) {}
+
+  double bytes(const std::vector<NetcdfDimension>& dimensions, const std::vector<NetcdfVariable>& variables) const {
+    double all = 4 + count_ + 3 * list();
+    for (const NetcdfDimension& dimension : dimensions) all += name(dimension.name) + count_;
+    int global = 0;
+    nc_inq_natts(file_, &global);
+    all += attributes(NC_GLOBAL, global);
+    for (const NetcdfVariable& variable : variables)
+      all += name(variable.name) + count_ * static_cast<double>(2 + variable.dimensions.size()) + list() +
+             attributes(variable.id, static_cast<int>(variable.attributes.size())) + 4 + offset_;
+    return all;
+  }
+
+ private:
+  double list() const { return 4 + count_; }
+  double name(const std::string& text) const { return count_ + padded(static_cast<double>(text.size())); }
+  double attributes(int variable, int number) const {
+    double all = 0;
+    std::array<char, NC_MAX_NAME + 1> text{};
+    for (int i = 0; i < number; ++i) {
+      nc_type type = 0;
+      std::size_t length = 0;
+      if (nc_inq_attname(file_, variable, i, text.data()) != NC_NOERR ||
+          nc_inq_att(file_, variable, text.data(), &type, &length) != NC_NOERR)
+        continue;
+      all += name(text.data()) + 4 + count_ + padded(static_cast<double>(length * bytes_of(type)));
+    }
+    return all;
+  }
+
+  int file_;
+  double count_, offset_;
+};
+
+}  // namespace
+
 // The library reads zeros behind the end of a classic file. HDF5 complains itself.
 void NetcdfFile::check_is_whole(const std::filesystem::path& file) const {
   int format = 0, unlimited = -1;
   check(nc_inq_format(handle_->id, &format), name_, "cannot be read");
   if (format == NC_FORMAT_NETCDF4 || format == NC_FORMAT_NETCDF4_CLASSIC) return;
   check(nc_inq_unlimdim(handle_->id, &unlimited), name_, "cannot be read");
-  const auto padded = [](double bytes) { return 4 * std::ceil(bytes / 4); };
   double fixed = 0, padded_record = 0, record = 0, records = 0;
   int of_records = 0;
   for (const NetcdfVariable& variable : variables_) {
@@ -173,9 +217,10 @@ void NetcdfFile::check_is_whole(const std::filesystem::path& file) const {
     else
       fixed += padded(bytes);
   }
-  const double needed = fixed + records * (of_records == 1 ? record : padded_record);
+  const double needed = Header(handle_->id, format).bytes(dimensions_, variables_) + fixed +
+                        records * (of_records == 1 ? record : padded_record);
   const auto there = static_cast<double>(std::filesystem::file_size(file));
-  if (there < needed)
+  if (there < needed - 3)  // the last bytes may be padding
     throw GridFileError(
         fmt::format("{} is cut off: it has {:.0f} bytes, and its variables need {:.0f}", name_, there, needed),
         "copy the file again");
