@@ -277,14 +277,14 @@ struct ReferenceSpec {
 struct CheckSpec {
   /// What is bounded.
   enum class Quantity {
-    linf,     ///< largest difference from the reference
-    l1,       ///< its integral
-    l2,       ///< its root mean square
-    mass,     ///< the sum of all weights
-    inside,   ///< the sum of the weights of particles inside the domain
-    left,     ///< of those that have left the run
-    released, ///< of those that sources have released, not relative to anything
-    stopped   ///< of those that lie on land
+    linf,      ///< largest difference from the reference
+    l1,        ///< its integral
+    l2,        ///< its root mean square
+    mass,      ///< the sum of all weights
+    inside,    ///< the sum of the weights of particles inside the domain
+    left,      ///< of those that have left the run
+    released,  ///< of those that sources have released, not relative to anything
+    stopped    ///< of those that lie on land
   };
   /// True if it is a norm of the error, which needs a reference.
   bool is_error() const { return what == Quantity::linf || what == Quantity::l1 || what == Quantity::l2; }

@@ -103,7 +103,8 @@ TEST(Edges, AreCheckedByTheirNames) {
   expect_has(check("what = \"left\"\nby = \"y_max\""), "reasons to leave: x_min, x_max, y_min");
   expect_has(check("what = \"left\"", "[\"periodic\", \"closed\"]"), "no particle can leave this run");
   expect_has(check("what = \"mass\"\nby = \"x_min\""), "\"by\" goes with what = \"left\", not with \"mass\"");
-  expect_has(errors(cone + "[[check]]\nwhat = \"inside\"\nmax = 1\n"), "counted only where domain.edges or domain.coast is given");
+  expect_has(errors(cone + "[[check]]\nwhat = \"inside\"\nmax = 1\n"),
+             "counted only where domain.edges or domain.coast is given");
 }
 
 }  // namespace

@@ -25,8 +25,9 @@ Section checks_section() {
                 "the number to check: a norm of the error relative to that of the exact density, or a mass "
                 "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
                 "domain, `left` of those that have left the run, `stopped` of those that lie at a coast. `inside` and "
-                "`left` need `domain.edges` or `domain.coast`, `stopped` needs coast = \"stop\". `released` is the mass that `[[source]]` has "
-                 "released, relative to nothing"},
+                "`left` need `domain.edges` or `domain.coast`, `stopped` needs coast = \"stop\". `released` is the "
+                "mass that `[[source]]` has "
+                "released, relative to nothing"},
            {.name = "by",
             .type = Type::text,
             .meaning = "with what = \"left\": the reason for which particles have left, a face of the domain as in "
