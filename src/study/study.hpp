@@ -71,8 +71,8 @@ struct Study {
 };
 
 /// Throws what reading the case throws; CommandLineError for more than 2000 combinations, a key that cannot be
-/// varied or is given twice; InputError where keys are varied and the case has no exact density. A combination that
-/// cannot run is a sample that says why.
+/// varied or is given twice; InputError where keys are varied and the case has no exact density, and where no keys are
+/// and the case has sources. A combination that cannot run is a sample that says why.
 Study run_study(const StudyOptions& options);
 
 /// Marks the front and fills in observed orders along the last key, where it is a number that errors are powers of.

@@ -142,6 +142,17 @@ TEST(Study, RefusesWhatItCannotVary) {
   EXPECT_THROW(run_study(options), InputError);
 }
 
+TEST(Study, OfSourcesVariesKeysAlone) {
+  StudyOptions options;
+  options.file = cases + "plume.toml";
+  try {
+    run_study(options);
+    FAIL() << "the standard studies know nothing of what is released later";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("[[source]]"), std::string::npos) << error.what();
+  }
+}
+
 TEST(StandardStudies, SeeTheOrdersOfTheMethods) {
   const Case spec = read_case(cases + "rotating_cone.toml", {"particles.per_axis=60"}).spec;
   const Experiment steps = study_steps(spec, 0, 5);
