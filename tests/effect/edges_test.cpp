@@ -120,7 +120,12 @@ FileVelocitySpec wave_to(double last, const std::string& outside) {
     const double x = data->axis[0][p % data->axis[0].size()];
     data->values[0].insert(data->values[0].end(), {1 + std::cos(2 * pi * x) / 2, 0.0});
   }
-  return {.arrays = {}, .interpolation = "linear", .outside = outside, .missing = "error", .data = data};
+  FileVelocitySpec spec;
+  spec.interpolation = spec.time_interpolation = "linear";
+  spec.outside = outside;
+  spec.missing = "error";
+  spec.data = data;
+  return spec;
 }
 
 /// Carried by these data around a periodic axis.

@@ -66,6 +66,11 @@ std::string read_on_the_way(const Case& spec) {
 }  // namespace
 
 void read_reference(Reader& in, Case& spec) {
+  if (const Entry* coast = in.find("domain", "coast"); coast && !read_on_the_way(spec).empty())
+    in.diagnostics.error(
+        coast->value.place,
+        fmt::format("domain.coast needs to know where land is, and {} is too long to be held", read_on_the_way(spec)),
+        "leave it out: a run then ends where a particle reaches land; or take fewer times or points");
   ReferenceSpec& reference = spec.reference;
   const Key& key = find_key("reference", "kind");
   const Entry *kind = in.find("reference", "kind"), *rho = in.find("reference", "rho");
