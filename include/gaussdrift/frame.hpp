@@ -53,9 +53,11 @@ struct FrameNumbers {
   std::optional<double> inside{};
   /// What has left the run so far, for each reason that there may be, in a fixed order; empty: nothing can leave.
   std::vector<Departed> left{};
-  /// With sources: the sum of the weights that they have released so far, and what weights have lost along the paths
-  /// (reaction). mass = mass at the start + released - what has left - decayed, but for rounding.
-  std::optional<double> released{}, decayed{};
+  /// The sum of the weights that sources have released so far; only with sources.
+  /// mass = mass at the start + released - what has left - decayed, but for rounding.
+  std::optional<double> released{};
+  /// What weights have lost along the paths so far, by a reaction; only with sources.
+  std::optional<double> decayed{};
   /// What lies on land; only where domain.coast is "stop".
   std::optional<Stopped> stopped{};
 };

@@ -12,12 +12,9 @@
 namespace gaussdrift::input {
 namespace {
 
-constexpr const char* no_walls =
-    "the domain has no walls: particles move through all of space, and what leaves the domain is not drawn; a velocity "
-    "without flow through a wall keeps them inside, as a streamfunction that is constant along it";
-constexpr const char* not_periodic =
-    "the domain is not periodic: particles that leave it do not come back; the velocity may be periodic, as "
-    "sin(2*pi*x), in a domain wide enough for what moves";
+constexpr const char* edges =
+    "edges = [\"periodic\", \"closed\"] in [domain] has a word for each axis: periodic, closed (a wall), open or "
+    "unbounded";
 constexpr const char* prescribed = "the velocity is prescribed, in [velocity]; no equation of motion is solved";
 constexpr const char* no_mesh =
     "there is no mesh: particles.per_axis is the number of particles along the longest side, evaluate.per_axis that of "
@@ -36,24 +33,24 @@ struct Written {
 };
 
 constexpr Written written[] = {
-    {"boundary", "", no_walls},
-    {"boundaries", "", no_walls},
-    {"boundarycondition", "", no_walls},
-    {"boundaryconditions", "", no_walls},
-    {"bc", "", no_walls},
-    {"bcs", "", no_walls},
-    {"wall", "", no_walls},
-    {"walls", "", no_walls},
-    {"obstacle", "", no_walls},
-    {"obstacles", "", no_walls},
-    {"noslip", "", no_walls},
-    {"reflect", "", no_walls},
-    {"reflecting", "", no_walls},
-    {"periodic", "", not_periodic},
-    {"periodicity", "", not_periodic},
-    {"wrap", "", not_periodic},
-    {"outflow", "", no_walls},
-    {"outlet", "", no_walls},
+    {"boundary", "", edges},
+    {"boundaries", "", edges},
+    {"boundarycondition", "", edges},
+    {"boundaryconditions", "", edges},
+    {"bc", "", edges},
+    {"bcs", "", edges},
+    {"wall", "", edges},
+    {"walls", "", edges},
+    {"obstacle", "", edges},
+    {"obstacles", "", edges},
+    {"noslip", "", edges},
+    {"reflect", "", edges},
+    {"reflecting", "", edges},
+    {"periodic", "", edges},
+    {"periodicity", "", edges},
+    {"wrap", "", edges},
+    {"outflow", "", edges},
+    {"outlet", "", edges},
     {"gravity", "", prescribed},
     {"pressure", "", prescribed},
     {"temperature", "", prescribed},

@@ -16,6 +16,17 @@ namespace gaussdrift::study {
 
 namespace {
 
+/// The number of points nearest to `per_axis` that the case takes: edges that are periodic or closed want a whole number
+/// of spacings. `per_axis` itself where none near it is taken.
+int fitting_lattice(Case varied, int per_axis) {
+  for (int away = 0; away < per_axis / 4; ++away)
+    for (const int other : {per_axis + away, per_axis - away}) {
+      varied.particles.per_axis = other;
+      if (other >= 8 && accuracy::why_not_read(varied).empty()) return other;
+    }
+  return per_axis;
+}
+
 Case with_cutoff(Case spec, const std::string& cutoff) {
   spec.particles.cutoff = cutoff;
   spec.particles.cutoff_arguments.clear();
@@ -53,7 +64,8 @@ std::size_t run_lattices(const Case& spec, const StudyOptions& options, double s
         }
         Case varied = with_cutoff(spec, cutoff);
         varied.particles.overlap = *base::read_number<double>(fmt::format("{:g}", overlap));  // as it is written
-        varied.particles.per_axis = std::max(8, static_cast<int>(std::lround(factor * spec.particles.per_axis)));
+        varied.particles.per_axis =
+            fitting_lattice(varied, std::max(8, static_cast<int>(std::lround(factor * spec.particles.per_axis))));
         const base::Stopwatch one;
         Sample sample = measure_run(varied, options);
         dearest = std::max(dearest, one.seconds());

@@ -19,7 +19,7 @@ std::vector<std::string> cases() {
 }
 
 Case small(const std::string& name) {
-  return read_case(SOURCE_DIR "/cases/" + name + ".toml", {"particles.per_axis=30", "evaluate.per_axis=15"}).spec;
+  return read_case(SOURCE_DIR "/cases/" + name + ".toml", {"particles.per_axis=31", "evaluate.per_axis=15"}).spec;
 }
 
 class Resumed : public testing::TestWithParam<std::string> {};

@@ -10,6 +10,7 @@
 
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "message_of.hpp"
 #include "same_particles.hpp"
 #include "scratch_folder.hpp"
@@ -145,6 +146,14 @@ TEST(Sources, CloseTheBudgetOfMass) {
   }
   threads.run();
   expect_same(simulation.particles(), threads.particles());
+}
+
+TEST(Sources, OfTheGallerysPlumeComeCloseToItsFormula) {
+  const Case spec = read_case(SOURCE_DIR "/cases/plume.toml", {"evaluate.per_axis=61"}).spec;
+  const RunSummary summary = Simulation(spec, 1).run();
+  for (const auto& [time, numbers] : summary.frames) EXPECT_LT(numbers.error.value().linf, 3e-4) << "t = " << time;
+  EXPECT_NEAR(last(summary).released.value(), 2, 1e-14);
+  EXPECT_GT(last(summary).decayed.value(), 0);
 }
 
 TEST(Sources, OfAPointInAUniformWindAreTheExactPlume) {

@@ -149,15 +149,15 @@ const std::vector<Wrong> wrongs = {
     {"gaussdrift = 1", "gausdrift = 1", 1, "gausdrift",
      "unknown key \"gausdrift\" at the top of the file; did you mean \"gaussdrift\"?", tables_note},
     {"[domain]\n", "[domain]\nperiodic = true\n", 12, "periodic", "unknown key \"periodic\" in [domain]",
-     "the domain is not periodic: particles that leave it do not come back; the velocity may be periodic, as "
-     "sin(2*pi*x), in a domain wide enough for what moves"},
+     "edges = [\"periodic\", \"closed\"] in [domain] has a word for each axis: periodic, closed (a wall), open or "
+     "unbounded"},
     {"[domain]\n", "[domain]\nboundary = \"wall\"\n", 12, "boundary", "unknown key \"boundary\" in [domain]",
-     "the domain has no walls: particles move through all of space, and what leaves the domain is not drawn; a "
-     "velocity without flow through a wall keeps them inside, as a streamfunction that is constant along it"},
+     "edges = [\"periodic\", \"closed\"] in [domain] has a word for each axis: periodic, closed (a wall), open or "
+     "unbounded"},
     {"[particles]\n", "[Boundary-Conditions]\nleft = 0\n[particles]\n", 24, "Boundary-Conditions",
      "unknown table [Boundary-Conditions]",
-     "the domain has no walls: particles move through all of space, and what leaves the domain is not drawn; a "
-     "velocity without flow through a wall keeps them inside, as a streamfunction that is constant along it"},
+     "edges = [\"periodic\", \"closed\"] in [domain] has a word for each axis: periodic, closed (a wall), open or "
+     "unbounded"},
     {"[time]\nend", "[effects.gravity]\ng = 9.81\n[time]\nend", 29, "gravity", "unknown effect \"gravity\"",
      "the velocity is prescribed, in [velocity]; no equation of motion is solved"},
     {"[velocity]\n", "[velocity]\ndiffusivity = 1\n", 16, "diffusivity", "unknown key \"diffusivity\" in [velocity]",

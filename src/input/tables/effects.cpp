@@ -144,7 +144,7 @@ void refuse_sources(Reader& in, const NamedEffect& effect, const EffectSpec& val
     reason = "how far apart particles must be to move each other is chosen for those of the start";
   if (!reason.empty())
     in.diagnostics.error(source->place, fmt::format("[[source]] does not go with [{}]: {}", table_of(effect), reason),
-                         "leave out one of them; [effects.reaction] goes with it");
+                         "leave out one of them");
 }
 
 /// Effects that put particles on a lattice, which knows no land.

@@ -179,7 +179,7 @@ class Reading {
       if (array->dimensions != arrays_[0]->dimensions)
         throw GridFileError(
             fmt::format("{} has {} and {} on different grids", file_.name(), shown(*arrays_[0]), shown(*array)),
-            "bring them to common points first: components of a staggered grid are averaged to the middles of its "
+            "bring them to common points first: average the components of a staggered grid to the middles of its "
             "cells");
   }
 
