@@ -51,7 +51,7 @@ Section sources_section() {
             .required = false,
             .meaning = "what is released during the run, at one time or over an interval at a rate. It is carried on "
                        "as the density at the start is. Several `[[source]]` are possible. It does not go with "
-                       "effects other than reaction, nor with an exact density by characteristics",
+                       "most effects, nor with an exact density by characteristics",
             .kinds = {"shape", "point", "points"}},
       keys};
 }

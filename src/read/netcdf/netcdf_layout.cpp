@@ -179,8 +179,7 @@ class Reading {
       if (array->dimensions != arrays_[0]->dimensions)
         throw GridFileError(
             fmt::format("{} has {} and {} on different grids", file_.name(), shown(*arrays_[0]), shown(*array)),
-            "bring them to common points first: average the components of a staggered grid to the middles of its "
-            "cells");
+            "bring them to common points first: in a staggered grid, average them to the middles of cells");
   }
 
   /// The coordinates along a dimension; null where there are none.
