@@ -142,28 +142,27 @@ void gaussians(const Maker& make) {
   make.add("3.1b", "a Gaussian in two dimensions, sigma = 1", watch);
 }
 
-void box(const Maker& make) {
+void boxes(const Maker& make, const std::string& number, const std::string& caption,
+           void (*draw)(const std::filesystem::path&)) {
   const base::Stopwatch watch;
-  draw_box_with_its_corners(make.file("3.2"));
-  make.add("3.2", "a box with its corners, its centre and a point in it", watch);
+  draw(make.file(number));
+  make.add(number, caption, watch);
+}
+
+void box(const Maker& make) {
+  boxes(make, "3.2", "a box with its corners, its centre and a point in it", draw_box_with_its_corners);
 }
 
 void subboxes(const Maker& make) {
-  const base::Stopwatch watch;
-  draw_numbered_boxes(make.file("3.3"));
-  make.add("3.3", "a bounding box cut into 35 subboxes, their numbers and indices", watch);
+  boxes(make, "3.3", "a bounding box cut into 35 subboxes, their numbers and indices", draw_numbered_boxes);
 }
 
 void neighbours(const Maker& make) {
-  const base::Stopwatch watch;
-  draw_neighbours(make.file("3.4"));
-  make.add("3.4", "the neighbour boxes of a box for n = 0, 1, 2 and n >= 3, by Algorithm 3.4", watch);
+  boxes(make, "3.4", "the neighbour boxes of a box for n = 0, 1, 2 and n >= 3, by Algorithm 3.4", draw_neighbours);
 }
 
 void recursion(const Maker& make) {
-  const base::Stopwatch watch;
-  draw_recursion(make.file("3.5"));
-  make.add("3.5", "the order in which Algorithm 3.5 finds 16 neighbours, n = 2", watch);
+  boxes(make, "3.5", "the order in which Algorithm 3.5 finds 16 neighbours, n = 2", draw_recursion);
 }
 
 void points_of_tests(const Maker& make) {

@@ -32,41 +32,36 @@ namespace {
 
 constexpr std::uint64_t most_reasons = 1000;  // for which particles leave: more is no state of a run
 
-/// What a particle adds to the sums of a frame.
-enum Addend : std::size_t {
-  mass,
-  weight,
-  outside,
-  inside,
-  stopped,
-  stopped_mass,
-  centroid  // has a number an axis
-};
+/// What a particle adds to the sums of a frame. After the centroid, which has a number an axis, comes what only some
+/// cases count.
+enum Addend : std::size_t { mass, weight, outside, centroid };
 
 /// stops: whether particle j lies on land, for good; empty: none does.
 FrameNumbers measure_particles(const Particles& particles, const Domain& domain, const Placement& place, int threads,
                                const std::function<bool(std::size_t j)>& stops) {
-  const std::vector<double> sums = place.sums(particles, centroid + static_cast<std::size_t>(particles.dimension),
-                                              threads, [&](std::size_t j, double* of_particle) {
-                                                const double alpha = particles.alpha[j];
-                                                of_particle[mass] = alpha;
-                                                of_particle[weight] = std::abs(alpha);
-                                                const bool is_out = is_outside(particles, j, domain);
-                                                of_particle[outside] = is_out ? std::abs(alpha) : 0;
-                                                of_particle[inside] = is_out ? 0 : alpha;
-                                                const bool lies = stops && stops(j);
-                                                of_particle[stopped] = lies ? 1 : 0;
-                                                of_particle[stopped_mass] = lies ? alpha : 0;
-                                                for (int k = 0; k < particles.dimension; ++k)
-                                                  of_particle[centroid + static_cast<std::size_t>(k)] =
-                                                      alpha * particles.position[k][j];
-                                              });
+  const auto dimension = static_cast<std::size_t>(particles.dimension);
+  const std::size_t inside = centroid + dimension, stopped = inside + (domain.counts_inside() ? 1 : 0),
+                    count = stopped + (stops ? 2 : 0);
+  const auto addends_of = [&](std::size_t j, double* of_particle) {
+    const double alpha = particles.alpha[j];
+    const bool is_out = is_outside(particles, j, domain);
+    of_particle[mass] = alpha;
+    of_particle[weight] = std::abs(alpha);
+    of_particle[outside] = is_out ? std::abs(alpha) : 0;
+    for (std::size_t k = 0; k < dimension; ++k) of_particle[centroid + k] = alpha * particles.position[k][j];
+    if (domain.counts_inside()) of_particle[inside] = is_out ? 0 : alpha;
+    if (!stops) return;
+    const bool lies = stops(j);
+    of_particle[stopped] = lies ? 1 : 0;
+    of_particle[stopped + 1] = lies ? alpha : 0;
+  };
+  const std::vector<double> sums = place.sums(particles, count, threads, addends_of);
   FrameNumbers numbers;
   numbers.mass = sums[mass];
   numbers.weight = sums[weight];
   numbers.outside = sums[weight] > 0 ? sums[outside] / sums[weight] : 0;
   if (domain.counts_inside()) numbers.inside = sums[inside];
-  if (stops) numbers.stopped = {static_cast<std::uint64_t>(sums[stopped]), sums[stopped_mass]};
+  if (stops) numbers.stopped = {static_cast<std::uint64_t>(sums[stopped]), sums[stopped + 1]};
   // Where positive and negative weights cancel there is no centre of mass.
   const bool cancelled = std::abs(numbers.mass) <= 1e-12 * numbers.weight;
   for (int k = 0; k < particles.dimension; ++k)

@@ -174,16 +174,7 @@ void measure_errors(const RadialSumRequest& request, RadialSums& sums) {
       [&] { in_dimension<1, 3>(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
 }
 
-std::string to_text(const RadialSums& sums) {
-  std::string text = first_lines(sums);
-  text += fmt::format("Q      {:.9g}", sums.weight_total);
-  for (std::size_t k = 0; k < sums.columns.size(); ++k)
-    text += fmt::format("{} {} right to {:.1e}", k ? "," : ";", sums.columns[k], sums.error_bounds[k]);
-  for (std::size_t k = 0; k < sums.measured.size(); ++k)
-    text += fmt::format("{} {} {:.1e}", k ? "," : fmt::format("; measured at {} targets:", sums.compared),
-                        sums.measured[k].of, sums.measured[k].error * sums.units[k]);
-  return text + "\n";
-}
+std::string to_text(const RadialSums& sums) { return first_lines(sums) + precision_line(sums); }
 
 std::string to_json(const RadialSums& sums) {
   const rbf::Choice& choice = sums.choice;
