@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "field/gridded/gridded.hpp"
 #include "grid_files.hpp"
 #include "read/netcdf/netcdf_file.hpp"
 
@@ -396,6 +397,12 @@ TEST_F(Netcdf, values_that_are_missing_on_the_way_end_the_run_with_their_place) 
         std::string::npos)
         << error.what();
   }
+  // Taken for land, it ends the run of a particle that reaches it.
+  request.missing = read::Missing::land;
+  const GriddedVelocity u(GridInterpolator(wind("wind.nc", request), Interpolation::linear, Outside::error));
+  EXPECT_EQ(u.why_not_finite(0, {0.9, 0.1, 0}), "");
+  const std::string reason = u.why_not_finite(1, {0.9, 0.1, 0});
+  EXPECT_NE(reason.find("it has reached land, where [u, v] of wind.nc has no value"), std::string::npos) << reason;
 }
 
 TEST_F(Netcdf, files_that_are_none_are_refused) {

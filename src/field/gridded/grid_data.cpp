@@ -331,6 +331,19 @@ std::string GridInterpolator::why_lost(const Vector& x) const {
   return "";
 }
 
+std::string GridInterpolator::why_missing(double t, const Vector& x) const {
+  if (!data_->levels) return "";
+  double value = 0;
+  double* const to = &value;
+  PointsView point{data_->dimension, 1, {}};
+  for (int k = 0; k < data_->dimension; ++k) point.axis[k] = &x[k];
+  add(t, point, 1, &to);
+  if (!std::isnan(value)) return "";
+  return fmt::format(
+      "it has reached land, where {} has no value: velocity.missing = \"zero\" or \"nearest\" puts a velocity there",
+      data_->name);
+}
+
 std::string GridInterpolator::describe() const {
   std::vector<std::size_t> sizes;
   for (int k = 0; k < data_->dimension; ++k) sizes.push_back(data_->axis[k].size());

@@ -71,6 +71,8 @@ class GridInterpolator {
 
   /// "x = 1.3 is outside of u of wind.pvd, which reaches from -1 to 1: ..."; empty where there is a value.
   std::string why_lost(const Vector& x) const;
+  /// Why a value of data that are read on the way is not a number; empty: it is one, or the data are held.
+  std::string why_missing(double t, const Vector& x) const;
 
   bool is_steady() const { return data_->times.size() == 1; }
   /// Until when values from `t` on can be had in any order without reading one twice.

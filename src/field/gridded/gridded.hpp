@@ -27,7 +27,10 @@ class GriddedVelocity : public VelocityField {
   double held_until(double t) const override { return grid_.held_until(t); }
   bool is_smooth() const override { return false; }
   double cost() const override { return 10; }
-  std::string why_not_finite(double /*t*/, const Vector& x) const override { return grid_.why_lost(x); }
+  std::string why_not_finite(double t, const Vector& x) const override {
+    std::string reason = grid_.why_lost(x);
+    return reason.empty() ? grid_.why_missing(t, x) : reason;
+  }
   std::string describe() const override { return "u = " + grid_.describe(); }
 
  private:
