@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/repeated_time.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/scene.hpp"
 #include "sim/tiled_density.hpp"
 #include "sim/transform.hpp"

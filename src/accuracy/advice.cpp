@@ -11,7 +11,7 @@
 #include "base/number.hpp"
 #include "effect/catalogue.hpp"
 #include "particle/cutoff.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/stable_step.hpp"
 #include "time/tableau.hpp"
 

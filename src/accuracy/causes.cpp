@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/longest_side.hpp"
-#include "sim/outside.hpp"
+#include "sim/borders/outside.hpp"
 #include "sim/work.hpp"
 
 namespace gaussdrift::accuracy {

@@ -8,8 +8,8 @@
 #include "base/size_text.hpp"
 #include "effect/catalogue.hpp"
 #include "reference/reference.hpp"
-#include "sim/edges.hpp"
-#include "sim/outside.hpp"
+#include "sim/borders/edges.hpp"
+#include "sim/borders/outside.hpp"
 
 namespace gaussdrift::accuracy {
 

@@ -16,7 +16,7 @@
 #include "accuracy/probes.hpp"
 #include "particle/subset.hpp"
 #include "reference/sample.hpp"
-#include "sim/outside.hpp"
+#include "sim/borders/outside.hpp"
 
 namespace gaussdrift::accuracy {
 

@@ -19,7 +19,7 @@
 #include "base/state_bytes.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/releases.hpp"
 #include "write/folder_lock.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "accuracy/would_run.hpp"
 #include "gaussdrift/accuracy.hpp"
-#include "sim/outside.hpp"
+#include "sim/borders/outside.hpp"
 
 namespace gaussdrift {
 

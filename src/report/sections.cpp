@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/outside.hpp"
+#include "sim/borders/outside.hpp"
 
 namespace gaussdrift::report {
 

@@ -12,7 +12,7 @@
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "gaussdrift/error.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/scene.hpp"
 
 namespace gaussdrift {

@@ -9,7 +9,7 @@
 #include "effect/catalogue.hpp"
 #include "reference/characteristics.hpp"
 #include "reference/formula.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/landings.hpp"
 #include "sim/work.hpp"
 #include "time/schedule.hpp"

@@ -21,7 +21,7 @@
 #include "field/velocity/streamfunction_field.hpp"
 #include "field/velocity/sum_field.hpp"
 #include "gaussdrift/lattice.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 
 namespace gaussdrift {
 

@@ -13,7 +13,7 @@
 #include "gaussdrift/error.hpp"
 #include "particle/columns.hpp"
 #include "particle/seeding.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/landings.hpp"
 #include "sim/make_fields.hpp"
 

@@ -9,7 +9,7 @@
 #include "effect/catalogue.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/seeding.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/make_fields.hpp"
 
 namespace gaussdrift {

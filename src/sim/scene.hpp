@@ -12,7 +12,7 @@
 #include "gaussdrift/lattice.hpp"
 #include "particle/cutoff.hpp"
 #include "particle/seeding.hpp"
-#include "sim/coast.hpp"
+#include "sim/borders/coast.hpp"
 
 namespace gaussdrift {
 

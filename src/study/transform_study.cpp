@@ -14,7 +14,7 @@
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "particle/cutoff.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/scene.hpp"
 #include "sim/tiled_density.hpp"
 #include "sim/transform.hpp"

@@ -52,4 +52,12 @@ inline Moments moments_of(const Particles& particles) {
   return m;
 }
 
+/// Some overrides and more of them.
+inline std::vector<std::string> with(std::vector<std::string> some, const std::vector<std::string>& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
+
+inline std::string edges(const std::string& list) { return "domain.edges=[" + list + "]"; }
+
 }  // namespace gaussdrift

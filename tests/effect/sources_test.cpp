@@ -25,11 +25,6 @@ const FrameNumbers& last(const RunSummary& summary) { return summary.frames.back
 
 RunSummary run(const std::vector<std::string>& overrides) { return Simulation(scene_of(overrides), 1).run(); }
 
-std::vector<std::string> with(std::vector<std::string> some, const std::vector<std::string>& more) {
-  some.insert(some.end(), more.begin(), more.end());
-  return some;
-}
-
 std::vector<std::string> at_a_rate(const std::string& rate, int puffs) {
   return {"source.point=[0.3, 0.2]", "source.from=0.1",           "source.to=0.4",
           "source.rate=" + rate,     "output.times=[0,0.25,0.5]", "source.puffs=" + std::to_string(puffs)};

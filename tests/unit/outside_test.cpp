@@ -1,5 +1,5 @@
 // What is outside the domain, and what is said about it.
-#include "sim/outside.hpp"
+#include "sim/borders/outside.hpp"
 
 #include <gtest/gtest.h>
 

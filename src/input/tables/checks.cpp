@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "input/tables/tables.hpp"
-#include "sim/departures.hpp"
+#include "sim/borders/departures.hpp"
 
 namespace gaussdrift::input {
 

@@ -10,7 +10,7 @@
 #include "effect/catalogue.hpp"
 #include "input/tables/tables.hpp"
 #include "particle/cutoff.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 
 namespace gaussdrift::input {
 

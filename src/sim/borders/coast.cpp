@@ -1,4 +1,4 @@
-#include "sim/coast.hpp"
+#include "sim/borders/coast.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "base/parallel.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/make_fields.hpp"
 
 namespace gaussdrift {

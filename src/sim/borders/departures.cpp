@@ -1,4 +1,4 @@
-#include "sim/departures.hpp"
+#include "sim/borders/departures.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "particle/columns.hpp"
-#include "sim/coast.hpp"
-#include "sim/open_faces.hpp"
+#include "sim/borders/coast.hpp"
+#include "sim/borders/open_faces.hpp"
 
 namespace gaussdrift {
 

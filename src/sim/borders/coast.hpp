@@ -8,7 +8,7 @@
 #include "field/gridded/land.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/particles.hpp"
-#include "sim/departures.hpp"
+#include "sim/borders/departures.hpp"
 
 namespace gaussdrift {
 

@@ -1,4 +1,4 @@
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // Open faces of the domain as a way out of the run.
 #pragma once
 
-#include "sim/departures.hpp"
-#include "sim/edges.hpp"
+#include "sim/borders/departures.hpp"
+#include "sim/borders/edges.hpp"
 
 namespace gaussdrift {
 

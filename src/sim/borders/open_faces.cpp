@@ -1,4 +1,4 @@
-#include "sim/open_faces.hpp"
+#include "sim/borders/open_faces.hpp"
 
 namespace gaussdrift {
 

@@ -1,4 +1,4 @@
-#include "sim/outside.hpp"
+#include "sim/borders/outside.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sim/edges.hpp"
+#include "sim/borders/edges.hpp"
 
 namespace gaussdrift {
 
