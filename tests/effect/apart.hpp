@@ -1,6 +1,8 @@
 // How far apart the same particles of two runs are.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
