@@ -284,8 +284,7 @@ void Carrier::advance(Particles& particles, const time::Interval& interval, std:
     take_steps(particles, interval, i, 1, steps_before, stages);
     arrive(particles, interval.start(i), interval.start(i + 1), stages);
     if (!between_steps_) continue;
-    if (i == 0 || taken_.empty()) taken_.push_back({interval, i, 0});
-    ++taken_.back().steps;
+    taken_.add(interval, i);
     const double now = interval.start(i + 1);
     settle(particles, now, stages);
     rearrange(particles, now, stages);
@@ -293,30 +292,18 @@ void Carrier::advance(Particles& particles, const time::Interval& interval, std:
   }
 }
 
-void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles) {
+void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles, std::span<const double> landed_on) {
   std::uint64_t effects = effects_.size();
   bytes(effects);
   if (effects != effects_.size()) throw std::out_of_range("there are other effects");
-  bytes(taken_);
+  if (landed_on.empty())
+    taken_.pass(bytes);
+  else
+    taken_.pass(bytes, landed_on, case_.time.step);
   if (adaptive_) adaptive_->pass_state(bytes);
   if (departures_.possible()) departures_.pass_state(bytes);
   if (counts_decay_) bytes(decayed_.own, decayed_.together);
   for (const auto& effect : effects_) effect->pass_state(bytes, particles);
-}
-
-bool Carrier::has_steps_until(double now) const {
-  constexpr double most_steps = 1e15;  // of an interval, so that they can be counted
-  double reached = 0;
-  for (const Taken& taken : taken_) {
-    const std::size_t steps = taken.interval.steps();
-    const double begin = taken.interval.start(0), end = taken.interval.start(steps), step = case_.time.step;
-    if (!(begin >= 0 && (end - begin) / step < most_steps) || taken.interval != time::Interval(begin, end, step))
-      return false;
-    if (taken.first > steps || taken.steps > steps - taken.first || !(taken.interval.start(taken.first) >= reached))
-      return false;
-    reached = taken.interval.start(taken.first + taken.steps);
-  }
-  return reached <= now;
 }
 
 void Carrier::take_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
@@ -378,7 +365,7 @@ void Carrier::exchange(Particles& particles, double time, double length, StageTi
 void Carrier::follow(Particles& particles) const {
   particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
   double now = 0;
-  for (const Taken& taken : taken_) {
+  for (const StepsTaken::Part& taken : taken_.parts()) {
     stepper_.advance(particles, taken.interval, taken.first, taken.steps, 0);
     now = taken.interval.start(taken.first + taken.steps);
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "sim/effects.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
+#include "sim/steps_taken.hpp"
 #include "time/schedule.hpp"
 
 namespace gaussdrift {
@@ -75,11 +77,12 @@ class Carrier {
                std::size_t steps_before, StageTimes& stages);
 
   /// What effects and steps have gathered beside what the particles hold: writes it, or takes it up for these particles.
-  /// Throws std::out_of_range if the bytes are not those of this case.
-  void pass_state(base::StateBytes& bytes, const Particles& particles);
+  /// Throws std::out_of_range if the bytes are not those of this case. landed_on: times on which steps have landed, from
+  /// the begin of the run on, which whoever reads knows too. With them the bytes do not grow with the number of landings.
+  void pass_state(base::StateBytes& bytes, const Particles& particles, std::span<const double> landed_on = {});
 
   /// Whether what pass_state() has read are steps of this case, one after another, and none of them after `now`.
-  bool has_steps_until(double now) const;
+  bool has_steps_until(double now) const { return taken_.fit(case_.time.step, now); }
 
   /// True if steps are chosen by their error (time.tolerance) instead of by time.step.
   bool is_adaptive() const { return adaptive_.has_value(); }
@@ -161,14 +164,8 @@ class Carrier {
   const Scene& scene_;
   Stepper stepper_;
   std::optional<AdaptiveStepper> adaptive_;
-  // Steps taken since all particles stood on nodes of the lattice: `steps` of each interval, from `first` on. Kept only
-  // if an effect acts between steps.
-  struct Taken {
-    time::Interval interval;
-    std::size_t first = 0, steps = 0;
-  };
-  std::vector<Taken> taken_;
-  FlowRates flow_;  // at the start
+  StepsTaken taken_;  // kept only if an effect acts between steps
+  FlowRates flow_;    // at the start
   std::vector<std::string> warnings_;
   const base::AbandonWanted* abandon_wanted_ = nullptr;
   Particles before_;  // steps that may be abandoned: what of them is not set at their very end

@@ -110,7 +110,8 @@ class Simulation::Parts {
   void pass_outputs(base::StateBytes& bytes);
   std::vector<std::string> outputs();
   void take_outputs(const std::vector<std::string>& all);
-  void pass_state(base::StateBytes& bytes, bool format_1, ObserverStates& seen);
+  std::vector<double> landed_on() const;
+  void pass_state(base::StateBytes& bytes, std::uint64_t format, ObserverStates& seen);
   void check_leg() const;
   void check_frames() const;
   void take_particles(Particles particles);

@@ -29,7 +29,10 @@ bool all_finite(const Particles& particles) {
 }
 
 void pass(base::StateBytes& bytes, RunState& parts) {
-  bytes(parts.outputs_apart, parts.run, parts.outputs);
+  auto later = static_cast<unsigned char>(parts.format - 1);
+  bytes(later, parts.run, parts.outputs);
+  parts.format = later + 1u;
+  if (parts.format > newest_format) throw std::out_of_range("its format is not known");
   bytes.end();
 }
 
@@ -102,14 +105,22 @@ void Simulation::Parts::take_outputs(const std::vector<std::string>& all) {
   }
 }
 
+// Of the outputs so far, behind that of the begin.
+std::vector<double> Simulation::Parts::landed_on() const {
+  std::vector<double> times{0};
+  for (const auto& [time, numbers] : summary_.frames)
+    if (time > 0) times.push_back(time);
+  return times;
+}
+
 // What the run has come to, beside the particles and, mostly, the numbers of the outputs.
-void Simulation::Parts::pass_state(base::StateBytes& bytes, bool format_1, ObserverStates& seen) {
+void Simulation::Parts::pass_state(base::StateBytes& bytes, std::uint64_t format, ObserverStates& seen) {
   bytes(leg_, steps_before_, index_);
   if (bytes.reading()) check_leg();
-  carrier_.pass_state(bytes, particles_);
+  carrier_.pass_state(bytes, particles_, format > 2 ? landed_on() : std::vector<double>());
   if (releases_.possible()) releases_.pass_state(bytes);
   bytes(summary_.transform_choice, summary_.transform_achievable);
-  if (format_1)
+  if (format == 1)
     pass_outputs(bytes);
   else
     bytes(summary_.derivatives_achievable, summary_.derivatives_error);
@@ -139,8 +150,10 @@ std::string Simulation::Parts::state() {
   ObserverStates seen;
   for (const auto& observer : observers) seen.emplace_back(observer->name(), observer->state());
   base::StateBytes bytes;
-  pass_state(bytes, false, seen);
-  RunState parts{.run = bytes.written(), .outputs = outputs()};
+  RunState parts;
+  pass_state(bytes, parts.format, seen);
+  parts.run = bytes.written();
+  parts.outputs = outputs();
   return joined(parts);
 }
 
@@ -218,9 +231,9 @@ void Simulation::Parts::restore(Particles particles, const std::string& bytes) {
   ranks_.agree_on([&] {
     try {
       const RunState parts = parted(of_all);
-      if (parts.outputs_apart) take_outputs(parts.outputs);
+      if (parts.format > 1) take_outputs(parts.outputs);
       base::StateBytes state(parts.run);
-      pass_state(state, !parts.outputs_apart, seen);
+      pass_state(state, parts.format, seen);
       plan_landings();
       if (!carrier_.has_steps_until(leg_.now)) throw misfit("it has other steps");
     } catch (const std::out_of_range& error) {

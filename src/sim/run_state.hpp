@@ -2,16 +2,20 @@
 // written anew with every checkpoint.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace gaussdrift {
 
+/// Of the bytes.
+constexpr unsigned newest_format = 3;
+
 struct RunState {
-  bool outputs_apart = true;         // false: `run` has them, as checkpoints of format 1 do
-  std::string run;                   // how far it is, and what effects and observers have gathered
-  std::vector<std::string> outputs;  // the numbers of each
+  std::uint64_t format = newest_format;  // 1: `run` has the outputs; 2: it has the steps that follow from them
+  std::string run;                       // how far it is, and what effects and observers have gathered
+  std::vector<std::string> outputs;      // the numbers of each
 };
 
 /// Throws std::out_of_range if these are not the bytes of a state.

@@ -10,10 +10,11 @@
 #include <string>
 
 #include "gaussdrift/particles.hpp"
+#include "sim/run_state.hpp"
 
 namespace gaussdrift::write {
 
-constexpr int checkpoint_version = 2;  // 1: run.raw has the numbers of the outputs
+constexpr unsigned checkpoint_version = newest_format;  // sim/run_state.hpp says what earlier ones have
 
 constexpr const char* checkpoint_kind = "gaussdrift checkpoint";
 constexpr const char* manifest_name = "manifest.json";

@@ -112,8 +112,8 @@ void read_state(const fs::path& folder, const fs::path& slot, const json& manife
   parts.run.resize(count_in(state, "bytes"));
   file.read(parts.run.data(), parts.run.size());
   check_sum(file, state);
-  parts.outputs_apart = count_in(manifest, "version") > 1;
-  if (parts.outputs_apart) {
+  parts.format = count_in(manifest, "version");
+  if (parts.format > 1) {
     const json& outputs = member(manifest, "outputs");
     const auto count = count_in(outputs, "count");
     checkpoint.trail.outputs = read_outputs(folder, count_in(outputs, "bytes"), count_in(outputs, "crc32"));

@@ -17,6 +17,7 @@
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
 #include "same_particles.hpp"
+#include "sim/run_state.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift {
@@ -60,6 +61,22 @@ TEST_P(StopAndGo, HasTheBitsOfARunThatNeverStopped) {
   for (std::size_t i = 0; i < once.frames.size(); ++i)
     EXPECT_EQ(once.frames[i].second.maximum, often.frames[i].second.maximum);
   expect_same(whole.particles(), parts.particles());
+}
+
+/// New particles of an exchange take all steps since the start, which lead from output to output.
+TEST(State, DoesNotGrowWithTheOutputs) {
+  const auto bytes_after = [](std::size_t outputs) {
+    std::string times = "0";
+    for (std::size_t i = 1; i <= outputs; ++i)
+      times += ", " + std::to_string(0.5 * static_cast<double>(i) / static_cast<double>(outputs));
+    Simulation simulation(
+        spec_of({"exchange", {"effects.diffusion.D=1e-3", "effects.diffusion.method=particle-exchange"}},
+                {"output.times=[" + times + "]"}),
+        1);
+    simulation.run();
+    return parted(simulation.state()).run.size();
+  };
+  EXPECT_EQ(bytes_after(5), bytes_after(50));
 }
 
 TEST_P(StopAndGo, GoesOnInAnotherSimulation) {
