@@ -183,6 +183,7 @@ struct Choice {
   double bound = 0;                    ///< gaussians: of the error, relative to it too; <= tolerance
   std::array<double, 3> polynomial{};  ///< gaussians: beyond `near` the kernel is p_0 + p_1 r^2 + p_2 r^4 + `terms`
   std::vector<Gaussian> terms;         ///< gaussians: widest first
+  std::size_t transforms = 0;          ///< gaussians: Gauss transforms; Gaussians of similar widths share one
   double near = 0;                     ///< gaussians: pairs that are closer are summed one by one
   double seconds = 0;                  ///< predicted, on one thread
   std::size_t centres = 0;             ///< N

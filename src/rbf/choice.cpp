@@ -107,6 +107,7 @@ std::ostream& operator<<(std::ostream& out, const Choice& choice) {
       << " targets, tolerance " << choice.tolerance << " on [0, " << choice.range << "]";
   if (choice.method == Method::gaussians) {
     out << ", " << choice.terms.size() << (choice.terms.size() == 1 ? " Gaussian" : " Gaussians");
+    out << " in " << choice.transforms << (choice.transforms == 1 ? " transform" : " transforms");
     if (choice.near > 0) out << " beyond " << choice.near;
     out << ", error of the kernel " << choice.kernel_error << ", bound " << choice.bound;
   }

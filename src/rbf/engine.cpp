@@ -52,13 +52,13 @@ double farthest_corner(const Eigen::Matrix<double, d, 1>& low, const Eigen::Matr
 
 /// What fgtd says, with the words of this library around it.
 template <class Work>
-auto with_fgtd(const Work& work, double share) {
+auto with_fgtd(const Work& work) {
   try {
     return work();
   } catch (const fgtd::MemoryLimitError& error) {
-    throw MemoryLimitError("rbf: one of the Gaussians needs more memory than its part of Options::memory_limit. " +
+    throw MemoryLimitError("rbf: the Gaussians need more memory than Options::memory_limit. " +
                                std::string(error.what()) + "; raise the limit, or evaluate fewer targets at a time",
-                           error.needed * share, static_cast<std::size_t>(static_cast<double>(error.limit) * share));
+                           error.needed, error.limit);
   } catch (const fgtd::InvalidArgument& error) {
     throw InvalidArgument("rbf: " + std::string(error.what()));
   } catch (const fgtd::ToleranceError& error) {
@@ -126,7 +126,7 @@ Engine<d>::Engine(const Function& function, const Eigen::Ref<const Points<d>>& c
     check_seconds(Method::gaussians, choice_.seconds, options.most_seconds);
   } else {
     check_seconds(Method::direct, direct, options.most_seconds);
-    plans_.clear();
+    gaussians_.reset();
     choice_.terms.clear();
     choice_.method = Method::direct;
     choice_.seconds = direct;
@@ -188,6 +188,7 @@ void Engine<d>::plan_gaussians(const Eigen::Ref<const Eigen::MatrixXd>& weights)
   if (grid)
     for (std::size_t l = 0; l < d; ++l)
       for (double& node : grid->axes[l]) node -= origin_[static_cast<Eigen::Index>(l)];
+  std::vector<fgtd::Gaussian> gaussians;
   for (const WeightedGaussian& term : sum.terms) {
     double tolerance = largest_of_fgtd;
     for (int j = 0; j <= order; ++j)
@@ -198,20 +199,24 @@ void Engine<d>::plan_gaussians(const Eigen::Ref<const Eigen::MatrixXd>& weights)
                            to_string(function_.kernel) + " on [0, " + text(choice_.range) + "]: a Gaussian of weight " +
                            text(term.weight) + " would have to be right to " + text(tolerance) +
                            "; raise the tolerance, or take Method::direct");
-    fgtd::Options options{.tolerance = tolerance,
-                          .derivative_order = order,
-                          .threads = options_.threads,
-                          .memory_limit = options_.memory_limit / sum.terms.size(),
-                          .expected_targets = options_.expected_targets,
-                          .expected_grid = grid};
-    plans_.push_back(with_fgtd([&] { return fgtd::Plan<d>(centres_, weights, term.exponent, options); }, count));
-    const fgtd::Choice& chosen = plans_.back().choice();
-    choice_.seconds += chosen.seconds;
-    choice_.terms.push_back({term.exponent, term.weight, chosen});
+    gaussians.push_back({term.exponent, term.weight, tolerance});
     double worst = 0;
     for (int j = 0; j <= order; ++j)
       worst = std::max(worst, std::abs(term.weight) * fgtd_scale(j, term.exponent) / sum.scales.of[j]);
     choice_.bound += worst * tolerance;
+  }
+  const fgtd::Options options{.derivative_order = order,
+                              .threads = options_.threads,
+                              .memory_limit = options_.memory_limit,
+                              .expected_targets = options_.expected_targets,
+                              .expected_grid = grid};
+  gaussians_.emplace(with_fgtd([&] { return fgtd::Mixture<d>(centres_, weights, gaussians, options); }));
+  choice_.transforms = 0;
+  for (std::size_t k = 0; k < gaussians.size(); ++k) {
+    const fgtd::Choice& chosen = gaussians_->choices()[k];
+    choice_.seconds += chosen.seconds;
+    choice_.terms.push_back({gaussians[k].sigma, gaussians[k].coefficient, chosen});
+    choice_.transforms = std::max(choice_.transforms, gaussians_->groups()[k] + 1);
   }
 }
 
@@ -225,7 +230,7 @@ void Engine<d>::set_weights(const Eigen::Ref<const Eigen::MatrixXd>& weights) {
   }
   moments_ = Moments<d>(choice_.polynomial, centres_, weights);
   if (near_) near_->set_weights(weights);
-  for (fgtd::Plan<d>& plan : plans_) with_fgtd([&] { plan.set_weights(weights); }, static_cast<double>(plans_.size()));
+  with_fgtd([&] { gaussians_->set_weights(weights); });
 }
 
 template <int d>
@@ -269,7 +274,7 @@ Eigen::MatrixXd Engine<d>::evaluate(const Eigen::Ref<const Points<d>>& targets,
   return evaluate(
       count, combinations,
       [&](std::size_t i, double* coordinates) { std::copy_n(shifted.data() + i * d, d, coordinates); },
-      [&](const fgtd::Plan<d>& plan) { return plan.evaluate_combinations(shifted, combinations); }, shifted.data());
+      [&] { return gaussians_->evaluate_combinations(shifted, combinations); }, shifted.data());
 }
 
 template <int d>
@@ -303,14 +308,13 @@ Eigen::MatrixXd Engine<d>::evaluate(const TensorGrid& grid, const std::vector<Co
           i /= axis.size();
         }
       },
-      [&](const fgtd::Plan<d>& plan) { return plan.evaluate_combinations(shifted, combinations); }, nullptr);
+      [&] { return gaussians_->evaluate_combinations(shifted, combinations); }, nullptr);
 }
 
 template <int d>
 Eigen::MatrixXd Engine<d>::evaluate(std::size_t count, const std::vector<Combination<d>>& combinations,
                                     const std::function<void(std::size_t, double*)>& point,
-                                    const std::function<Eigen::MatrixXd(const fgtd::Plan<d>&)>& gaussian,
-                                    const double* packed) const {
+                                    const std::function<Eigen::MatrixXd()>& of_gaussians, const double* packed) const {
   if (direct_) return direct_->evaluate(count, combinations, point);
   Eigen::MatrixXd values(static_cast<Eigen::Index>(count), columns_ * static_cast<Eigen::Index>(combinations.size()));
   const std::size_t columns = static_cast<std::size_t>(columns_);
@@ -332,9 +336,7 @@ Eigen::MatrixXd Engine<d>::evaluate(std::size_t count, const std::vector<Combina
                                    }
                                  });
   if (near_) near_->add(packed ? packed : unpacked.data(), count, combinations, values);
-  for (std::size_t k = 0; k < plans_.size(); ++k)
-    values +=
-        choice_.terms[k].weight * with_fgtd([&] { return gaussian(plans_[k]); }, static_cast<double>(plans_.size()));
+  values += with_fgtd(of_gaussians);
   return values;
 }
 

@@ -1,6 +1,7 @@
 // The implementation of Plan: checks the arguments, chooses the method, and passes the work on.
 #pragma once
 
+#include <fgtd/mixture.hpp>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -30,16 +31,15 @@ class Engine {
   double direct_seconds() const;
   /// The kernel as Gaussians, with a near field where that is faster; makes near_ and sets choice_.near.
   Expansion expand_kernel();
-  /// Fills choice_, moments_, near_ and plans_ for Gaussians.
+  /// Fills choice_, moments_, near_ and gaussians_.
   void plan_gaussians(const Eigen::Ref<const Eigen::MatrixXd>& weights);
   /// Throws if a derivative is not prepared for.
   void check_combinations(const std::vector<Combination<d>>& combinations) const;
-  /// The sum at `count` targets, the coordinates of which point(i, coordinates) writes; `gaussian(plan)` has a plan
-  /// evaluated at them. All relative to origin_. `packed` is the targets as columns, if they are that already.
+  /// The sum at `count` targets, the coordinates of which point(i, coordinates) writes; `of_gaussians()` has
+  /// gaussians_ evaluated at them. All relative to origin_. `packed` is the targets as columns, if they are that already.
   Eigen::MatrixXd evaluate(std::size_t count, const std::vector<Combination<d>>& combinations,
                            const std::function<void(std::size_t, double*)>& point,
-                           const std::function<Eigen::MatrixXd(const fgtd::Plan<d>&)>& gaussian,
-                           const double* packed) const;
+                           const std::function<Eigen::MatrixXd()>& of_gaussians, const double* packed) const;
 
   Function function_;
   Options options_;
@@ -50,7 +50,7 @@ class Engine {
   std::optional<DirectSum<d>> direct_;
   Moments<d> moments_;
   std::optional<NearField<d>> near_;
-  std::vector<fgtd::Plan<d>> plans_;  // of choice_.terms
+  std::optional<fgtd::Mixture<d>> gaussians_;  // choice_.terms
 };
 
 }  // namespace rbf::detail

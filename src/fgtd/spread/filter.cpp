@@ -106,21 +106,28 @@ void hermite_functions(int order, double t, double* value) {
 
 }  // namespace
 
-SpreadFilter::SpreadFilter(int width, double spacing, double shape, int derivative_order, double tolerance)
-    : width_(width),
+SpreadWindow SpreadWindow::of(int width, double tolerance) {
+  const double shape = width < windows_digits - std::log10(tolerance) ? narrow_shape : wide_shape;
+  return {width, shape * width, width + (tolerance < 1e-10 ? 3 : tolerance < 1e-5 ? 2 : 1)};
+}
+
+SpreadFilter::SpreadFilter(const SpreadWindow& window, double spacing, int derivative_order, double tolerance,
+                           bool grids)
+    : width_(window.width),
+      degree_(window.degree),
       spacing_(spacing),
-      shape_(shape),
-      top_(bessel_i0(shape)),
+      shape_(window.shape),
+      top_(bessel_i0(window.shape)),
       tolerance_(tolerance),
-      order_(derivative_order) {
+      order_(derivative_order),
+      grids_(grids) {
   make_window();
   make_filters();
-  grid_axis_ = measure_grid();
+  if (grids_) grid_axis_ = measure_grid();
   point_axis_ = measure_points();
 }
 
 void SpreadFilter::make_window() {
-  degree_ = width_ + (tolerance_ < 1e-10 ? 3 : tolerance_ < 1e-5 ? 2 : 1);
   const std::size_t terms = static_cast<std::size_t>(degree_) + 1, w = static_cast<std::size_t>(width_);
   coefficients_.assign(terms * padded_window, 0.0);
   const Interpolation interpolation(terms);
@@ -145,6 +152,16 @@ void SpreadFilter::window_at(double theta, double* values) const {
   }
 }
 
+double SpreadFilter::window(double s) const {
+  const double from_left = s + 0.5 * width_;
+  if (!(from_left >= 0) || !(from_left < width_)) return 0;
+  const double node = std::floor(from_left), x = 2 * (from_left - node) - 1;
+  double sum = 0;
+  for (int i = degree_; i >= 0; --i)
+    sum = sum * x + coefficients_[static_cast<std::size_t>(i) * padded_window + static_cast<std::size_t>(node)];
+  return sum;
+}
+
 double SpreadFilter::window_transform(double q) const {
   const double squared = shape_ * shape_ - 0.25 * q * q * width_ * width_, root = std::sqrt(std::abs(squared));
   const double value = root < 1e-4 ? 1 + squared / 6 : (squared > 0 ? std::sinh(root) : std::sin(root)) / root;
@@ -162,7 +179,8 @@ void SpreadFilter::make_filters() {
 SpreadFilter::Samples SpreadFilter::integrate(std::size_t panels, double step) {
   const double h = spacing_;
   const std::size_t orders = static_cast<std::size_t>(order_) + 1;
-  Samples samples{panels, std::vector<std::vector<double>>(orders, std::vector<double>(panels * filter_terms, 0.0))};
+  Samples samples{panels, std::vector<std::vector<double>>(
+                              orders, std::vector<double>(grids_ ? panels * filter_terms : 0, 0.0))};
   lattice_.assign(orders, std::vector<double>(panels, 0.0));
   std::vector<double> root(orders);  // q^{a+1} / sqrt(2^{a+1} (a+1)!) from that of a
   for (std::size_t a = 0; a < orders; ++a) root[a] = 1 / std::sqrt(2.0 * static_cast<double>(a + 1));
@@ -178,7 +196,7 @@ SpreadFilter::Samples SpreadFilter::integrate(std::size_t panels, double step) {
     const double factor = (n == 0 ? 0.5 : 1.0) * step / pi * gaussian * quotient;
     const Wave turn{std::cos(q * h), std::sin(q * h)};
     const double largest = set_powers(factor, q, root, power);
-    for (std::size_t i = 0; i < filter_terms; ++i) {
+    for (std::size_t i = 0; grids_ && i < filter_terms; ++i) {
       const double start = q * 0.5 * h * (chebyshev_point(i, filter_terms) + 1);
       add_waves({std::cos(start), std::sin(start)}, turn, panels, power,
                 [&](std::size_t a, std::size_t p, double value) { samples.at[a][p * filter_terms + i] += value; });
@@ -196,7 +214,7 @@ void SpreadFilter::cut_filters(const Samples& samples) {
   const std::size_t orders = lattice_.size();
   std::size_t used = 1;
   double last = 0;
-  for (std::size_t p = 0; p < samples.panels; ++p)
+  for (std::size_t p = 0; grids_ && p < samples.panels; ++p)
     for (std::size_t i = 0; i < filter_terms; ++i)
       for (std::size_t a = 0; a < orders; ++a)
         if (std::abs(samples.at[a][p * filter_terms + i]) > allowed) {
@@ -205,9 +223,16 @@ void SpreadFilter::cut_filters(const Samples& samples) {
         }
   reach_ = std::min(last + 0.1 * spacing_, static_cast<double>(used) * spacing_);
   std::size_t kept = 1;
+  // On a fine lattice many nodes of two windows meet at the border of F.
+  const double of_node = grids_ ? allowed : allowed / (window_transform(0) * window_transform(0));
   for (std::size_t j = 0; j < samples.panels; ++j)
     for (std::size_t a = 0; a < orders; ++a)
-      if (std::abs(lattice_[a][j]) > allowed) kept = j + 1;
+      if (std::abs(lattice_[a][j]) > of_node) kept = j + 1;
+  if (!grids_) {
+    for (auto& row : lattice_) row.resize(kept);
+    reach_ = static_cast<double>(kept) * spacing_;
+    return;
+  }
   const Interpolation interpolation(filter_terms);
   filter_.assign(orders, std::vector<double>(used * filter_terms));
   for (std::size_t a = 0; a < orders; ++a) {
@@ -275,7 +300,18 @@ SpreadFilter::AxisError SpreadFilter::measure_points() const {
   double window[mesh_sources][padded_window];
   for (int i = 0; i < mesh_sources; ++i) window_at((i + 0.01) / (mesh_sources - 0.98), window[i]);
   const int beyond = lattice_reach() + width_;
-  std::vector<double> column(static_cast<std::size_t>(2 * beyond + 1 + width_)), exact(orders);
+  std::vector<double> column(static_cast<std::size_t>(2 * beyond + 1 + width_));
+  const std::size_t places = column.size() - static_cast<std::size_t>(width_) + 1;
+  // Only the difference of the offsets counts: exact[(i - o + mesh_sources - 1) places + first][a].
+  std::vector<double> exact((2 * mesh_sources - 1) * places * orders);
+  const auto distance = [&](std::size_t first, int apart) {
+    return (static_cast<double>(first) - beyond + apart / (mesh_sources - 0.98)) * spacing_;
+  };
+  for (int apart = 1 - mesh_sources; apart < mesh_sources; ++apart)
+    for (std::size_t first = 0; first < places; ++first)
+      hermite_functions(
+          order_, distance(first, apart),
+          exact.data() + (static_cast<std::size_t>(apart + mesh_sources - 1) * places + first) * orders);
   for (std::size_t a = 0; a < orders; ++a)
     for (int i = 0; i < mesh_sources; ++i) {
       // column[m] = sum_k phi_k F(m - k): the source's share of node m - beyond
@@ -284,13 +320,13 @@ SpreadFilter::AxisError SpreadFilter::measure_points() const {
         for (int k = 0; k < width_; ++k)
           column[m] += window[i][k] * lattice_filter(static_cast<int>(a), static_cast<int>(m) - beyond - k);
       for (int o = 0; o < mesh_sources; ++o) {
-        for (std::size_t first = 0; first + static_cast<std::size_t>(width_) <= column.size(); ++first) {
-          const double t = (static_cast<double>(first) - beyond + (i - o) / (mesh_sources - 0.98)) * spacing_;
+        const double* wanted = exact.data() + static_cast<std::size_t>(i - o + mesh_sources - 1) * places * orders;
+        for (std::size_t first = 0; first < places; ++first) {
+          const double t = distance(first, i - o);
           if (t < -spacing_) continue;
           double sum = 0;
           for (int j = 0; j < width_; ++j) sum += window[o][j] * column[first + static_cast<std::size_t>(j)];
-          hermite_functions(static_cast<int>(a), t, exact.data());
-          axis.error[a] = std::max(axis.error[a], std::abs(sum - exact[a]));
+          axis.error[a] = std::max(axis.error[a], std::abs(sum - wanted[first * orders + a]));
           if (sum != 0) axis.excess = std::max(axis.excess, std::log(std::abs(sum)) + t * t);
         }
       }
@@ -326,26 +362,52 @@ double expected_spacing(int width, int derivative_order, double tolerance) {
   return (narrow ? 0.78 : 0.88) * pi / q;
 }
 
+namespace {
+
+/// Filters by what they were asked for. All are forgotten when they are too many.
+template <class Key>
+class Remembered {
+ public:
+  template <class Make>
+  std::shared_ptr<const SpreadFilter> find(const Key& key, const Make& make) {
+    constexpr std::size_t most = 256;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (const auto place = known_.find(key); place != known_.end()) return place->second;
+    }
+    std::shared_ptr<const SpreadFilter> made = make();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (known_.size() >= most) known_.clear();
+    return known_.emplace(key, std::move(made)).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<Key, std::shared_ptr<const SpreadFilter>> known_;
+};
+
+}  // namespace
+
 std::shared_ptr<const SpreadFilter> find_filter(int d, int width, int derivative_order, double tolerance) {
-  using Key = std::tuple<int, int, int, double>;
-  constexpr std::size_t remembered = 256;
-  static std::mutex mutex;
-  static std::map<Key, std::shared_ptr<const SpreadFilter>> known;
-  const Key key(d, width, derivative_order, tolerance);
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (const auto place = known.find(key); place != known.end()) return place->second;
-  }
-  std::shared_ptr<const SpreadFilter> found;
-  const double shape = width < windows_digits - std::log10(tolerance) ? narrow_shape : wide_shape;
-  const double widest = expected_spacing(width, derivative_order, tolerance);
-  for (double spacing = widest; spacing > 0.5 * widest && !found; spacing *= 0.96) {
-    auto filter = std::make_shared<const SpreadFilter>(width, spacing, shape * width, derivative_order, tolerance);
-    if (std::max(filter->grid_error(d), filter->point_error(d)) <= tolerance) found = std::move(filter);
-  }
-  const std::lock_guard<std::mutex> lock(mutex);
-  if (known.size() >= remembered) known.clear();
-  return known.emplace(key, std::move(found)).first->second;
+  static Remembered<std::tuple<int, int, int, double>> remembered;
+  return remembered.find({d, width, derivative_order, tolerance}, [&] {
+    std::shared_ptr<const SpreadFilter> found;
+    const double widest = expected_spacing(width, derivative_order, tolerance);
+    for (double spacing = widest; spacing > 0.5 * widest && !found; spacing *= 0.96) {
+      auto filter = std::make_shared<const SpreadFilter>(SpreadWindow::of(width, tolerance), spacing, derivative_order,
+                                                         tolerance);
+      if (std::max(filter->grid_error(d), filter->point_error(d)) <= tolerance) found = std::move(filter);
+    }
+    return found;
+  });
+}
+
+std::shared_ptr<const SpreadFilter> lattice_filter(const SpreadWindow& window, double spacing, int derivative_order,
+                                                   double tolerance) {
+  static Remembered<std::tuple<int, double, int, double, int, double>> remembered;
+  return remembered.find({window.width, window.shape, window.degree, spacing, derivative_order, tolerance}, [&] {
+    return std::make_shared<const SpreadFilter>(window, spacing, derivative_order, tolerance, false);
+  });
 }
 
 }  // namespace fgtd::detail

@@ -19,11 +19,22 @@ namespace fgtd::detail {
 
 constexpr int smallest_window = 3, largest_window = 16;  // w
 
+/// What has to agree between the filters of one lattice: w, b, and the degree of the polynomials for phi.
+struct SpreadWindow {
+  int width;
+  double shape;
+  int degree;
+
+  /// That serves for a tolerance.
+  static SpreadWindow of(int width, double tolerance);
+};
+
 /// phi, f and F for one window, spacing and highest derivative.
 class SpreadFilter {
  public:
-  /// spacing H, shape b of the window.
-  SpreadFilter(int width, double spacing, double shape, int derivative_order, double tolerance);
+  /// spacing H.
+  /// @param grids  whether f is wanted too, beside F: targets that are not on the lattice
+  SpreadFilter(const SpreadWindow& window, double spacing, int derivative_order, double tolerance, bool grids = true);
 
   int width() const { return width_; }                                            // w
   double spacing() const { return spacing_; }                                     // H
@@ -36,6 +47,7 @@ class SpreadFilter {
   const double* coefficients() const { return coefficients_.data(); }  // [degree + 1][padded_window]
   static constexpr std::size_t padded_window = 16;
 
+  double window(double s) const;              // phi(s)
   double filter(int a, double t) const;       // f_a(t)
   double lattice_filter(int a, int j) const;  // F_a(j H)
 
@@ -65,11 +77,11 @@ class SpreadFilter {
   double product_error(const AxisError& axis, int d) const;
   void window_at(double theta, double* values) const;
 
-  int width_;
+  int width_, degree_;
   double spacing_, shape_, top_, tolerance_;  // top: I_0(b)
   int order_;
+  bool grids_;
   double reach_ = 0;
-  int degree_ = 0;
   gaussdrift::core::Buffer<double> coefficients_;
   std::vector<std::vector<double>> filter_;   // [order + 1][panels of width H][filter_terms], t >= 0
   std::vector<std::vector<double>> lattice_;  // [order + 1][j]
@@ -82,5 +94,9 @@ double expected_spacing(int width, int derivative_order, double tolerance);
 /// The window of w nodes on the widest lattice that keeps the tolerance in d dimensions, for grids and for scattered
 /// targets; none if it cannot. Remembered: made once for every different call.
 std::shared_ptr<const SpreadFilter> find_filter(int d, int width, int derivative_order, double tolerance);
+
+/// The filter without f for a window and a spacing, whether it keeps the tolerance or not. Remembered as well.
+std::shared_ptr<const SpreadFilter> lattice_filter(const SpreadWindow& window, double spacing, int derivative_order,
+                                                   double tolerance);
 
 }  // namespace fgtd::detail

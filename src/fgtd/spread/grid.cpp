@@ -76,7 +76,7 @@ class Filter {
         output_stride_(output_stride),
         values_(values),
         row_length_(row_stride),
-        alone_(job.bricks.size() == 1) {
+        alone_(job.bricks.size() == 1 && !job.add) {
     stride_[0] = 1;
     if constexpr (d > 1) stride_[1] = row_stride;
     for (std::size_t l = 2; l < d; ++l) stride_[l] = stride_[l - 1] * targets.size(l - 1);
@@ -122,7 +122,7 @@ class Filter {
   std::vector<std::pair<int, double>> factor_;        // distinct (alpha_0, factor)
   std::vector<std::vector<std::size_t>> row_matrix_;  // [combination][part], in factor_
   std::vector<std::array<AxisMatrix, d>> matrix_;
-  /// One brick: every row is set to zero when it is written first, while it is in the cache; else beforehand.
+  /// One brick: every row is set to zero when it is written first, while it is in the cache; else beforehand, or not.
   bool alone_;
 };
 
@@ -182,7 +182,7 @@ std::pair<std::int64_t, std::int64_t> Filter<d>::band(std::size_t axis, std::siz
     return {node - reach, node + reach};
   }
   const double node = targets_.coordinate[axis][i] / job_.frame.spacing;
-  const double reach = job_.filter.reach() / job_.filter.spacing();
+  const double reach = targets_.by_window ? 0.5 * job_.frame.width : job_.filter.reach() / job_.filter.spacing();
   constexpr double farthest = 0x1p60;
   return {static_cast<std::int64_t>(std::ceil(std::clamp(node - reach, -farthest, farthest))),
           static_cast<std::int64_t>(std::floor(std::clamp(node + reach, -farthest, farthest)))};
@@ -191,6 +191,8 @@ std::pair<std::int64_t, std::int64_t> Filter<d>::band(std::size_t axis, std::siz
 template <int d>
 double Filter<d>::entry(int a, std::size_t axis, std::size_t i, std::int64_t k) const {
   if (targets_.on_lattice) return job_.filter.lattice_filter(a, static_cast<int>(targets_.node[axis][i] - k));
+  if (targets_.by_window)
+    return job_.filter.window(job_.frame.from_node(targets_.coordinate[axis][i], k) * job_.frame.inverse_spacing);
   return job_.filter.filter(a, job_.frame.from_node(targets_.coordinate[axis][i], k) * std::sqrt(job_.sigma));
 }
 
@@ -277,7 +279,7 @@ template <int d>
 void Filter<d>::run_piece(std::size_t begin, std::size_t end) const {
   std::array<Buffer<double>, d> scratch;
   for (std::size_t k = 0; k < job_.columns; ++k) {
-    if (!alone_) clear(k, d - 1, begin, end, 0);
+    if (!alone_ && !job_.add) clear(k, d - 1, begin, end, 0);
     for (std::size_t b = 0; b < job_.bricks.size(); ++b) {
       const auto& matrix = matrix_[b];
       const bool reached =
@@ -436,34 +438,9 @@ double filter_bytes(const FilterJob<d>& job, const std::array<double, d>& sizes,
   return 8 * (matrices + gaussdrift::base::resolve_threads(job.threads) * largest);
 }
 
-template <int d>
-void SpreadSum<d>::evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const {
-  if (grid.size() == 0 || request.combinations.empty() || columns_ == 0) return;
-  FilterJob<d> job{*filter_, layout_.frame, sigma_, request, columns_, {}, {}, threads_};
-  FilterTargets<d> targets;
-  for (const auto& brick : layout_.bricks) {
-    job.bricks.push_back(&brick);
-    job.lattice.push_back(lattice_.data() + columns_ * brick.offset);
-  }
-  for (std::size_t l = 0; l < d; ++l)
-    for (const double y : grid.axes[l]) targets.coordinate[l].push_back(y - layout_.frame.anchor[l]);
-  apply_filter<d>(job, targets, grid.axes[0].size(), grid.size(), values);
-}
-
-template <int d>
-double SpreadSum<d>::grid_bytes(const Request<d>& request, const TensorGrid& grid) const {
-  FilterJob<d> job{*filter_, layout_.frame, sigma_, request, columns_, {}, {}, threads_};
-  std::array<double, d> sizes;
-  for (std::size_t l = 0; l < d; ++l) sizes[l] = static_cast<double>(grid.axes[l].size());
-  for (const auto& brick : layout_.bricks) job.bricks.push_back(&brick);
-  return filter_bytes<d>(job, sizes, false);
-}
-
 #define FGTD_INSTANTIATE(d)                                                                                       \
   template void apply_filter<d>(const FilterJob<d>&, const FilterTargets<d>&, std::size_t, std::size_t, double*); \
-  template double filter_bytes<d>(const FilterJob<d>&, const std::array<double, d>&, bool);                       \
-  template void SpreadSum<d>::evaluate(const Request<d>&, const TensorGrid&, double*) const;                      \
-  template double SpreadSum<d>::grid_bytes(const Request<d>&, const TensorGrid&) const;
+  template double filter_bytes<d>(const FilterJob<d>&, const std::array<double, d>&, bool);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)
 FGTD_INSTANTIATE(3)

@@ -130,32 +130,58 @@ NearTargets<d> find_near(const LatticeFrame<d>& frame, const Brick<d>& source, i
 }  // namespace
 
 template <int d>
+int SpreadSum<d>::lattice_reach() const {
+  int reach = 0;
+  for (const SpreadPart& part : parts_) reach = std::max(reach, part.filter->lattice_reach());
+  return reach;
+}
+
+template <int d>
+Buffer<double> SpreadSum<d>::filtered(const std::vector<Request<d>>& requests, const Brick<d>& source,
+                                      const Brick<d>& target) const {
+  FilterTargets<d> nodes;
+  nodes.on_lattice = true;
+  for (std::size_t l = 0; l < d; ++l) {
+    // the padding of axis 0 stays zero
+    const std::size_t used =
+        target.nodes[l] -
+        (l == 0 ? SpreadFilter::padded_window - static_cast<std::size_t>(layout_.frame.width) : 0);
+    for (std::size_t i = 0; i < used; ++i) nodes.node[l].push_back(target.first[l] + static_cast<std::int64_t>(i));
+  }
+  const std::size_t size = target.size(), outputs = requests[0].combinations.size() * columns_;
+  Buffer<double> lattice(outputs * size + SpreadFilter::padded_window);
+  std::fill_n(lattice.end() - SpreadFilter::padded_window, SpreadFilter::padded_window, 0.0);
+  for (std::size_t k = 0; k < parts_.size(); ++k)
+    apply_filter<d>({*parts_[k].filter,
+                     layout_.frame,
+                     parts_[k].sigma,
+                     requests[k],
+                     columns_,
+                     {&source},
+                     {lattice_.data() + columns_ * source.offset},
+                     threads_,
+                     k > 0},
+                    nodes, target.nodes[0], size, lattice.data());
+  return lattice;
+}
+
+template <int d>
 void SpreadSum<d>::evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const {
-  const std::size_t outputs = request.combinations.size() * columns_;
+  evaluate(std::vector<Request<d>>{request}, targets, count, values);
+}
+
+template <int d>
+void SpreadSum<d>::evaluate(const std::vector<Request<d>>& requests, const double* targets, std::size_t count,
+                            double* values) const {
+  const std::size_t outputs = requests[0].combinations.size() * columns_;
   in_pieces(outputs * count, cost::spread_value, threads_,
             [&](std::size_t begin, std::size_t end) { std::fill(values + begin, values + end, 0.0); });
   if (outputs == 0 || count == 0) return;
   for (const auto& brick : layout_.bricks) {
-    const NearTargets<d> near = find_near<d>(layout_.frame, brick, filter_->lattice_reach(), targets, count, threads_);
+    const NearTargets<d> near = find_near<d>(layout_.frame, brick, lattice_reach(), targets, count, threads_);
     const std::size_t near_count = near.index.size();
     if (near_count == 0) continue;
-
-    const FilterJob<d> job{
-        *filter_, layout_.frame, sigma_, request, columns_, {&brick}, {lattice_.data() + columns_ * brick.offset},
-        threads_};
-    FilterTargets<d> nodes;
-    nodes.on_lattice = true;
-    for (std::size_t l = 0; l < d; ++l) {
-      // the padding of axis 0 stays zero
-      const std::size_t used =
-          near.brick.nodes[l] - (l == 0 ? SpreadFilter::padded_window - static_cast<std::size_t>(filter_->width()) : 0);
-      for (std::size_t i = 0; i < used; ++i)
-        nodes.node[l].push_back(near.brick.first[l] + static_cast<std::int64_t>(i));
-    }
-    const std::size_t size = near.brick.size();
-    Buffer<double> lattice(outputs * size + SpreadFilter::padded_window);
-    std::fill_n(lattice.end() - SpreadFilter::padded_window, SpreadFilter::padded_window, 0.0);
-    apply_filter<d>(job, nodes, near.brick.nodes[0], size, lattice.data());
+    Buffer<double> lattice = filtered(requests, brick, near.brick);
 
     const gaussdrift::base::Pieces pieces((near_count + piece - 1) / piece,
                                           at_lattice(near_count, outputs, cost::spread_gather));
@@ -186,19 +212,25 @@ double SpreadSum<d>::point_bytes(const Request<d>& request, std::size_t count) c
     double nodes = 1;
     std::array<double, d> sizes;
     for (std::size_t l = 0; l < d; ++l) {
-      sizes[l] = static_cast<double>(brick.nodes[l]) + 2 * (filter_->lattice_reach() + filter_->width()) +
+      sizes[l] = static_cast<double>(brick.nodes[l]) + 2 * (lattice_reach() + layout_.frame.width) +
                  SpreadFilter::padded_window + 2;
       nodes *= sizes[l];
     }
-    const FilterJob<d> job{*filter_, layout_.frame, sigma_, request, columns_, {&brick}, {nullptr}, threads_};
-    largest = std::max(largest, 8 * outputs * nodes + filter_bytes<d>(job, sizes, true));
+    for (const SpreadPart& part : parts_) {
+      const FilterJob<d> job{*part.filter, layout_.frame, part.sigma, request, columns_, {&brick}, {nullptr}, threads_};
+      largest = std::max(largest, 8 * outputs * nodes + filter_bytes<d>(job, sizes, true));
+    }
   }
   return largest + static_cast<double>(count) * (8 * d + 16) +
          8 * outputs * static_cast<double>(piece) * gaussdrift::base::resolve_threads(threads_);
 }
 
-#define FGTD_INSTANTIATE(d)                                                                           \
-  template void SpreadSum<d>::evaluate(const Request<d>&, const double*, std::size_t, double*) const; \
+#define FGTD_INSTANTIATE(d)                                                                                        \
+  template int SpreadSum<d>::lattice_reach() const;                                                                \
+  template Buffer<double> SpreadSum<d>::filtered(const std::vector<Request<d>>&, const Brick<d>&, const Brick<d>&) \
+      const;                                                                                                       \
+  template void SpreadSum<d>::evaluate(const Request<d>&, const double*, std::size_t, double*) const;              \
+  template void SpreadSum<d>::evaluate(const std::vector<Request<d>>&, const double*, std::size_t, double*) const; \
   template double SpreadSum<d>::point_bytes(const Request<d>&, std::size_t) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -110,9 +110,7 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
   if (!layout) return std::nullopt;
 
   Proposal<d> proposal;
-  const double tiles = static_cast<double>(layout->bricks.back().first_tile + layout->bricks.back().tile_count());
-  proposal.plan_bytes = at.sources * (8.0 * (2 * d + at.columns) + 12) + (24 + 12.0 * cells_in_tile<d>()) * tiles +
-                        8 * at.columns * static_cast<double>(layout->nodes());
+  proposal.plan_bytes = spread_plan_bytes<d>(at, *layout);
   if (proposal.plan_bytes > static_cast<double>(at.options.memory_limit)) {
     if (asked) check_memory("the plan with Method::spread", proposal.plan_bytes, at.options.memory_limit);
     return std::nullopt;
@@ -134,7 +132,8 @@ std::optional<Proposal<d>> propose_spread(const Situation<d>& at) {
   choice.parameters = Spread{.spacing = spacing, .window = filter->width()};
   proposal.make = [filter, sigma = at.sigma, threads = at.options.threads,
                    shared = std::make_shared<SpreadLayout<d>>(std::move(*layout))](Buffer<double> position) {
-    return std::make_unique<SpreadSum<d>>(filter, std::move(*shared), sigma, std::move(position), threads);
+    return std::make_unique<SpreadSum<d>>(std::vector<SpreadPart>{{sigma, filter}}, std::move(*shared),
+                                          std::move(position), threads);
   };
   return proposal;
 }
@@ -153,6 +152,18 @@ std::vector<Parameter> list_spread(const Choice& choice) {
 }
 
 }  // namespace
+
+template <int d>
+double spread_plan_bytes(const Situation<d>& at, const SpreadLayout<d>& layout) {
+  const double tiles = static_cast<double>(layout.bricks.back().first_tile + layout.bricks.back().tile_count());
+  return at.sources * (8.0 * (2 * d + at.columns) + 12) + (24 + 12.0 * cells_in_tile<d>()) * tiles +
+         8 * at.columns * static_cast<double>(layout.nodes());
+}
+
+template double spread_plan_bytes<1>(const Situation<1>&, const SpreadLayout<1>&);
+template double spread_plan_bytes<2>(const Situation<2>&, const SpreadLayout<2>&);
+template double spread_plan_bytes<3>(const Situation<3>&, const SpreadLayout<3>&);
+template double spread_plan_bytes<4>(const Situation<4>&, const SpreadLayout<4>&);
 
 MethodEntry spread_method() {
   return {.method = Method::spread,

@@ -245,11 +245,9 @@ std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size
 }
 
 template <int d>
-SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma,
-                        Buffer<double> position, int threads)
-    : filter_(std::move(filter)),
+SpreadSum<d>::SpreadSum(std::vector<SpreadPart> parts, SpreadLayout<d> layout, Buffer<double> position, int threads)
+    : parts_(std::move(parts)),
       layout_(std::move(layout)),
-      sigma_(sigma),
       threads_(threads),
       count_(position.size() / d) {
   const auto from_anchor = [&](std::size_t j) {
@@ -290,9 +288,10 @@ template <int d>
 SpreadJob SpreadSum<d>::job_for(const Brick<d>& brick) const {
   SpreadJob job{};
   job.dimension = d;
-  job.width = filter_->width();
-  job.degree = filter_->degree();
-  job.window = filter_->coefficients();
+  const SpreadFilter& filter = *parts_[0].filter;
+  job.width = filter.width();
+  job.degree = filter.degree();
+  job.window = filter.coefficients();
   job.spacing_high = layout_.frame.spacing_high;
   job.spacing_low = layout_.frame.spacing_low;
   job.inverse_spacing = layout_.frame.inverse_spacing;
@@ -360,7 +359,7 @@ double SpreadSum<d>::plan_bytes(std::size_t columns) const {
   template Brick<d> brick_around<d>(const std::array<std::int64_t, d>&, const std::array<std::int64_t, d>&, int);      \
   template std::optional<SpreadLayout<d>> lay_out<d>(const Buffer<double>&, std::size_t, const std::array<double, d>&, \
                                                      const std::array<double, d>&, double, int);                       \
-  template SpreadSum<d>::SpreadSum(std::shared_ptr<const SpreadFilter>, SpreadLayout<d>, double, Buffer<double>, int); \
+  template SpreadSum<d>::SpreadSum(std::vector<SpreadPart>, SpreadLayout<d>, Buffer<double>, int);                     \
   template SpreadJob SpreadSum<d>::job_for(const Brick<d>&) const;                                                     \
   template double SpreadSum<d>::at_lattice(std::size_t, std::size_t, double) const;                                    \
   template void SpreadSum<d>::set_weights(const double*, std::size_t);                                                 \

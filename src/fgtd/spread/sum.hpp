@@ -22,6 +22,7 @@
 #include "fgtd/fgtd.hpp"
 #include "fgtd/kernels/kernels.hpp"
 #include "fgtd/request.hpp"
+#include "fgtd/situation.hpp"
 #include "fgtd/spread/cost.hpp"
 #include "fgtd/spread/filter.hpp"
 #include "fgtd/summation.hpp"
@@ -119,16 +120,26 @@ std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size
                                        const std::array<double, d>& low, const std::array<double, d>& extent,
                                        double spacing, int width);
 
+/// A Gaussian with its filter.
+struct SpreadPart {
+  double sigma;
+  std::shared_ptr<const SpreadFilter> filter;  // of the same window for all of a lattice
+};
+
 template <int d>
 class SpreadSum : public Summation<d> {
  public:
-  /// position [d][count]
-  SpreadSum(std::shared_ptr<const SpreadFilter> filter, SpreadLayout<d> layout, double sigma, Buffer<double> position,
-            int threads);
+  /// One Gaussian, or the sum of several on one lattice. position [d][count]
+  SpreadSum(std::vector<SpreadPart> parts, SpreadLayout<d> layout, Buffer<double> position, int threads);
 
   void set_weights(const double* weights, std::size_t columns) override;
   void evaluate(const Request<d>& request, const double* targets, std::size_t count, double* values) const override;
   void evaluate(const Request<d>& request, const TensorGrid& grid, double* values) const override;
+
+  /// The same for several Gaussians, with a request of each: of the same combinations.
+  void evaluate(const std::vector<Request<d>>& requests, const double* targets, std::size_t count,
+                double* values) const;
+  void evaluate(const std::vector<Request<d>>& requests, const TensorGrid& grid, double* values) const;
 
   double plan_bytes(std::size_t columns) const override;
   double point_bytes(const Request<d>& request, std::size_t count) const override;
@@ -140,14 +151,18 @@ class SpreadSum : public Summation<d> {
     std::size_t brick, number;
   };
   SpreadJob job_for(const Brick<d>& brick) const;
+  /// The lattice of a brick of targets after the filters: [outputs][brick.size()], then padding.
+  Buffer<double> filtered(const std::vector<Request<d>>& requests, const Brick<d>& source,
+                          const Brick<d>& target) const;
+  /// F_a(j h) = 0 for |j| beyond, for all Gaussians.
+  int lattice_reach() const;
   /// Seconds of so many points that meet the lattice, for a vector of it that takes `vector`.
   double at_lattice(std::size_t points, std::size_t columns, double vector) const;
   /// The first of a tile.
   std::size_t sources_of(std::size_t tile) const { return cell_first_[tile * cells_in_tile<d>()]; }
 
-  std::shared_ptr<const SpreadFilter> filter_;
+  std::vector<SpreadPart> parts_;
   SpreadLayout<d> layout_;
-  double sigma_;
   int threads_;
   std::size_t count_ = 0;
   Buffer<double> position_;                // [count][d] from the anchor, sorted by tile
@@ -158,13 +173,14 @@ class SpreadSum : public Summation<d> {
   Buffer<double> lattice_;  // bricks one after the other: [columns][brick.size()], then padding
 };
 
-/// The filter of all bricks onto a grid: values[(q columns + k) nodes + i], overwritten. `node_of` empty: the grid's
-/// nodes are coordinates; else: lattice nodes [axis][i], as of one brick alone.
+/// The filter of all bricks onto a grid: values[(q columns + k) nodes + i]. Its nodes are coordinates, which f reaches,
+/// or phi from a lattice that has been filtered; or they are lattice nodes, which F reaches.
 template <int d>
 struct FilterTargets {
   std::array<std::vector<double>, d> coordinate;  // from the anchor, ascending
   std::array<std::vector<std::int64_t>, d> node;  // ascending
   bool on_lattice = false;
+  bool by_window = false;
 
   std::size_t size(std::size_t axis) const { return on_lattice ? node[axis].size() : coordinate[axis].size(); }
 };
@@ -179,6 +195,7 @@ struct FilterJob {
   std::vector<const Brick<d>*> bricks;
   std::vector<const double*> lattice;  // of each brick, [columns][brick.size()]
   int threads;
+  bool add = false;  // to the result; else it is overwritten
 };
 
 /// row_stride: numbers from row to row (along axis 1) of the result; its other axes are without gaps.
@@ -227,6 +244,10 @@ void in_pieces(std::size_t count, double seconds, int threads, const Body& body)
   gaussdrift::base::parallel_for({(count + piece - 1) / piece, static_cast<double>(count) * seconds}, threads,
                                  [&](std::size_t i) { body(i * piece, std::min(count, (i + 1) * piece)); });
 }
+
+/// Bytes that a plan with that layout will hold, predicted.
+template <int d>
+double spread_plan_bytes(const Situation<d>& at, const SpreadLayout<d>& layout);
 
 /// The method `spread` for the catalogue.
 MethodEntry spread_method();
