@@ -12,8 +12,10 @@ namespace {
 
 /// Widths that differ by 300, strict and lax tolerances, and weights of both signs.
 std::vector<fgtd::Gaussian> gaussians() {
-  return {{.sigma = 2e4, .coefficient = -0.7, .tolerance = 3e-4}, {.sigma = 0.3, .coefficient = 1, .tolerance = 1e-9},
-          {.sigma = 8, .coefficient = -2, .tolerance = 4e-8},     {.sigma = 90, .coefficient = 5, .tolerance = 1e-7},
+  return {{.sigma = 2e4, .coefficient = -0.7, .tolerance = 3e-4},
+          {.sigma = 0.3, .coefficient = 1, .tolerance = 1e-9},
+          {.sigma = 8, .coefficient = -2, .tolerance = 4e-8},
+          {.sigma = 90, .coefficient = 5, .tolerance = 1e-7},
           {.sigma = 700, .coefficient = 1, .tolerance = 2e-5}};
 }
 

@@ -179,8 +179,8 @@ void SpreadFilter::make_filters() {
 SpreadFilter::Samples SpreadFilter::integrate(std::size_t panels, double step) {
   const double h = spacing_;
   const std::size_t orders = static_cast<std::size_t>(order_) + 1;
-  Samples samples{panels, std::vector<std::vector<double>>(
-                              orders, std::vector<double>(grids_ ? panels * filter_terms : 0, 0.0))};
+  Samples samples{
+      panels, std::vector<std::vector<double>>(orders, std::vector<double>(grids_ ? panels * filter_terms : 0, 0.0))};
   lattice_.assign(orders, std::vector<double>(panels, 0.0));
   std::vector<double> root(orders);  // q^{a+1} / sqrt(2^{a+1} (a+1)!) from that of a
   for (std::size_t a = 0; a < orders; ++a) root[a] = 1 / std::sqrt(2.0 * static_cast<double>(a + 1));
@@ -309,9 +309,8 @@ SpreadFilter::AxisError SpreadFilter::measure_points() const {
   };
   for (int apart = 1 - mesh_sources; apart < mesh_sources; ++apart)
     for (std::size_t first = 0; first < places; ++first)
-      hermite_functions(
-          order_, distance(first, apart),
-          exact.data() + (static_cast<std::size_t>(apart + mesh_sources - 1) * places + first) * orders);
+      hermite_functions(order_, distance(first, apart),
+                        exact.data() + (static_cast<std::size_t>(apart + mesh_sources - 1) * places + first) * orders);
   for (std::size_t a = 0; a < orders; ++a)
     for (int i = 0; i < mesh_sources; ++i) {
       // column[m] = sum_k phi_k F(m - k): the source's share of node m - beyond

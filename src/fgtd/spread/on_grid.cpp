@@ -93,9 +93,9 @@ double SpreadSum<d>::grid_bytes(const Request<d>& request, const TensorGrid& gri
   return parts_.size() == 1 ? largest : largest + point_bytes(request, 0);  // the lattice around the grid
 }
 
-#define FGTD_INSTANTIATE(d)                                                                                         \
-  template void SpreadSum<d>::evaluate(const Request<d>&, const TensorGrid&, double*) const;                        \
-  template void SpreadSum<d>::evaluate(const std::vector<Request<d>>&, const TensorGrid&, double*) const;           \
+#define FGTD_INSTANTIATE(d)                                                                               \
+  template void SpreadSum<d>::evaluate(const Request<d>&, const TensorGrid&, double*) const;              \
+  template void SpreadSum<d>::evaluate(const std::vector<Request<d>>&, const TensorGrid&, double*) const; \
   template double SpreadSum<d>::grid_bytes(const Request<d>&, const TensorGrid&) const;
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

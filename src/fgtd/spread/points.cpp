@@ -144,8 +144,7 @@ Buffer<double> SpreadSum<d>::filtered(const std::vector<Request<d>>& requests, c
   for (std::size_t l = 0; l < d; ++l) {
     // the padding of axis 0 stays zero
     const std::size_t used =
-        target.nodes[l] -
-        (l == 0 ? SpreadFilter::padded_window - static_cast<std::size_t>(layout_.frame.width) : 0);
+        target.nodes[l] - (l == 0 ? SpreadFilter::padded_window - static_cast<std::size_t>(layout_.frame.width) : 0);
     for (std::size_t i = 0; i < used; ++i) nodes.node[l].push_back(target.first[l] + static_cast<std::int64_t>(i));
   }
   const std::size_t size = target.size(), outputs = requests[0].combinations.size() * columns_;

@@ -72,16 +72,14 @@ double seconds_on(const Situation<d>& at, const std::vector<Gaussian>& gaussians
                          (lattice.spacing * std::sqrt(of.sigma));
     if (reach > 8 / finest_spacing) return std::numeric_limits<double>::infinity();
     seconds += filter_node * reach * (1 + at.options.derivative_order) +
-               at.columns * (passes<d>(nodes, nodes, 2 * reach, derivatives) +
-                             all * derivatives * cost::spread_value);
+               at.columns * (passes<d>(nodes, nodes, 2 * reach, derivatives) + all * derivatives * cost::spread_value);
     for (const double n : nodes) seconds += matrix_entry * derivatives * n * std::min(n, 2 * reach);
   }
   if (!at.options.expected_grid)
     return seconds + at.targets * (place + derivatives * at.columns * rows * vectors * cost::spread_gather);
   std::array<double, d> axes;
   for (std::size_t l = 0; l < d; ++l) axes[l] = static_cast<double>(at.options.expected_grid->axes[l].size());
-  return seconds + at.columns * derivatives *
-                       (passes<d>(nodes, axes, width, 1) + at.targets * cost::spread_value);
+  return seconds + at.columns * derivatives * (passes<d>(nodes, axes, width, 1) + at.targets * cost::spread_value);
 }
 
 /// Windows that may serve, the faster first.
@@ -89,12 +87,11 @@ template <int d>
 std::vector<std::pair<double, int>> windows_by_cost(const Situation<d>& at, const std::vector<Gaussian>& gaussians) {
   const double tolerance = strictest(gaussians);
   if (tolerance < finest_tolerance) return {};
-  const int wide =
-      std::clamp(static_cast<int>(std::ceil(spare_digits - std::log10(tolerance))), 4, largest_window);
+  const int wide = std::clamp(static_cast<int>(std::ceil(spare_digits - std::log10(tolerance))), 4, largest_window);
   std::vector<std::pair<double, int>> windows;
   for (int width = tolerance <= narrow_windows_from ? wide - 1 : wide; width <= wide; ++width)
-    windows.emplace_back(
-        seconds_on<d>(at, gaussians, lattice_for(gaussians, width, at.options.derivative_order)), width);
+    windows.emplace_back(seconds_on<d>(at, gaussians, lattice_for(gaussians, width, at.options.derivative_order)),
+                         width);
   std::sort(windows.begin(), windows.end());
   return windows;
 }
@@ -107,8 +104,7 @@ std::vector<SpreadPart> find_parts(const std::vector<Gaussian>& gaussians, int w
   for (; lattice.spacing > 0.5 * widest; lattice.spacing *= 0.96) {
     std::vector<SpreadPart> parts;
     for (auto of = gaussians.rbegin(); of != gaussians.rend(); ++of) {  // those that need the finest lattice first
-      auto filter =
-          lattice_filter(lattice.window, lattice.spacing * std::sqrt(of->sigma), order, of->tolerance);
+      auto filter = lattice_filter(lattice.window, lattice.spacing * std::sqrt(of->sigma), order, of->tolerance);
       if (!(filter->point_error(d) <= of->tolerance)) break;
       parts.insert(parts.begin(), {of->sigma, std::move(filter)});
     }
@@ -146,16 +142,15 @@ std::optional<SharedProposal<d>> propose_shared(const Situation<d>& at, const st
     choice.seconds = seconds;
     choice.sources = static_cast<std::size_t>(at.sources);
     choice.targets = static_cast<std::size_t>(at.targets);
-    choice.parameters = Spread{.spacing = lattice.spacing,
-                               .window = lattice.window.width,
-                               .bricks = proposal.layout.bricks.size()};
+    choice.parameters =
+        Spread{.spacing = lattice.spacing, .window = lattice.window.width, .bricks = proposal.layout.bricks.size()};
   }
   for (std::size_t k = 0; k < gaussians.size(); ++k) proposal.choices[k].tolerance = gaussians[k].tolerance;
   return proposal;
 }
 
-#define FGTD_INSTANTIATE(d)                                                                        \
-  template double shared_seconds<d>(const Situation<d>&, const std::vector<Gaussian>&);            \
+#define FGTD_INSTANTIATE(d)                                                             \
+  template double shared_seconds<d>(const Situation<d>&, const std::vector<Gaussian>&); \
   template std::optional<SharedProposal<d>> propose_shared<d>(const Situation<d>&, const std::vector<Gaussian>&);
 FGTD_INSTANTIATE(1)
 FGTD_INSTANTIATE(2)

@@ -246,10 +246,7 @@ std::optional<SpreadLayout<d>> lay_out(const Buffer<double>& position, std::size
 
 template <int d>
 SpreadSum<d>::SpreadSum(std::vector<SpreadPart> parts, SpreadLayout<d> layout, Buffer<double> position, int threads)
-    : parts_(std::move(parts)),
-      layout_(std::move(layout)),
-      threads_(threads),
-      count_(position.size() / d) {
+    : parts_(std::move(parts)), layout_(std::move(layout)), threads_(threads), count_(position.size() / d) {
   const auto from_anchor = [&](std::size_t j) {
     std::array<double, d> x;
     for (std::size_t l = 0; l < d; ++l) x[l] = position[l * count_ + j] - layout_.frame.anchor[l];
