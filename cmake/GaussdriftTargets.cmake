@@ -39,3 +39,29 @@ function(gaussdrift_module name)
     use_precompiled_headers(gaussdrift_${name} modules)
   endif()
 endfunction()
+
+# Programs look for such libraries beside themselves (in the folder of the build) and where they are installed. The longer of the two
+# paths is that of the build: CMake would fill it up with empty ones, and they mean the folder that somebody is in.
+include(GNUInstallDirs)
+file(RELATIVE_PATH installed_modules /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR}/gaussdrift)
+set(installed_modules "$ORIGIN/${installed_modules}")
+set(CMAKE_BUILD_RPATH "$ORIGIN" "$ORIGIN/." ${installed_modules})
+
+# loaded_module(name SOURCES a.cpp ... FOR target file): a shared library libgaussdrift_<name>.so that the program loads when it
+# first needs it. The file of the target knows its name as GAUSSDRIFT_<NAME>, and where it is installed as GAUSSDRIFT_MODULES.
+function(loaded_module name)
+  cmake_parse_arguments(MODULE "" "" "SOURCES;FOR" ${ARGN})
+  list(GET MODULE_FOR 0 user)
+  list(GET MODULE_FOR 1 file)
+  add_library(gaussdrift_${name} MODULE ${MODULE_SOURCES})
+  target_include_directories(gaussdrift_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
+  target_link_libraries(gaussdrift_${name} PRIVATE gaussdrift_flags)
+  set_target_properties(gaussdrift_${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR} BUILD_RPATH "")
+  add_dependencies(${user} gaussdrift_${name})
+  string(TOUPPER ${name} upper)
+  set_property(SOURCE ${file} APPEND PROPERTY COMPILE_DEFINITIONS GAUSSDRIFT_${upper}="libgaussdrift_${name}.so"
+    GAUSSDRIFT_MODULES="${CMAKE_INSTALL_LIBDIR}/gaussdrift")
+  if(GAUSSDRIFT_INSTALL)
+    install(TARGETS gaussdrift_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gaussdrift COMPONENT gaussdrift)
+  endif()
+endfunction()

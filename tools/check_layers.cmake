@@ -65,7 +65,7 @@ set(public_particle columns cutoff fgtd_points images pieces_by_id placing seedi
 set(public_effect catalogue drift effect path_integral)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample)
 set(public_sim carrier checks comparison borders/departures borders/edges fields_on_grid grid_fields grid_pieces landings make_fields borders/outside releases run_state scene sharing stable_step stepper tiled_density transform work)
-set(public_write atomic_file checkpoint folder_lock output_files provenance result_folder run_folder series_table summary folder_facts vtk_files vtk_library)
+set(public_write atomic_file checkpoint folder_lock output_files provenance result_folder run_folder series_table summary folder_facts vtk_files)
 set(public_render chart on_canvas panel picture picture_series styles)
 set(public_input data_files effect_rules examples explain foreign_keys markdown points_table same_past)
 set(public_blockmatrix block_matrix)

@@ -228,8 +228,8 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   // The error budget carries particles near a few probes once more, within a share of the run's work.
   const RunMemory budget =
       stays + copy + RunMemory{.particles = explained ? std::min(most_of_budget, budget_of_particle * n) : 0};
-  // The drawing library stays once it has drawn.
-  const RunMemory drawing{.pictures = pictures ? 1.4e8 : 0};
+  // The drawing libraries stay once they have drawn.
+  const RunMemory drawing{.pictures = pictures ? 2e8 : 0};
   return drawing + larger(larger(larger(seed, step), budget), larger(density + copy, output + copy));
 }
 

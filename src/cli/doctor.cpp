@@ -17,7 +17,6 @@
 #include "read/netcdf/netcdf_file.hpp"
 #include "render/styles.hpp"
 #include "write/vtk_files.hpp"
-#include "write/vtk_library.hpp"
 
 namespace gaussdrift::cli {
 
@@ -62,7 +61,10 @@ DensityGrid hill() {
 Finding check_picture(const fs::path& folder) {
   if (const std::string reason = render::unavailable_reason(); !reason.empty()) return {"picture", reason, false};
   render::draw(render::default_style(2), hill(), {.width = 320, .height = 240}, folder / "picture.png");
-  return {"picture", fmt::format("drawn off screen, {} bytes", fs::file_size(folder / "picture.png")), true};
+  return {
+      "picture",
+      fmt::format("drawn off screen by {}, {} bytes", render::drawing_library(), fs::file_size(folder / "picture.png")),
+      true};
 }
 
 Finding check_file(const fs::path& folder) {
@@ -75,17 +77,18 @@ Finding check_file(const fs::path& folder) {
 ExitCode doctor(const DoctorOptions& options) {
   std::vector<Finding> findings;
   findings.push_back({"version", fmt::format("gaussdrift {}, {}", GAUSSDRIFT_VERSION, GAUSSDRIFT_COMPILER)});
-  findings.push_back({"libraries", fmt::format("Eigen {}.{}.{}, fmt {}.{}.{}, VTK {}", EIGEN_WORLD_VERSION,
-                                               EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, FMT_VERSION / 10000,
-                                               FMT_VERSION / 100 % 100, FMT_VERSION % 100, write::vtk_version())});
+  findings.push_back(
+      {"libraries", fmt::format("Eigen {}.{}.{}, fmt {}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION,
+                                EIGEN_MINOR_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)});
   findings.push_back({"threads", std::to_string(base::resolve_threads(0))});
   const core::InstructionSet& vectors = core::fastest_instruction_set();
   findings.push_back(
       {"vectors", fmt::format("{}: {} numbers at once in the Gauss transform", vectors.name, vectors.lanes)});
   findings.push_back({"ranks", mpi::library().empty() ? "one: built without MPI (Debian: libopenmpi-dev)"
                                                       : fmt::format("several, by {}", mpi::library())});
-  findings.push_back({"NetCDF", read::netcdf_library().empty() ? "not read: built without it (Debian: libnetcdf-dev)"
-                                                               : fmt::format("read, by {}", read::netcdf_library())});
+  findings.push_back({"NetCDF", read::netcdf_library().empty()
+                                    ? "not read: built without it, or the library is gone (Debian: libnetcdf-dev)"
+                                    : fmt::format("read, by {}", read::netcdf_library())});
   std::string pattern = (fs::temp_directory_path() / "gaussdrift-doctor.XXXXXX").string();
   if (!mkdtemp(pattern.data()))
     throw FileError(fmt::format("no folder can be made in {}", fs::temp_directory_path().string()));

@@ -12,7 +12,6 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/error.hpp"
-#include "write/vtk_library.hpp"
 
 namespace gaussdrift::cli {
 
@@ -54,7 +53,6 @@ int main_verbs(int argc, char** argv) {
     return refuse(launcher, error.what());
   }
   return end_of(*ranks, [&] {
-    write::prepare_vtk();
     if (ranks->size() > 1) share_cores(*ranks);
     const std::vector<Verb> verbs = all_verbs(typed(argc, argv));
     CommandLine asked{};

@@ -43,16 +43,29 @@ std::size_t threads_to_be_had(std::size_t wanted) {
   return count + 1;
 }
 
-}  // namespace
-
-void prepare_threads(char** argv) {
+/// Whether something had to be said that nobody has said yet.
+bool say_how_threads_wait(char** argv) {
   bool changed = false;
   if (!std::getenv("OMP_WAIT_POLICY") && !std::getenv("GOMP_SPINCOUNT"))
     changed = setenv("OMP_WAIT_POLICY", "passive", 1) == 0;
   if (!std::getenv("OMP_THREAD_LIMIT"))
     if (const std::size_t wanted = wanted_threads(argv), found = threads_to_be_had(wanted); found < wanted)
       changed = setenv("OMP_THREAD_LIMIT", std::to_string(found).c_str(), 1) == 0 || changed;
-  if (changed) execv("/proc/self/exe", argv);
+  return changed;
+}
+
+#ifdef GAUSSDRIFT_OPENMP_IS_OURS
+/// The run-time library is a part of the program, whose parts begin in the order of these numbers; that library has none, so it
+/// begins later.
+[[gnu::constructor(101)]] void before_the_library_looks(int, char** argv, char**) { say_how_threads_wait(argv); }
+#endif
+
+}  // namespace
+
+void prepare_threads([[maybe_unused]] char** argv) {
+#ifndef GAUSSDRIFT_OPENMP_IS_OURS
+  if (say_how_threads_wait(argv)) execv("/proc/self/exe", argv);
+#endif
 }
 
 }  // namespace gaussdrift::cli

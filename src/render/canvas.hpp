@@ -2,19 +2,14 @@
 // dimensions behind them if wanted. Later things cover earlier ones.
 #pragma once
 
-#include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/colour.hpp"
-
-class vtkRenderer;
+#include "render/drawing.hpp"
 
 namespace gaussdrift::render {
-
-struct Point {
-  double x = 0, y = 0;
-};
 
 struct Rectangle {
   double x = 0, y = 0, width = 0, height = 0;
@@ -27,29 +22,14 @@ struct Polyline {
   Colour colour = ink;
 };
 
-/// Where a text sits relative to its point.
-enum class Across { left, centre, right };  // the point is at the left end, centre, right end of the text
-enum class Along { bottom, centre, top };
-
-struct TextStyle {
-  int size = 19;
-  Across across = Across::centre;
-  Along along = Along::centre;
-  bool upwards = false;  // written from below to above
-  Colour colour = ink;
-};
-
 class Canvas {
  public:
   Canvas(int width, int height);
-  ~Canvas();
-  Canvas(const Canvas&) = delete;
-  Canvas& operator=(const Canvas&) = delete;
 
   int width() const { return width_; }
   int height() const { return height_; }
   /// For what is drawn in three dimensions.
-  vtkRenderer* scene() { return renderer_; }
+  Sheet& scene() { return *sheet_; }
 
   void lines(const std::vector<Polyline>& list, double line_width);
   void line(Point from, Point to, const Colour& colour, double line_width) {
@@ -67,11 +47,8 @@ class Canvas {
   std::string png();
 
  private:
-  void add(void* actor);
-
   int width_, height_;
-  int layer_ = 0;
-  vtkRenderer* renderer_;
+  std::unique_ptr<Sheet> sheet_;
 };
 
 }  // namespace gaussdrift::render

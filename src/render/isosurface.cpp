@@ -1,25 +1,12 @@
 // Surfaces of equal density in perspective: a solid one inside others that can be seen through.
-#include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkCellData.h>
-#include <vtkFloatArray.h>
-#include <vtkFlyingEdges3D.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "render/axes.hpp"
+#include "render/drawing_library.hpp"
 #include "render/scene.hpp"
 #include "render/solid.hpp"
 #include "render/styles.hpp"
@@ -35,100 +22,72 @@ struct Level {
   double opacity;  // 1: solid
 };
 
-/// The density in the scene's box, whose longest side is 1; places that are not finite count as 0. An axis with one
-/// point is drawn one spacing wide.
-vtkNew<vtkImageData> image_of(const DensityGrid& density, double longest) {
+/// The density, and where its points are in the scene's box, whose longest side is 1.
+struct Solid {
+  std::vector<float> values;
+  Field field;
+};
+
+/// Places that are not finite count as 0. An axis with one point is drawn one spacing wide.
+Solid solid_of(const DensityGrid& density, double longest) {
   const auto& points = density.lattice.points;
-  std::array<std::size_t, 3> drawn{};
+  Solid solid;
+  auto& drawn = solid.field.points;
   for (std::size_t k = 0; k < 3; ++k) drawn[k] = std::max<std::size_t>(points[k], 2);
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(drawn[0]), static_cast<int>(drawn[1]), static_cast<int>(drawn[2]));
-  const double step = density.lattice.spacing / longest;
-  image->SetSpacing(step, step, step);
-  image->AllocateScalars(VTK_FLOAT, 1);
-  auto* to = static_cast<float*>(image->GetScalarPointer());
+  solid.field.spacing.fill(density.lattice.spacing / longest);
+  solid.values.reserve(drawn[0] * drawn[1] * drawn[2]);
   for (std::size_t k = 0; k < drawn[2]; ++k)
     for (std::size_t j = 0; j < drawn[1]; ++j)
       for (std::size_t i = 0; i < drawn[0]; ++i) {
         const std::size_t row = std::min(j, points[1] - 1) + points[1] * std::min(k, points[2] - 1);
         const double value = density.rho[std::min(i, points[0] - 1) + points[0] * row];
-        *to++ = std::isfinite(value) ? static_cast<float>(value) : 0;
+        solid.values.push_back(std::isfinite(value) ? static_cast<float>(value) : 0);
       }
-  return image;
+  solid.field.values = solid.values.data();
+  return solid;
 }
 
 /// Triangles of all levels in one list. Those behind come first, so that those in front cover them.
 class Surfaces {
  public:
-  Surfaces() {
-    colours_->SetNumberOfComponents(4);
-    normals_->SetNumberOfComponents(3);
-    normals_->SetName("Normals");
-    points_->SetDataTypeToFloat();
+  void add(const Field& field, const Level& level, const Colour& colour) {
+    const Mesh surface = drawing().level_surface(field, level.value);
+    const auto first = static_cast<std::int64_t>(mesh_.points.size());
+    mesh_.points.insert(mesh_.points.end(), surface.points.begin(), surface.points.end());
+    mesh_.normals.insert(mesh_.normals.end(), surface.normals.begin(), surface.normals.end());
+    const auto opacity = static_cast<std::uint8_t>(std::lround(255 * level.opacity));
+    mesh_.colours.resize(mesh_.points.size(), {colour[0], colour[1], colour[2], opacity});
+    for (const auto& [a, b, c] : surface.triangles) mesh_.triangles.push_back({first + a, first + b, first + c});
   }
 
-  void add(vtkImageData* image, const Level& level, const Colour& colour) {
-    vtkNew<vtkFlyingEdges3D> contour;
-    contour->SetInputData(image);
-    contour->SetValue(0, level.value);
-    contour->ComputeScalarsOff();
-    contour->ComputeNormalsOn();
-    contour->Update();
-    vtkPolyData* surface = contour->GetOutput();
-    const vtkIdType first = points_->GetNumberOfPoints();
-    for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i) {
-      points_->InsertNextPoint(surface->GetPoint(i));
-      normals_->InsertNextTuple(surface->GetPointData()->GetNormals()->GetTuple(i));
-      colours_->InsertNextTuple4(colour[0], colour[1], colour[2], std::lround(255 * level.opacity));
-    }
-    vtkIdType count = 0;
-    const vtkIdType* ids = nullptr;
-    vtkCellArray* cells = surface->GetPolys();
-    for (cells->InitTraversal(); cells->GetNextCell(count, ids);)
-      triangles_.push_back({first + ids[0], first + ids[1], first + ids[2]});
-  }
+  bool empty() const { return mesh_.triangles.empty(); }
 
-  bool empty() const { return triangles_.empty(); }
-
-  void show(vtkRenderer* scene, const View& view, bool translucent) {
-    std::vector<float> depth(triangles_.size());
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+  void show(Sheet& scene, const View& view, bool translucent) {
+    const auto& triangles = mesh_.triangles;
+    std::vector<float> depth(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
       Place centre{};
-      for (const vtkIdType corner : triangles_[t]) {
-        double p[3];
-        points_->GetPoint(corner, p);
-        for (std::size_t k = 0; k < 3; ++k) centre[k] += p[k] / 3;
-      }
+      for (const std::int64_t corner : triangles[t])
+        for (std::size_t k = 0; k < 3; ++k)
+          centre[k] += static_cast<double>(mesh_.points[static_cast<std::size_t>(corner)][k]) / 3;
       depth[t] = static_cast<float>(view.depth(centre));
     }
-    std::vector<std::size_t> order(triangles_.size());
+    std::vector<std::size_t> order(triangles.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return depth[a] > depth[b]; });
-    vtkNew<vtkCellArray> cells;
-    for (const std::size_t t : order) cells->InsertNextCell(3, triangles_[t].data());
-
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points_);
-    data->SetPolys(cells);
-    data->GetPointData()->SetNormals(normals_);
-    data->GetPointData()->SetScalars(colours_);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    if (translucent) actor->ForceTranslucentOn();
-    actor->GetProperty()->SetAmbient(0.45);
-    actor->GetProperty()->SetDiffuse(translucent ? 0.75 : 0.6);
-    actor->GetProperty()->SetSpecular(0.15);
-    actor->GetProperty()->SetSpecularPower(25);
-    scene->AddActor(actor);
+    std::vector<std::array<std::int64_t, 3>> sorted;
+    sorted.reserve(order.size());
+    for (const std::size_t t : order) sorted.push_back(triangles[t]);
+    mesh_.triangles = std::move(sorted);
+    scene.scene_mesh(mesh_, {.ambient = 0.45,
+                             .diffuse = translucent ? 0.75 : 0.6,
+                             .specular = 0.15,
+                             .specular_power = 25,
+                             .translucent = translucent});
   }
 
  private:
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkFloatArray> normals_;
-  vtkNew<vtkUnsignedCharArray> colours_;
-  std::vector<std::array<vtkIdType, 3>> triangles_;
+  Mesh mesh_;
 };
 
 /// The levels on both sides of 0, where the range has both: a solid surface at 3/4 of the end of the range, others
@@ -167,19 +126,18 @@ void draw(Canvas& canvas, const DensityGrid& full, const ColourRange& range, con
   const double right = scale(160) + Canvas::text_width(y.title(), scale.font(21));
   const View view(canvas, box,
                   {scale(128), scale(96), canvas.width() - scale(128) - right, canvas.height() - scale(96 + 130)});
-  vtkRenderer* scene = canvas.scene();
+  Sheet& scene = canvas.scene();
   add_walls(scene, box, x, y, z, true);
-  const auto image = image_of(density, longest);
+  const Solid values = solid_of(density, longest);
   Surfaces solid, clear;
   std::vector<double> marks;
   for (const Level& level : levels_of(range)) {
-    (level.opacity < 1 ? clear : solid).add(image, level, range.colour(level.value));
+    (level.opacity < 1 ? clear : solid).add(values.field, level, range.colour(level.value));
     marks.push_back(level.value);
   }
   if (!solid.empty()) solid.show(scene, view, false);
   if (!clear.empty()) clear.show(scene, view, true);
-  add_light(scene);
-  scene->ResetCameraClippingRange();
+  scene.light_scene();
 
   draw_edges(canvas, view, box, x, y, z);
   if (solid.empty() && clear.empty())

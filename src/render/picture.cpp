@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "gaussdrift/error.hpp"
+#include "render/drawing_library.hpp"
 #include "render/on_canvas.hpp"
-#include "render/osmesa_window.hpp"
 #include "render/short_memory.hpp"
 #include "render/styles.hpp"
 #include "write/atomic_file.hpp"
@@ -31,7 +31,9 @@ ColourRange colour_range(const Style& style, const DensityGrid& density, const P
 
 }  // namespace
 
-std::string unavailable_reason() { return window_unavailable_reason(); }
+std::string unavailable_reason() { return missing_drawing(); }
+
+std::string drawing_library() { return drawing().library(); }
 
 void check_available() {
   if (const std::string reason = unavailable_reason(); !reason.empty()) throw CommandLineError(reason);

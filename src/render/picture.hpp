@@ -29,6 +29,9 @@ struct PictureOptions {
 /// Empty if pictures can be drawn, else the reason and the remedy.
 std::string unavailable_reason();
 
+/// "VTK 9.1.0". Throws Error(ExitCode::internal) where pictures cannot be drawn.
+std::string drawing_library();
+
 /// For commands that are asked for pictures: throws CommandLineError with the reason if they cannot be drawn.
 void check_available();
 

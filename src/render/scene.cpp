@@ -1,73 +1,31 @@
 #include "render/scene.hpp"
 
-#include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkLight.h>
-#include <vtkMatrix4x4.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderer.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 namespace gaussdrift::render {
 
-vtkNew<vtkPolyData> polylines(const std::vector<std::vector<Place>>& lines) {
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  for (const auto& line : lines) {
-    cells->InsertNextCell(static_cast<int>(line.size()));
-    for (const Place& p : line) cells->InsertCellPoint(points->InsertNextPoint(p.data()));
-  }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(cells);
-  return data;
-}
-
-View::View(Canvas& canvas, const Place& box, const Rectangle& room)
-    : canvas_(canvas), camera_(canvas.scene()->GetActiveCamera()) {
+View::View(Canvas& canvas, const Place& box, const Rectangle& room) : canvas_(canvas) {
   constexpr double azimuth = -62 * std::numbers::pi / 180, elevation = 31 * std::numbers::pi / 180;
   const Place centre{box[0] / 2, box[1] / 2, box[2] / 2};
-  camera_->SetViewAngle(20);
-  camera_->SetViewUp(0, 0, 1);
-  camera_->SetFocalPoint(centre.data());
   double distance = 4;
   for (int round = 0; round < 8; ++round) {
-    camera_->SetPosition(centre[0] + distance * std::cos(elevation) * std::cos(azimuth),
-                         centre[1] + distance * std::cos(elevation) * std::sin(azimuth),
-                         centre[2] + distance * std::sin(elevation));
+    canvas.scene().look(
+        {centre[0] + distance * std::cos(elevation) * std::cos(azimuth),
+         centre[1] + distance * std::cos(elevation) * std::sin(azimuth), centre[2] + distance * std::sin(elevation)},
+        centre);
     const Rectangle seen = extent(box);
     distance *= std::max(seen.width / room.width, seen.height / room.height);
   }
   const Rectangle seen = extent(box);
-  camera_->SetWindowCenter(2 * (seen.x + seen.width / 2 - room.x - room.width / 2) / canvas.width(),
-                           2 * (seen.y + seen.height / 2 - room.y - room.height / 2) / canvas.height());
+  canvas.scene().shift_scene({2 * (seen.x + seen.width / 2 - room.x - room.width / 2) / canvas.width(),
+                              2 * (seen.y + seen.height / 2 - room.y - room.height / 2) / canvas.height()});
 }
 
-Point View::pixel(const Place& place) const {
-  vtkMatrix4x4* projection =
-      camera_->GetCompositeProjectionTransformMatrix(static_cast<double>(canvas_.width()) / canvas_.height(), -1, 1);
-  const double from[4] = {place[0], place[1], place[2], 1};
-  double to[4];
-  projection->MultiplyPoint(from, to);
-  return {(to[0] / to[3] + 1) / 2 * canvas_.width(), (to[1] / to[3] + 1) / 2 * canvas_.height()};
-}
+Point View::pixel(const Place& place) const { return canvas_.scene().pixel(place); }
 
-double View::depth(const Place& place) const {
-  double position[3], direction[3];
-  camera_->GetPosition(position);
-  camera_->GetDirectionOfProjection(direction);
-  double distance = 0;
-  for (int k = 0; k < 3; ++k) distance += (place[static_cast<std::size_t>(k)] - position[k]) * direction[k];
-  return distance;
-}
+double View::depth(const Place& place) const { return canvas_.scene().depth(place); }
 
 Rectangle View::extent(const Place& box) const {
   Point low{1e30, 1e30}, high{-1e30, -1e30};
@@ -79,30 +37,7 @@ Rectangle View::extent(const Place& box) const {
   return {low.x, low.y, high.x - low.x, high.y - low.y};
 }
 
-void set_colour(vtkActor* actor, const Colour& colour) {
-  actor->GetProperty()->SetColor(colour[0] / 255., colour[1] / 255., colour[2] / 255.);
-}
-
-void add_lines(vtkRenderer* scene, const std::vector<std::vector<Place>>& lines, const Colour& colour, double width) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(polylines(lines));
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  set_colour(actor, colour);
-  actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
-  scene->AddActor(actor);
-}
-
-void add_light(vtkRenderer* scene) {
-  scene->AutomaticLightCreationOff();
-  vtkNew<vtkLight> light;
-  light->SetLightTypeToCameraLight();
-  light->SetPosition(-0.6, 0.7, 1);
-  scene->AddLight(light);
-}
-
-void add_walls(vtkRenderer* scene, const Place& box, const Axis& x, const Axis& y, const Axis& z, bool floor) {
+void add_walls(Sheet& scene, const Place& box, const Axis& x, const Axis& y, const Axis& z, bool floor) {
   const auto [w, d, height] = box;
   std::vector<std::vector<Place>> grid, walls{{{0, 0, 0},
                                                {0, 0, height},
@@ -128,8 +63,8 @@ void add_walls(vtkRenderer* scene, const Place& box, const Axis& x, const Axis& 
     const double level = z.position(t.at) * height;
     grid.push_back({{0, 0, level}, {0, d, level}, {w, d, level}});
   }
-  add_lines(scene, grid, pale_grey, 1);
-  add_lines(scene, walls, grey, 1);
+  scene.scene_lines(grid, pale_grey, 1);
+  scene.scene_lines(walls, grey, 1);
 }
 
 void draw_edge(Canvas& canvas, const View& view, const Axis& axis, const Place& from, const Place& to,

@@ -1,23 +1,12 @@
 // A box in perspective, as surface and isosurface share it: camera, light, lines, and axes along its edges.
 #pragma once
 
-#include <vtkNew.h>
-#include <vtkPolyData.h>
-
-#include <array>
-#include <vector>
-
 #include "render/axes.hpp"
 #include "render/canvas.hpp"
 
-class vtkActor;
-class vtkCamera;
-
 namespace gaussdrift::render {
 
-using Place = std::array<double, 3>;  // in the box [0, width] x [0, depth] x [0, height]
-
-/// Camera over the corner (x_max, y_min), so that a counter-clockwise turn is seen as one.
+/// Places are in the box [0, width] x [0, depth] x [0, height]. Camera over the corner (x_max, y_min), so that a counter-clockwise turn is seen as one.
 class View {
  public:
   /// The box fills `room` of the picture as well as it can.
@@ -30,17 +19,10 @@ class View {
   Rectangle extent(const Place& box) const;
 
   Canvas& canvas_;
-  vtkCamera* camera_;
 };
 
-/// The lines as cells of VTK.
-vtkNew<vtkPolyData> polylines(const std::vector<std::vector<Place>>& lines);
-void set_colour(vtkActor* actor, const Colour& colour);
-void add_lines(vtkRenderer* scene, const std::vector<std::vector<Place>>& lines, const Colour& colour, double width);
-void add_light(vtkRenderer* scene);
-
 /// Lines at the ticks of the axes on the walls behind what is in the box (and on its floor), and its outline.
-void add_walls(vtkRenderer* scene, const Place& box, const Axis& x, const Axis& y, const Axis& z, bool floor);
+void add_walls(Sheet& scene, const Place& box, const Axis& x, const Axis& y, const Axis& z, bool floor);
 
 /// Ticks, numbers and title along the edge from `from` to `to`, outwards in the direction of `out` (as seen).
 void draw_edge(Canvas& canvas, const View& view, const Axis& axis, const Place& from, const Place& to,

@@ -13,8 +13,8 @@ namespace gaussdrift::render {
 
 namespace {
 
-// OSMesa with two threads takes 480 MB of address space, most of it never touched.
-constexpr std::size_t room_for_drawing = std::size_t{512} << 20;
+// The libraries take 220 MB of address space, and OSMesa with two threads 480 MB, most of them never touched.
+constexpr std::size_t room_for_drawing = std::size_t{720} << 20;
 constexpr std::size_t next_to_nothing = std::size_t{64} << 20;  // the largest piece that the libraries ask for at once
 
 constexpr std::array signals{SIGSEGV, SIGBUS, SIGABRT};  // LLVM aborts

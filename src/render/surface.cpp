@@ -1,18 +1,4 @@
 // The density as a surface in perspective, with contour lines on it.
-#include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkFloatArray.h>
-#include <vtkLookupTable.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
-#include <vtkRenderer.h>
-#include <vtkTubeFilter.h>
-#include <vtkTypeInt64Array.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,17 +18,12 @@ double height_of(double position, double height) {
   return std::isnan(position) ? 0 : height * std::clamp(position, -stick_out, 1 + stick_out);
 }
 
-vtkNew<vtkPolyData> mesh(const HeightField& field, double height) {
-  const auto nx = static_cast<vtkIdType>(field.nx), ny = static_cast<vtkIdType>(field.ny);
-  vtkNew<vtkFloatArray> coordinates, normals, position;
-  for (auto* array : {coordinates.Get(), normals.Get()}) {
-    array->SetNumberOfComponents(3);
-    array->SetNumberOfTuples(nx * ny);
-  }
-  position->SetArray(const_cast<float*>(field.value.data()), nx * ny, /*save=*/1);
+Mesh mesh_of(const HeightField& field, double height) {
+  Mesh mesh;
+  mesh.shade = field.value;
+  for (int i = 0; i < 256; ++i) mesh.shades.push_back(viridis(i / 255.));
+  mesh.points.reserve(field.nx * field.ny), mesh.normals.reserve(field.nx * field.ny);
   const auto z = [&](std::size_t i, std::size_t j) { return height_of(field.at(i, j), height); };
-  float* x = coordinates->GetPointer(0);
-  float* n = normals->GetPointer(0);
   for (std::size_t j = 0; j < field.ny; ++j)
     for (std::size_t i = 0; i < field.nx; ++i) {
       const std::size_t west = i > 0 ? i - 1 : i, east = std::min(i + 1, field.nx - 1);
@@ -50,55 +31,24 @@ vtkNew<vtkPolyData> mesh(const HeightField& field, double height) {
       const double slope_x = (z(east, j) - z(west, j)) / (field.x(east) - field.x(west));
       const double slope_y = (z(i, north) - z(i, south)) / (field.y(north) - field.y(south));
       const double length = std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
-      for (const double c : {field.x(i), field.y(j), z(i, j)}) *x++ = static_cast<float>(c);
-      for (const double c : {-slope_x / length, -slope_y / length, 1 / length}) *n++ = static_cast<float>(c);
+      mesh.points.push_back(
+          {static_cast<float>(field.x(i)), static_cast<float>(field.y(j)), static_cast<float>(z(i, j))});
+      mesh.normals.push_back({static_cast<float>(-slope_x / length), static_cast<float>(-slope_y / length),
+                              static_cast<float>(1 / length)});
     }
-
-  vtkNew<vtkCellArray> triangles;
-  triangles->AllocateExact(2 * (nx - 1) * (ny - 1), 6 * (nx - 1) * (ny - 1));
-  for (vtkIdType j = 0; j + 1 < ny; ++j)
-    for (vtkIdType i = 0; i + 1 < nx; ++i) {
-      const vtkIdType a = j * nx + i, b = a + 1, c = a + nx, d = c + 1;
-      const float sum = position->GetValue(a) + position->GetValue(b) + position->GetValue(c) + position->GetValue(d);
+  const auto nx = static_cast<std::int64_t>(field.nx);
+  for (std::size_t j = 0; j + 1 < field.ny; ++j)
+    for (std::size_t i = 0; i + 1 < field.nx; ++i) {
+      const float sum = field.at(i, j) + field.at(i + 1, j) + field.at(i, j + 1) + field.at(i + 1, j + 1);
       if (std::isnan(sum)) continue;  // a hole
-      triangles->InsertNextCell({a, b, d});
-      triangles->InsertNextCell({a, d, c});
+      const auto a = static_cast<std::int64_t>(j * field.nx + i), b = a + 1, c = a + nx, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
     }
-
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(triangles);
-  data->GetPointData()->SetNormals(normals);
-  data->GetPointData()->SetScalars(position);
-  return data;
+  return mesh;
 }
 
-void add_surface(vtkRenderer* scene, const HeightField& field, double height) {
-  vtkNew<vtkLookupTable> table;
-  table->SetNumberOfTableValues(256);
-  table->SetRange(0, 1);
-  for (int i = 0; i < 256; ++i) {
-    const Colour colour = viridis(i / 255.);
-    table->SetTableValue(i, colour[0] / 255., colour[1] / 255., colour[2] / 255.);
-  }
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(mesh(field, height));
-  mapper->SetLookupTable(table);
-  mapper->UseLookupTableScalarRangeOn();
-  mapper->InterpolateScalarsBeforeMappingOn();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetAmbient(0.35);
-  actor->GetProperty()->SetDiffuse(0.68);
-  actor->GetProperty()->SetSpecular(0.06);
-  actor->GetProperty()->SetSpecularPower(20);
-  scene->AddActor(actor);
-}
-
-/// Tubes: lines would flicker through the surface.
-void add_contours(vtkRenderer* scene, const HeightField& field, double height, const ColourRange& range) {
+void add_contours(Sheet& scene, const HeightField& field, double height, const ColourRange& range) {
   std::vector<double> levels;
   for (const double level : contour_levels(range)) levels.push_back(range.position(level));
   std::vector<std::vector<Place>> lines;
@@ -106,19 +56,7 @@ void add_contours(vtkRenderer* scene, const HeightField& field, double height, c
     auto& line = lines.emplace_back();
     for (const Point& p : points) line.push_back({p.x, p.y, level * height});
   }
-  if (lines.empty()) return;
-  vtkNew<vtkTubeFilter> tubes;
-  tubes->SetInputData(polylines(lines));
-  tubes->SetRadius(0.0011);
-  tubes->SetNumberOfSides(6);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(tubes->GetOutputPort());
-  mapper->ScalarVisibilityOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  set_colour(actor, {20, 20, 26});
-  actor->GetProperty()->LightingOff();
-  scene->AddActor(actor);
+  if (!lines.empty()) scene.scene_tubes(lines, {20, 20, 26}, 0.0011);
 }
 
 void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options) {
@@ -134,13 +72,12 @@ void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, co
   const View view(canvas, {w, d, height},
                   {scale(128), scale(96), canvas.width() - scale(128) - right, canvas.height() - scale(96 + 130)});
 
-  vtkRenderer* scene = canvas.scene();
+  Sheet& scene = canvas.scene();
   add_walls(scene, {w, d, height}, x, y, z, false);
-  add_surface(scene, field, height);
+  scene.scene_mesh(mesh_of(field, height), {.ambient = 0.35, .diffuse = 0.68, .specular = 0.06, .specular_power = 20});
   add_contours(scene, field, height, range);
 
-  add_light(scene);
-  scene->ResetCameraClippingRange();
+  scene.light_scene();
 
   draw_edges(canvas, view, {w, d, height}, x, y, z);
   draw_colour_bar(canvas, {canvas.width() - scale(134), scale(250), scale(26), scale(460)}, true,

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -19,11 +20,13 @@ class ServedProgram {
   ServedProgram() {
     std::array<int, 2> to{}, from{};
     if (pipe(to.data()) != 0 || pipe(from.data()) != 0) throw std::runtime_error("there is no pipe");
+    const std::string drawing = std::filesystem::path(PROGRAM).parent_path() / "libgaussdrift_drawing.so";
     child_ = fork();
     if (child_ == 0) {
       dup2(to[0], 0), dup2(from[1], 1);
       for (const int end : {to[0], to[1], from[0], from[1]}) close(end);
-      setenv("LD_PRELOAD", FAULTS_LIBRARY, 1), setenv("FAULTS_SERVE", "1", 1), setenv("OMP_WAIT_POLICY", "passive", 1);
+      setenv("LD_PRELOAD", FAULTS_LIBRARY, 1), setenv("FAULTS_SERVE", drawing.c_str(), 1),
+          setenv("OMP_WAIT_POLICY", "passive", 1);
       execl(PROGRAM, PROGRAM, nullptr);
       _exit(99);
     }

@@ -4,7 +4,7 @@
 #   MODE=folder    the consumer adds the source folder with add_subdirectory
 #   MODE=page      the two blocks of code in docs/fgtd.md, "Using it in your project", against an installed copy
 #   MODE=library   examples/ and the project of docs/library.md, "In your project", against an installed and moved copy
-#   MODE=program   installs the program and asks it for its version
+#   MODE=program   installs the program, moves it, asks it for its version, and lets it draw a picture
 # Usage: cmake -D MODE=... -D SOURCE=<source folder> -D BUILD=<build folder> -D SCRATCH=<folder> -D CONFIG=<build type>
 #              -D GENERATOR=... -D COMPILER=... -D FLAGS=... -P run.cmake
 cmake_policy(VERSION 3.25)
@@ -70,8 +70,12 @@ file(MAKE_DIRECTORY ${SCRATCH})
 set(consumer ${CMAKE_CURRENT_LIST_DIR}/consumer)
 
 if(MODE STREQUAL "program")
-  call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${SCRATCH}/prefix)
+  call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${SCRATCH}/first)
+  file(RENAME ${SCRATCH}/first ${SCRATCH}/prefix)
   call(${SCRATCH}/prefix/bin/gaussdrift --version)
+  if(EXISTS ${BUILD}/libgaussdrift_drawing.so)  # it draws a picture, with the library that was installed
+    call(${SCRATCH}/prefix/bin/gaussdrift doctor)
+  endif()
 elseif(MODE STREQUAL "folder")
   configure_and_build(${consumer} -D FGTD_FOLDER=${SOURCE} -D GAUSSDRIFT_BUILD_SIMULATOR=OFF)
   call(${SCRATCH}/build/consumer)

@@ -178,7 +178,7 @@ TEST(Run, IsRefusedForALargeGridThoughNoSampleMeetsItsParticles) {
                                         "run c.toml --set particles.per_axis=20001 --set density.radius=1e-4 --set "
                                         "density.center=[0.50035,0.50035] --set evaluate.per_axis=30000 --set "
                                         "evaluate.piece_points=134217728 --set 'output.vtk=[\"density\"]'",
-                                        sanitized ? "ulimit -d 3000000;" : "ulimit -v 3000000;");
+                                        sanitized ? "ulimit -d 2500000;" : "ulimit -v 2500000;");
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("the run would take about"), std::string::npos) << refused.err;
   EXPECT_NE(refused.err.find("lower evaluate.per_axis or evaluate.piece_points"), std::string::npos) << refused.err;

@@ -126,7 +126,7 @@ TEST(Memory, OfAResumedRunAndOfASumIsLimitedToo) {
   EXPECT_EQ(gaussdrift_in(folder, "resume r --memory '1 GiB'").exit_code, 0) << "nothing is lost by the refusal";
   write_file(folder / "s.csv", "x,y,weight\n0,0,1\n1,0,1\n");
   const std::string sum = "sum --sources s.csv --sigma 1 --grid=0:1:3000,0:1:3000 --out v.csv --memory ";
-  const Outcome large = gaussdrift_in(folder, sum + "'120 MB'");
+  const Outcome large = gaussdrift_in(folder, sum + "'70 MB'");
   EXPECT_EQ(large.exit_code, 3);
   EXPECT_NE(large.err.find("would take 72 MB with the points; at most "), std::string::npos) << large.err;
   EXPECT_FALSE(fs::exists(folder / "v.csv"));

@@ -247,11 +247,12 @@ images = ["slices"])"}));
 TEST(Machine, IsDescribedByTheLibrariesThemselves) {
   const ScratchFolder folder;
   const auto found = parsed_json(gaussdrift_in(folder, "doctor --json").out);
-  const std::string vectors = found["vectors"]["found"], libraries = found["libraries"]["found"];
+  const std::string vectors = found["vectors"]["found"], picture = found["picture"]["found"];
   EXPECT_TRUE(vectors.starts_with("baseline") || vectors.starts_with("avx")) << vectors;
-  const std::size_t vtk = libraries.find("VTK ");
-  ASSERT_NE(vtk, std::string::npos) << libraries;
-  EXPECT_GE(std::atoi(libraries.c_str() + vtk + 4), 9) << libraries;
+  if (!draws_pictures) return;
+  const std::size_t vtk = picture.find("VTK ");
+  ASSERT_NE(vtk, std::string::npos) << picture;
+  EXPECT_GE(std::atoi(picture.c_str() + vtk + 4), 9) << picture;
 }
 
 TEST(Provenance, HasFlagsACommandForTheShellAndHashesOfTheData) {

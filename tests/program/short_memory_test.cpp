@@ -26,11 +26,11 @@ TEST(ShortMemory, ForPicturesIsToldInOneLine) {
   if (!can_be_limited) GTEST_SKIP() << "sanitized";
   const ScratchFolder folder;
   write_file(folder / "a.toml", with_pictures);
-  for (const char* kilobytes : {"450000", "600000"}) {
+  for (const char* kilobytes : {"450000", "700000"}) {
     const Outcome run =
         gaussdrift_in(folder, "run a.toml --force", std::string("ulimit -c 0; ulimit -v ") + kilobytes + ";");
     EXPECT_EQ(run.exit_code, 3) << kilobytes << "\n" << run.err;
-    EXPECT_NE(run.err.find("error: pictures need 512 MB of address space"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("error: pictures need 720 MB of address space"), std::string::npos) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   }
 }

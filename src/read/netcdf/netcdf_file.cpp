@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 
+#include "base/shared_module.hpp"
 #include "read/file_bytes.hpp"
 #include "read/grid_file_error.hpp"
 #include "read/stored_grid.hpp"
@@ -16,6 +17,47 @@
 namespace gaussdrift::read {
 
 namespace {
+
+/// The library. It is loaded for the first file, because it brings HDF5, a client for the network, and what these need.
+struct Library {
+  const base::SharedModule& module;
+#define NETCDF_FUNCTION(name) decltype(::name)* const name = module.find<decltype(::name)>(#name)
+  NETCDF_FUNCTION(nc_close);
+  NETCDF_FUNCTION(nc_free_string);
+  NETCDF_FUNCTION(nc_get_att_double);
+  NETCDF_FUNCTION(nc_get_att_string);
+  NETCDF_FUNCTION(nc_get_att_text);
+  NETCDF_FUNCTION(nc_get_vara_double);
+  NETCDF_FUNCTION(nc_inq);
+  NETCDF_FUNCTION(nc_inq_att);
+  NETCDF_FUNCTION(nc_inq_attname);
+  NETCDF_FUNCTION(nc_inq_dim);
+  NETCDF_FUNCTION(nc_inq_dimids);
+  NETCDF_FUNCTION(nc_inq_format);
+  NETCDF_FUNCTION(nc_inq_libvers);
+  NETCDF_FUNCTION(nc_inq_natts);
+  NETCDF_FUNCTION(nc_inq_unlimdim);
+  NETCDF_FUNCTION(nc_inq_var);
+  NETCDF_FUNCTION(nc_inq_varndims);
+  NETCDF_FUNCTION(nc_inq_vartype);
+  NETCDF_FUNCTION(nc_open);
+  NETCDF_FUNCTION(nc_strerror);
+#undef NETCDF_FUNCTION
+};
+
+const base::SharedModule& module() {
+  static const base::SharedModule loaded({NETCDF_NAME, NETCDF_FILE});
+  return loaded;
+}
+
+/// Throws GridFileError where the library is gone.
+const Library& netcdf() {
+  if (!module().is_there())
+    throw GridFileError("NetCDF files cannot be read: " + module().reason(),
+                        "install the library again (Debian: libnetcdf19)");
+  static const Library library{module()};
+  return library;
+}
 
 constexpr std::size_t most_of_an_attribute = 1 << 20;
 
@@ -27,7 +69,7 @@ std::mutex& one_at_a_time() {
 
 void check(int status, const std::string& file, const std::string& what) {
   if (status == NC_NOERR) return;
-  throw GridFileError(fmt::format("{} {}: {}", file, what, nc_strerror(status)),
+  throw GridFileError(fmt::format("{} {}: {}", file, what, netcdf().nc_strerror(status)),
                       "the file may be damaged or cut off: copy it again, or look at it with ncdump -h");
 }
 
@@ -58,7 +100,8 @@ std::size_t bytes_of(nc_type type) {
 }  // namespace
 
 std::string netcdf_library() {
-  const std::string text = nc_inq_libvers();
+  if (!module().is_there()) return "";
+  const std::string text = netcdf().nc_inq_libvers();
   return "netCDF " + text.substr(0, text.find(' '));
 }
 
@@ -66,30 +109,30 @@ struct NetcdfFile::Handle {
   int id = -1;
   ~Handle() {
     const std::lock_guard<std::mutex> lock(one_at_a_time());
-    if (id >= 0) nc_close(id);
+    if (id >= 0) netcdf().nc_close(id);
   }
   NetcdfAttribute attribute(const std::string& file, int variable, int index) const {
     std::array<char, NC_MAX_NAME + 1> name{};
     const std::string what = "has an attribute that cannot be read";
-    check(nc_inq_attname(id, variable, index, name.data()), file, what);
+    check(netcdf().nc_inq_attname(id, variable, index, name.data()), file, what);
     NetcdfAttribute attribute{name.data(), {}, {}};
     nc_type type = 0;
     std::size_t length = 0;
-    check(nc_inq_att(id, variable, name.data(), &type, &length), file, what);
+    check(netcdf().nc_inq_att(id, variable, name.data(), &type, &length), file, what);
     if (length > most_of_an_attribute)
       throw GridFileError(fmt::format("the attribute {} of {} has {} entries", attribute.name, file, length));
     if (type == NC_CHAR) {
       attribute.text.resize(length);
-      check(nc_get_att_text(id, variable, name.data(), attribute.text.data()), file, what);
+      check(netcdf().nc_get_att_text(id, variable, name.data(), attribute.text.data()), file, what);
       while (!attribute.text.empty() && attribute.text.back() == '\0') attribute.text.pop_back();
     } else if (type == NC_STRING && length > 0) {
       std::vector<char*> texts(length, nullptr);
-      check(nc_get_att_string(id, variable, name.data(), texts.data()), file, what);
+      check(netcdf().nc_get_att_string(id, variable, name.data(), texts.data()), file, what);
       if (texts[0]) attribute.text = texts[0];
-      nc_free_string(length, texts.data());
+      netcdf().nc_free_string(length, texts.data());
     } else if (holds_numbers(type)) {
       attribute.numbers.resize(length);
-      check(nc_get_att_double(id, variable, name.data(), attribute.numbers.data()), file, what);
+      check(netcdf().nc_get_att_double(id, variable, name.data(), attribute.numbers.data()), file, what);
     }
     return attribute;
   }
@@ -100,20 +143,20 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& file)
   check_readable(file);
   const std::unique_lock<std::mutex> lock(one_at_a_time());
   const std::string path = std::filesystem::absolute(file).string();
-  if (const int status = nc_open(path.c_str(), NC_NOWRITE, &handle_->id); status != NC_NOERR) {
+  if (const int status = netcdf().nc_open(path.c_str(), NC_NOWRITE, &handle_->id); status != NC_NOERR) {
     handle_->id = -1;
-    throw GridFileError(fmt::format("{} is no NetCDF file that can be read: {}", name_, nc_strerror(status)),
+    throw GridFileError(fmt::format("{} is no NetCDF file that can be read: {}", name_, netcdf().nc_strerror(status)),
                         "the file may be damaged, cut off, or of another kind: ncdump -h shows what is in it");
   }
   const std::string what = "cannot be read";
   int dimensions = 0, variables = 0;
-  check(nc_inq(handle_->id, &dimensions, &variables, nullptr, nullptr), name_, what);
+  check(netcdf().nc_inq(handle_->id, &dimensions, &variables, nullptr, nullptr), name_, what);
   std::vector<int> ids(static_cast<std::size_t>(dimensions));
-  check(nc_inq_dimids(handle_->id, &dimensions, ids.data(), 0), name_, what);
+  check(netcdf().nc_inq_dimids(handle_->id, &dimensions, ids.data(), 0), name_, what);
   std::array<char, NC_MAX_NAME + 1> name{};
   for (const int id : ids) {
     std::size_t length = 0;
-    check(nc_inq_dim(handle_->id, id, name.data(), &length), name_, what);
+    check(netcdf().nc_inq_dim(handle_->id, id, name.data(), &length), name_, what);
     dimensions_.push_back({name.data(), length});
   }
   for (int id = 0; id < variables; ++id) {
@@ -122,9 +165,9 @@ NetcdfFile::NetcdfFile(const std::filesystem::path& file)
     nc_type type = 0;
     int rank = 0, attributes = 0;
     std::array<int, NC_MAX_VAR_DIMS> along{};
-    check(nc_inq_varndims(handle_->id, id, &rank), name_, what);
+    check(netcdf().nc_inq_varndims(handle_->id, id, &rank), name_, what);
     if (rank > NC_MAX_VAR_DIMS) throw GridFileError(fmt::format("{} has a variable with {} dimensions", name_, rank));
-    check(nc_inq_var(handle_->id, id, name.data(), &type, &rank, along.data(), &attributes), name_, what);
+    check(netcdf().nc_inq_var(handle_->id, id, name.data(), &type, &rank, along.data(), &attributes), name_, what);
     variable.name = name.data();
     variable.holds_numbers = holds_numbers(type);
     variable.is_single = type == NC_FLOAT;
@@ -160,7 +203,7 @@ class Header {
     double all = 4 + count_ + 3 * list();
     for (const NetcdfDimension& dimension : dimensions) all += name(dimension.name) + count_;
     int global = 0;
-    nc_inq_natts(file_, &global);
+    netcdf().nc_inq_natts(file_, &global);
     all += attributes(NC_GLOBAL, global);
     for (const NetcdfVariable& variable : variables)
       all += name(variable.name) + count_ * static_cast<double>(2 + variable.dimensions.size()) + list() +
@@ -177,8 +220,8 @@ class Header {
     for (int i = 0; i < number; ++i) {
       nc_type type = 0;
       std::size_t length = 0;
-      if (nc_inq_attname(file_, variable, i, text.data()) != NC_NOERR ||
-          nc_inq_att(file_, variable, text.data(), &type, &length) != NC_NOERR)
+      if (netcdf().nc_inq_attname(file_, variable, i, text.data()) != NC_NOERR ||
+          netcdf().nc_inq_att(file_, variable, text.data(), &type, &length) != NC_NOERR)
         continue;
       all += name(text.data()) + 4 + count_ + padded(static_cast<double>(length * bytes_of(type)));
     }
@@ -194,14 +237,14 @@ class Header {
 // The library reads zeros behind the end of a classic file. HDF5 complains itself.
 void NetcdfFile::check_is_whole(const std::filesystem::path& file) const {
   int format = 0, unlimited = -1;
-  check(nc_inq_format(handle_->id, &format), name_, "cannot be read");
+  check(netcdf().nc_inq_format(handle_->id, &format), name_, "cannot be read");
   if (format == NC_FORMAT_NETCDF4 || format == NC_FORMAT_NETCDF4_CLASSIC) return;
-  check(nc_inq_unlimdim(handle_->id, &unlimited), name_, "cannot be read");
+  check(netcdf().nc_inq_unlimdim(handle_->id, &unlimited), name_, "cannot be read");
   double fixed = 0, padded_record = 0, record = 0, records = 0;
   int of_records = 0;
   for (const NetcdfVariable& variable : variables_) {
     nc_type type = 0;
-    check(nc_inq_vartype(handle_->id, variable.id, &type), name_, "cannot be read");
+    check(netcdf().nc_inq_vartype(handle_->id, variable.id, &type), name_, "cannot be read");
     auto bytes = static_cast<double>(bytes_of(type));
     bool grows = false;
     for (const std::size_t k : variable.dimensions) {
@@ -237,7 +280,7 @@ std::vector<double> NetcdfFile::read(const NetcdfVariable& variable, const std::
   std::vector<double> values(static_cast<std::size_t>(numbers));
   if (values.empty()) return values;
   const std::lock_guard<std::mutex> lock(one_at_a_time());
-  const int status = nc_get_vara_double(handle_->id, variable.id, start.data(), count.data(), values.data());
+  const int status = netcdf().nc_get_vara_double(handle_->id, variable.id, start.data(), count.data(), values.data());
   if (status != NC_ERANGE)  // of the numbers one is beyond doubles; none is
     check(status, name_, fmt::format("cannot be read at \"{}\"", variable.name));
   return values;
@@ -250,7 +293,7 @@ std::vector<double> NetcdfFile::read_all(const NetcdfVariable& variable) const {
 double NetcdfFile::usual_fill(const NetcdfVariable& variable) const {
   nc_type type = 0;
   const std::lock_guard<std::mutex> lock(one_at_a_time());
-  check(nc_inq_vartype(handle_->id, variable.id, &type), name_, "cannot be read");
+  check(netcdf().nc_inq_vartype(handle_->id, variable.id, &type), name_, "cannot be read");
   switch (type) {
     case NC_SHORT:
       return NC_FILL_SHORT;

@@ -18,7 +18,8 @@
 //                   at the exit, with the bytes that were written
 //   FAULTS_SERVE    set: the program does not begin. It reads lines of three parts from standard input, parted by tabs: a
 //                   folder, variables, arguments. For each it begins in a new process there, and then writes how that
-//                   ended, as the shell tells it, to standard output. To load VTK and Mesa takes longer than a small run.
+//                   ended, as the shell tells it, to standard output. The value is a library that the program may load: it is there
+//                   from the beginning, because to load VTK and Mesa takes longer than a small run.
 // A write that fails has written its first half. fsync is counted and not done: a killed process loses nothing of what the
 // system has, and the test takes a third of the time.
 #include <dlfcn.h>
@@ -281,7 +282,9 @@ void redirect(int descriptor, const char* file) {
 }
 
 int serve(int argc, char** argv, char** environment) {
-  if (!std::getenv("FAULTS_SERVE")) return program(argc, argv, environment);
+  const char* library = std::getenv("FAULTS_SERVE");
+  if (!library) return program(argc, argv, environment);
+  dlopen(library, RTLD_LAZY | RTLD_LOCAL);  // a program without pictures has none
   static char request[20'000];
   while (std::fgets(request, sizeof request, stdin)) {
     const pid_t child = fork();

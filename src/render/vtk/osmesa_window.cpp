@@ -1,8 +1,8 @@
 // VTK on OSMesa. Stock VTK and GLEW are built for GLX and reach OpenGL in three ways. Each of them is led to OSMesa:
-//   direct calls (glClear, ...)   libOSMesa comes first among the shared libraries, see CMakeLists.txt; checked below
+//   direct calls (glClear, ...)   libOSMesa comes first among the libraries of this one, see CMakeLists.txt; checked below
 //   GLEW's function pointers      the function glXGetProcAddressARB defined here answers instead of libGLX's
 //   glewInit's return code        complains about the missing X display after all pointers are set; accepted here
-#include "render/osmesa_window.hpp"
+#include "render/vtk/osmesa_window.hpp"
 
 #include <GL/glew.h>
 #ifndef GLAPI
@@ -23,12 +23,8 @@
 #include <vtkRendererCollection.h>
 
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <string>
-
-#include "gaussdrift/error.hpp"
-#include "render/short_memory.hpp"
 
 // GLEW finds this function before libGLX's. It must not know names of GLX: OSMesa would make up a stub for any name that
 // begins with gl.
@@ -144,53 +140,35 @@ vtkStandardNewMacro(OsmesaWindow)
     if (!address || !dladdr(address, &info) || !info.dli_fname || !std::strstr(info.dli_fname, "libOSMesa"))
       return std::string("pictures cannot be drawn: ") + name + " comes from " +
              (address && info.dli_fname ? info.dli_fname : "no library") +
-             " instead of libOSMesa; libOSMesa must be the first library of the program (src/render/CMakeLists.txt)";
+             " instead of libOSMesa; libOSMesa must be the first library of the one that draws "
+             "(src/render/CMakeLists.txt)";
   }
   return {};
 }
 
-/// Never destroyed: Mesa cleans up at exit before static objects do, and a window after that would crash. Instead
-/// the context goes in an exit handler that is registered after Mesa's, hence called before it.
-struct TheWindow {
-  OsmesaWindow* window = nullptr;
-  std::string reason;
-
-  TheWindow() {
-    reason = wrong_library();
-    if (!reason.empty()) return;
-    check_room_for_drawing();
-    const WhileDrawing guard;
-    window = OsmesaWindow::New();
-    window->SetMultiSamples(4);  // what llvmpipe offers
-    window->Initialize();
-    if (!window->ready()) {
-      reason = "pictures cannot be drawn: OSMesa gives no OpenGL 3.2 context; is libosmesa6 of Mesa 22 installed?";
-      return;
-    }
-    std::atexit([] {
-      const WhileDrawing guard;  // what is left of a picture that found no memory may crash here
-      the_window().window->Finalize();
-    });
-    window->ReleaseCurrent();
-  }
-
-  static TheWindow& the_window() {
-    static TheWindow* const only = new TheWindow;
-    return *only;
-  }
-};
+/// Never destroyed: Mesa cleans up at exit before static objects do, and a window after that would crash.
+OsmesaWindow* the_window = nullptr;
 
 }  // namespace
 
-std::string window_unavailable_reason() { return TheWindow::the_window().reason; }
-
-vtkRenderWindow* offscreen_window(int width, int height) {
-  auto& [window, reason] = TheWindow::the_window();
-  if (!reason.empty()) throw Error(ExitCode::internal, reason);
-  window->SetSize(width, height);
-  return window;
+std::string open_window() {
+  if (std::string reason = wrong_library(); !reason.empty()) return reason;
+  the_window = OsmesaWindow::New();
+  the_window->SetMultiSamples(4);  // what llvmpipe offers
+  the_window->Initialize();
+  if (!the_window->ready())
+    return "pictures cannot be drawn: OSMesa gives no OpenGL 3.2 context; is libosmesa6 of Mesa 22 installed?";
+  the_window->ReleaseCurrent();
+  return {};
 }
 
-void release_window() { TheWindow::the_window().window->ReleaseCurrent(); }
+void close_window() { the_window->Finalize(); }
+
+vtkRenderWindow* offscreen_window(int width, int height) {
+  the_window->SetSize(width, height);
+  return the_window;
+}
+
+void release_window() { the_window->ReleaseCurrent(); }
 
 }  // namespace gaussdrift::render

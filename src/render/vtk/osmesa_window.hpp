@@ -1,5 +1,5 @@
 // The one off-screen window of the process: VTK draws into it through OSMesa, without display, GPU or X.
-// Everything that would change with another way to a context (EGL, say) is behind these two functions.
+// Everything that would change with another way to a context (EGL, say) is behind these functions.
 #pragma once
 
 #include <string>
@@ -8,8 +8,11 @@ class vtkRenderWindow;
 
 namespace gaussdrift::render {
 
-/// Empty if the window can be had, else the reason and the remedy. Looked at once.
-std::string window_unavailable_reason();
+/// Makes the window. Empty if it can be had, else the reason and the remedy.
+std::string open_window();
+
+/// Before the process ends.
+void close_window();
 
 /// The window, empty, in this size. Lives until the process ends; for one thread at a time.
 vtkRenderWindow* offscreen_window(int width, int height);
