@@ -95,8 +95,9 @@ TEST_P(Footprint, IsPredictedWithinAFactorOf1Point3) {
   ASSERT_EQ(predicted.exit_code, 0);
   ASSERT_EQ(taken.exit_code, 0);
   const double told = parsed_json(predicted.out)["predicted"]["memory_bytes"];
-  EXPECT_LT(told / taken.peak, 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
-  EXPECT_GT(told / taken.peak, 1 / 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
+  constexpr double beside = 1e7;  // what the program itself takes, 14 MB at first, grows while it works
+  EXPECT_LT(told, 1.3 * taken.peak + beside) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
+  EXPECT_GT(told + beside, taken.peak / 1.3) << told / 1e6 << " MB told, " << taken.peak / 1e6 << " MB taken";
   EXPECT_LT(predicted.peak, 200e6);
   // What the run itself says where it is refused; it looks at less.
   run.insert(run.end(), {"--force", "--memory", "1 MB"});
