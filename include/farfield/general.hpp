@@ -69,6 +69,9 @@ const std::vector<GeneralMethod>& general_methods();
 /// The name as it is written in files: "auto", "direct", "interpolation".
 std::string to_string(GeneralMethod method);
 
+/// What it does, in a line.
+std::string meaning(GeneralMethod method);
+
 /// What a GeneralPlan is asked for. The defaults are valid.
 struct GeneralOptions {
   double tolerance = 1e-6;                          ///< see GeneralPlan; 1e-10 <= tolerance < 1

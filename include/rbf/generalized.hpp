@@ -76,6 +76,9 @@ class DivergenceFreeInterpolant {
   Eigen::MatrixXd gradient(const Eigen::Ref<const Points<d>>& targets) const;
   /// gamma: N x d.
   const Eigen::MatrixXd& weights() const;
+  /// The length of the error of each vector, predicted from the others: N numbers. NaN for those that were not left out:
+  /// 500 are, evenly spread over all.
+  const Eigen::VectorXd& left_out_errors() const;
   /// What was done. left_out has one number: the root mean square length of the errors of vectors, each predicted from
   /// the others. Of more than 500 vectors, 500 are left out in turn.
   const FitReport& report() const;

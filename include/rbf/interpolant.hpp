@@ -28,6 +28,16 @@ enum class Solver {
 /// The name as it is written in files: "auto", "dense", "krylov".
 std::string to_string(Solver solver);
 
+/// By what a shape is chosen, where none is given; docs/rbf.md, "Interpolation".
+enum class ShapeBy {
+  left_out,   ///< the smallest errors of values that are left out [Rip99]
+  likelihood  ///< the largest likelihood of the values, as those of a Gaussian process whose covariance is the kernel
+};
+/// All of them.
+const std::vector<ShapeBy>& ways_to_choose_a_shape();
+/// The name as it is written in files: "left-out", "likelihood".
+std::string to_string(ShapeBy by);
+
 /// What an Interpolant is asked for. The defaults are valid.
 struct FitOptions {
   /// Allowed: the largest |equation's error| relative to the largest |value|, in each column. And the error of
@@ -37,6 +47,7 @@ struct FitOptions {
   /// values. 0: the interpolant takes the values. More: it is smoother, and stays near them.
   double regularisation = 0;
   Solver solver = Solver::automatic;                ///< how
+  ShapeBy shape_by = ShapeBy::left_out;             ///< where no shape is given
   int most_iterations = 300;                        ///< of `krylov`, for each column
   int threads = 0;                                  ///< 0: all
   std::size_t memory_limit = std::size_t{8} << 30;  ///< bytes that a fit or an evaluation may hold
@@ -45,7 +56,7 @@ struct FitOptions {
 /// What a fit has done, and how good it is.
 struct FitReport {
   Function function;              ///< with the shape that was given or chosen
-  bool shape_was_chosen = false;  ///< by the errors of left-out values
+  bool shape_was_chosen = false;  ///< by FitOptions::shape_by
   double spacing = 0;             ///< typical distance of neighbouring points
   std::size_t points = 0;         ///< N
   Solver solver = Solver::dense;  ///< never `automatic`
@@ -54,7 +65,10 @@ struct FitReport {
   int iterations = 0;             ///< krylov, all columns
   double seconds = 0;             ///< by the clock
   std::vector<double> left_out;   ///< for each column: the root mean square of Interpolant::left_out_errors()
-  std::vector<double> values;     ///< for each column: the root mean square of the values, to compare with
+  /// dense: for each column that is not 0 its ln likelihood as a Gaussian process of covariance tau^2 (|phi| +
+  /// regularisation), with the tau that makes it largest; what the polynomial explains is left out (restricted likelihood)
+  std::vector<double> log_likelihood;
+  std::vector<double> values;  ///< for each column: the root mean square of the values, to compare with
 };
 /// One line: kernel, solver, residual, condition, and the error of left-out values.
 std::ostream& operator<<(std::ostream& out, const FitReport& report);

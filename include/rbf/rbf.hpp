@@ -90,6 +90,9 @@ int positive_order(Kernel kernel);
 /// Highest derivative of the kernel that is finite everywhere, at most 2: that Options::derivative_order may be.
 int highest_derivative(Kernel kernel);
 
+/// How many derivatives of x -> phi(|x|) are continuous everywhere; the largest int if all are.
+int continuous_derivatives(Kernel kernel);
+
 /// phi(r).
 /// @throws InvalidArgument  r is negative or not finite, or the shape is not what the kernel takes
 double value(const Function& function, double r);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/longest_side.hpp"
+#include "particle/subset.hpp"
 #include "sim/borders/outside.hpp"
 #include "sim/work.hpp"
 
@@ -19,6 +20,18 @@ double sum_of_weights(const Particles& particles) {
   double sum = 0;
   for (const double alpha : particles.alpha) sum += std::abs(alpha);
   return sum;
+}
+
+/// Of the fitted velocity, where the density is: near the particles that carry much.
+double error_of_velocity(const Scene& scene, const Particles& particles) {
+  constexpr double much = 0.1;
+  double largest = 0;
+  for (const double alpha : particles.alpha) largest = std::max(largest, std::abs(alpha));
+  std::vector<std::size_t> heavy;
+  for (std::size_t j = 0; j < particles.size(); ++j)
+    if (std::abs(particles.alpha[j]) >= much * largest) heavy.push_back(j);
+  const Particles some = subset(particles, heavy);
+  return scene.velocity->fit_error(some.view());
 }
 
 /// The largest |grad rho| between neighbours.
@@ -43,18 +56,19 @@ double steepest_slope(const Lattice& lattice, const std::vector<double>& rho) {
 
 }  // namespace
 
-bool is_fitted(const Scene& scene) { return scene.density->fit_error() > 0 || scene.velocity->fit_error() > 0; }
+bool is_fitted(const Scene& scene) { return scene.density->fit_error() > 0 || scene.velocity->is_fitted(); }
 
-double fit_of_samples(const Scene& scene, const Particles& start, const std::vector<double>& rho, double time,
-                      double norm) {
+double fit_of_samples(const Scene& scene, const Particles& start, const Particles& carried,
+                      const std::vector<double>& rho, double time, double norm) {
   double largest = 0;  // rho_0
   for (const double alpha : start.alpha) largest = std::max(largest, std::abs(alpha));
   largest /= std::pow(scene.seeding.spacing, scene.seeding.dimension);
   double error = 0;
   if (const double of_density = scene.density->fit_error(); of_density > 0 && largest > 0)
     error += of_density / largest;
-  if (const double of_velocity = scene.velocity->fit_error(); of_velocity > 0)
-    error += time * of_velocity * steepest_slope(scene.evaluation, rho) / norm;
+  if (scene.velocity->is_fitted())
+    error += time * std::max(error_of_velocity(scene, start), error_of_velocity(scene, carried)) *
+             steepest_slope(scene.evaluation, rho) / norm;
   return error;
 }
 

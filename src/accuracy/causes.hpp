@@ -49,10 +49,10 @@ double bound_of_left_out(const Scene& scene, const SeedReport& report, const Par
 bool is_fitted(const Scene& scene);
 
 /// What the errors of fits do to a density, estimated: that of rho_0 is carried along, as a part of the largest rho_0.
-/// That of the velocity moves it, all the time, along its steepest slope.
-/// start: particles at t = 0;  rho: on the evaluation lattice at `time`;  norm: largest there
-double fit_of_samples(const Scene& scene, const Particles& start, const std::vector<double>& rho, double time,
-                      double norm);
+/// That of the velocity near the particles moves it, all the time, along its steepest slope.
+/// start, carried: particles at t = 0 and at `time`;  rho: on the evaluation lattice at `time`;  norm: largest there
+double fit_of_samples(const Scene& scene, const Particles& start, const Particles& carried,
+                      const std::vector<double>& rho, double time, double norm);
 
 /// The longest side of the domain.
 double extent(const Case& spec);

@@ -176,7 +176,7 @@ class Measurement {
   /// are told with the exact density of the fits.
   bool set_fit_apart() {
     if (!is_fitted(scene_)) return true;
-    budget_.fit = fit_of_samples(scene_, seeded_, last_.density.rho, last_.time, norm_);
+    budget_.fit = fit_of_samples(scene_, seeded_, last_.particles, last_.density.rho, last_.time, norm_);
     if (spec_.reference.kind != ReferenceSpec::Kind::exact) return true;
     std::vector<std::size_t> places;
     for (const Probe& probe : plan_.probes) places.push_back(probe.index);

@@ -195,6 +195,7 @@ class Prediction {
     budget_.smoothing =
         at_least_rounding(farthest([&](std::size_t i) { return (density_[i] + aside_[i]) / 2; }) / norm_);
     budget_.total = farthest([&](std::size_t i) { return density_[i]; }) / norm_;
+    budget_.fit = fit_of_samples(scene_, seeded_, carried_, density_, time(), norm_);
     return true;
   }
 
@@ -214,7 +215,6 @@ class Prediction {
     }
     budget_.transform = error_of_sums();
     budget_.left_out = bound_of_left_out(scene_, seeding_, seeded_, carried_, norm_);
-    budget_.fit = fit_of_samples(scene_, seeded_, density_, time(), norm_);
     budget_.total = budget_.total + budget_.time_stepping + budget_.transform + budget_.left_out + budget_.fit;
     find_dominating(budget_);
     return true;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 
+#include "accuracy/causes.hpp"
 #include "accuracy/would_run.hpp"
 #include "base/number.hpp"
 #include "gaussdrift/error.hpp"
@@ -59,6 +60,7 @@ struct Search {
   std::function<void(const std::string&)> doing;
   std::vector<Settings> tried{};
   bool stopped = false;  // a lattice would have taken too much
+  double fit = 0;        // of samples: an error that no lattice changes, as predicted last
   int threads = 0;
 
   const Settings* known(const NamedCutoff& cutoff, int per_axis, double overlap) const {
@@ -100,6 +102,7 @@ std::optional<Settings> try_lattice(Case spec, int per_axis, double overlap, Sea
     return std::nullopt;
   }
   if (!budget.known()) throw InputError("no settings can be chosen for this accuracy: " + budget.not_covered);
+  search.fit = budget.fit;
   search.tried.push_back(
       {&cutoff, per_axis, overlap, std::max(budget.total, budget.smoothing), budget.quadrature, budget.particles});
   return search.tried.back();
@@ -196,6 +199,23 @@ void find_cheaper(const Case& spec, double wanted, Search& search, std::optional
   }
 }
 
+/// What a fit to samples leaves of the target to the settings. Throws where that is nothing.
+double left_by_fit(const Case& spec, double target, Search& search) {
+  if (!is_fitted(make_scene(spec, search.threads))) return target;
+  if (!find_cutoff(spec.particles.cutoff).parameters.empty() ||
+      !try_lattice(spec, std::clamp(spec.particles.per_axis, fewest_per_axis, most_per_axis(spec)),
+                   spec.particles.overlap, search))
+    return target;
+  constexpr double least = 0.1;  // of the target: less is no room for settings
+  if (search.fit > (1 - least) * target)
+    throw InputError(fmt::format(
+        "an error of {:g} cannot be met: the fit of the samples alone is predicted to be off by {:.1e}, whatever the "
+        "settings are. Give more samples where the density is or comes, or another kernel or width; or accept an error "
+        "of {:.1e}",
+        target, search.fit, base::rounded_up(1.5 * search.fit, 2)));
+  return target - search.fit;
+}
+
 /// Throws what says why a search has found nothing.
 [[noreturn]] void refuse(double target, const Search& search) {
   const double best = search.smallest_error();
@@ -256,11 +276,12 @@ AccuracyChoice choose_for_accuracy(const Case& spec, double target, int threads,
         "no settings can be chosen for this accuracy: evaluate.r, p and n fix the error of the sums; leave them out");
   Search search{.allowance = {most_work}, .doing = doing, .threads = threads};
   std::optional<Settings> lattice;
+  const double left = left_by_fit(spec, target, search);
   for (const double aim : aims) {
-    if (lattice || (!search.tried.empty() && search.smallest_error() > target)) break;
+    if (lattice || (!search.tried.empty() && search.smallest_error() > left && search.fit == 0)) break;
     // One that was tried for a smaller error may do. There may be a cheaper one, as far as there is work left.
-    lattice = search.cheapest(aim * target);
-    find_cheaper(spec, aim * target, search, lattice);
+    lattice = search.cheapest(aim * left);
+    find_cheaper(spec, aim * left, search, lattice);
   }
   if (!lattice) refuse(target, search);
   AccuracyChoice choice;
@@ -272,7 +293,7 @@ AccuracyChoice choose_for_accuracy(const Case& spec, double target, int threads,
         "the search is bounded: {} lattices were tried, finer ones were left out because their errors take "
         "too long to predict; there may be cheaper settings",
         search.tried.size());
-  choice.spec = with_steps_and_sums(spec, *lattice, target, threads, choice.predicted);
+  choice.spec = with_steps_and_sums(spec, *lattice, left, threads, choice.predicted);
   if (choice.predicted.total > target)
     throw InputError(fmt::format("an error of {:g} cannot be met: the smallest predicted is {:.1e}, most of it by {}",
                                  target, choice.predicted.total, choice.predicted.dominates));

@@ -36,6 +36,7 @@ struct FitVerbOptions {
   std::string value = "rho";
   std::string kernel = "thin-plate";
   double shape = 0;  // 0: chosen
+  std::string shape_by;
   double regularisation = 0;
   int per_axis = 200;
   fs::path out;
@@ -50,8 +51,14 @@ void declare(OptionList& options, FitVerbOptions& given) {
   options.add("data", given.data, "DATA", "table (CSV) with columns x, y, perhaps z, and a value").required();
   options.add("--value", given.value, "NAME", "the column of the values; rho by default");
   options.add("--kernel", given.kernel, "NAME", fmt::format("{}; thin-plate by default", fmt::join(names, ", ")));
-  options.add("--shape", given.shape, "C", "of the kernel, a length; by default chosen by left-out values")
-      .not_negative();
+  const Option shape =
+      options.add("--shape", given.shape, "C", "of the kernel, a length; by default it is chosen").not_negative();
+  options
+      .add("--shape-by", given.shape_by, "WHAT",
+           "how it is chosen: left-out, by the errors of left-out values, which is the default; or likelihood, by that "
+           "of "
+           "the values as a Gaussian process")
+      .excludes(shape);
   options
       .add("--regularisation", given.regularisation, "X",
            "added to the diagonal of the equations: the fit is smoother and only near the values; 0 by default")
@@ -71,6 +78,20 @@ rbf::Kernel kernel_of(const std::string& name) {
   const auto near = base::suggest(name, names);
   throw CommandLineError(fmt::format("--kernel {}: there is no such kernel{}; there are {}", name,
                                      near ? fmt::format(", is \"{}\" meant?", *near) : "", fmt::join(names, ", ")));
+}
+
+rbf::ShapeBy shape_by(const FitVerbOptions& options) {
+  if (options.shape_by.empty()) return rbf::ShapeBy::left_out;
+  if (const rbf::Kernel kernel = kernel_of(options.kernel); !rbf::takes_shape(kernel))
+    throw CommandLineError(
+        fmt::format("--shape-by {}: {} has no shape; leave it out", options.shape_by, to_string(kernel)));
+  std::vector<std::string> names;
+  for (const rbf::ShapeBy by : rbf::ways_to_choose_a_shape()) {
+    if (to_string(by) == options.shape_by) return by;
+    names.push_back(to_string(by));
+  }
+  throw CommandLineError(
+      fmt::format("--shape-by {}: there is no such way; there are {}", options.shape_by, fmt::join(names, ", ")));
 }
 
 /// Is a column called z? Whatever else is wrong with the table is said when it is read.
@@ -127,9 +148,11 @@ Result fit_in(const Data& data, const FitVerbOptions& options, std::size_t memor
   const Eigen::Map<const Eigen::MatrixXd> rows(data.rows.data(), d + 1, count);
   const rbf::Points<d> points = rows.template topRows<d>();
   const Eigen::MatrixXd values = rows.row(d).transpose();
-  const rbf::Interpolant<d> fit(
-      {kernel_of(options.kernel), options.shape}, points, values,
-      {.regularisation = options.regularisation, .threads = options.threads, .memory_limit = memory});
+  const rbf::Interpolant<d> fit({kernel_of(options.kernel), options.shape}, points, values,
+                                {.regularisation = options.regularisation,
+                                 .shape_by = shape_by(options),
+                                 .threads = options.threads,
+                                 .memory_limit = memory});
   Result result;
   result.report = fit.report();
   const Eigen::Matrix<double, d, 1> low = points.rowwise().minCoeff(), high = points.rowwise().maxCoeff();
@@ -168,6 +191,7 @@ ExitCode fit(const FitVerbOptions& options) {
     throw CommandLineError(
         fmt::format("--value {}: the file has an array of that name beside the value", options.value));
   kernel_of(options.kernel);
+  shape_by(options);
   const double left = 0.9 * accuracy::tightest_limit(most_memory(options.memory)).left();
   const auto memory = static_cast<std::size_t>(std::clamp(left, 0.0, 8e9));
   Data data{.dimension = is_in_space(options.data) ? 3 : 2, .rows = {}};
@@ -184,18 +208,21 @@ ExitCode fit(const FitVerbOptions& options) {
   write::write_text(options.out, write::fields_text(options.out, result.lattice, result.fields, 0));
   const rbf::FitReport& report = result.report;
   if (options.json) {
-    say("{}\n", laid_out({{"points", report.points},
-                          {"kernel", to_string(report.function.kernel)},
-                          {"shape", report.function.shape},
-                          {"solver", to_string(report.solver)},
-                          {"residual", report.residual},
-                          {"condition", report.condition},
-                          {"iterations", report.iterations},
-                          {"left_out_error", report.left_out[0]},
-                          {"values", report.values[0]},
-                          {"integral", result.integral},
-                          {"seconds", report.seconds},
-                          {"file", options.out.string()}}));
+    say("{}\n",
+        laid_out({{"points", report.points},
+                  {"kernel", to_string(report.function.kernel)},
+                  {"shape", report.function.shape},
+                  {"log_likelihood", report.log_likelihood.empty() ? nlohmann::ordered_json()
+                                                                   : nlohmann::ordered_json(report.log_likelihood[0])},
+                  {"solver", to_string(report.solver)},
+                  {"residual", report.residual},
+                  {"condition", report.condition},
+                  {"iterations", report.iterations},
+                  {"left_out_error", report.left_out[0]},
+                  {"values", report.values[0]},
+                  {"integral", result.integral},
+                  {"seconds", report.seconds},
+                  {"file", options.out.string()}}));
     return ExitCode::ok;
   }
   say("fit    {}\n", base::printed(report));

@@ -11,7 +11,7 @@ struct PairMethod {
   std::string name, meaning, sums;
 };
 
-/// "auto" is not among them: it is a word of many keys. A name of both libraries means the same in both and comes once.
+/// "auto" is not among them: it is a word of many keys. A name that several lists have means the same in both and comes once.
 std::vector<PairMethod> pair_methods();
 
 }  // namespace gaussdrift::input

@@ -65,6 +65,7 @@ std::vector<KernelEntry> all_kernels() {
                  .takes_shape = false,
                  .positive_order = 2,
                  .highest_derivative = 1,
+                 .continuous_derivatives = 1,
                  .profile =
                      [](long double s, long double) {
                        if (!(s > 0)) return Profile{};
@@ -75,6 +76,7 @@ std::vector<KernelEntry> all_kernels() {
   all.push_back({.kernel = Kernel::matern32,
                  .name = "matern32",
                  .formula = "(1 + a) exp(-a), a = sqrt(3) r / c",
+                 .continuous_derivatives = 2,
                  .profile =
                      [](long double s, long double c) {
                        const long double a = std::sqrt(3 * s) / c, e = std::exp(-a), q = 3 / (2 * c * c);
@@ -85,6 +87,7 @@ std::vector<KernelEntry> all_kernels() {
   all.push_back({.kernel = Kernel::matern52,
                  .name = "matern52",
                  .formula = "(1 + a + a^2/3) exp(-a), a = sqrt(5) r / c",
+                 .continuous_derivatives = 4,
                  .profile =
                      [](long double s, long double c) {
                        const long double a = std::sqrt(5 * s) / c, e = std::exp(-a), q = 5 / (6 * c * c);
@@ -131,6 +134,7 @@ std::optional<Kernel> kernel_named(const std::string& name) {
 std::string formula(Kernel kernel) { return detail::entry_of(kernel).formula; }
 bool takes_shape(Kernel kernel) { return detail::entry_of(kernel).takes_shape; }
 int positive_order(Kernel kernel) { return detail::entry_of(kernel).positive_order; }
+int continuous_derivatives(Kernel kernel) { return detail::entry_of(kernel).continuous_derivatives; }
 int highest_derivative(Kernel kernel) { return detail::entry_of(kernel).highest_derivative; }
 
 }  // namespace rbf

@@ -6,6 +6,7 @@
 // with m its order of conditional positive definiteness and rho of one sign.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "rbf/rbf.hpp"
@@ -24,6 +25,7 @@ struct KernelEntry {
   bool takes_shape = true;
   int positive_order = 0;  // m
   int highest_derivative = 2;
+  int continuous_derivatives = std::numeric_limits<int>::max();
   Profile (*profile)(long double s, long double shape) = nullptr;
   double (*density)(double t, double shape) = nullptr;  // |rho(t)|; none for the Gaussian, whose rho is a point
 };

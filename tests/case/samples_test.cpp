@@ -8,8 +8,11 @@
 #include <string>
 
 #include "accuracy/budget.hpp"
+#include "accuracy/target.hpp"
 #include "case_text.hpp"
+#include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
+#include "message_of.hpp"
 #include "scratch_folder.hpp"
 
 namespace gaussdrift::accuracy {
@@ -97,9 +100,53 @@ TEST_F(SampledScene, OfAWindAtRandomPointsTellsWhatTheFitOfTheWindDoes) {
   ASSERT_TRUE(found.measured.known()) << found.measured.not_covered;
   EXPECT_EQ(found.measured.dominates, "fit of samples");
   EXPECT_NEAR(found.measured.fit / found.linf, 1, 0.1);
-  // Predicted from above: samples at the border, which the others see from one side, have the largest errors.
+  // Predicted from the samples around the density: those at the border have errors that are hundreds of times larger.
   ASSERT_TRUE(found.predicted.known()) << found.predicted.not_covered;
   EXPECT_GT(found.predicted.fit, 0.5 * found.linf);
+  EXPECT_LT(found.predicted.fit, 10 * found.linf);
+}
+
+TEST_F(SampledScene, OfDivergenceFreeGaussiansTellsTheSameCause) {
+  write("wind.csv", "x,y,u,v", 400, 1.2, [](double x, double y) {
+    const double e = std::exp(-x * x - y * y);
+    return std::vector<double>{-y * e, x * e};
+  });
+  const auto scene_with = [&](const std::string& velocity) {
+    return scene({.velocity = velocity,
+                  .density = "expression = \"exp(-((x - 0.2)^2 + y^2)/0.04)\"",
+                  .particles = fine,
+                  .time = "end = 0.5\nstep = 0.1",
+                  .evaluate = "per_axis = 31",
+                  .reference = "kind = \"characteristics\""});
+  };
+  for (const std::string velocity :
+       {"gaussians = \"wind.csv\"", "samples = \"wind.csv\"\ndivergence_free = true\nwidth = 0.6"}) {
+    const Case spec = scene_with(velocity);
+    const Budget budget = predict_budget(spec, make_scene(spec), Effort::whatever, 0);
+    ASSERT_TRUE(budget.known()) << budget.not_covered;
+    EXPECT_GT(budget.fit, 1e-9) << velocity;
+    EXPECT_LT(budget.fit, 0.1) << velocity;
+    EXPECT_NE(to_text(budget).find("fit of samples"), std::string::npos);
+  }
+}
+
+TEST_F(SampledScene, IsRefusedATargetThatItsFitMisses) {
+  write("cloud.csv", "x,y,rho", 700, 1,
+        [](double x, double y) { return std::vector<double>{std::exp(-((x - 0.2) * (x - 0.2) + y * y) / 0.09)}; });
+  const Case spec = scene({.density = "samples = \"cloud.csv\"\nwidth = 0.5",
+                           .particles = "per_axis = 41\ncutoff = \"gauss6\"",
+                           .time = "end = 0.1\nstep = 0.05",
+                           .evaluate = "per_axis = 31",
+                           .reference = "kind = \"characteristics\""});
+  const double fit = predict_budget(spec, make_scene(spec), Effort::whatever, 0).fit;
+  ASSERT_GT(fit, 0);
+  const std::string refusal = message_of<InputError>([&] { choose_for_accuracy(spec, fit, 0); });
+  EXPECT_NE(refusal.find("the fit of the samples alone is predicted to be off by"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("more samples"), std::string::npos) << refusal;
+  const double target = std::max(3 * fit, 2e-3);
+  const AccuracyChoice choice = choose_for_accuracy(spec, target, 0);
+  EXPECT_GT(choice.predicted.fit, 0);
+  EXPECT_LE(choice.predicted.total, target);
 }
 
 }  // namespace

@@ -45,6 +45,19 @@ TEST(Fit, OfAGaussianHasItsIntegralAndTellsItsError) {
     EXPECT_NE(file.find(std::string("Name=") + array), std::string::npos) << array;
 }
 
+TEST(Fit, HasTheMostLikelyShapeIfAsked) {
+  const ScratchFolder folder;
+  write_file(folder / "cloud.csv", cloud(2, 200));
+  const std::string fit = "fit cloud.csv --kernel matern52 --grid 5 --out field.vti --json --shape-by ";
+  const auto left_out = parsed_json(gaussdrift_in(folder, fit + "left-out").out),
+             likely = parsed_json(gaussdrift_in(folder, fit + "likelihood").out);
+  EXPECT_GE(likely["log_likelihood"].get<double>(), left_out["log_likelihood"].get<double>());
+  EXPECT_LE(left_out["left_out_error"].get<double>(), likely["left_out_error"].get<double>());
+  EXPECT_EQ(gaussdrift_in(folder, fit + "luck").exit_code, 2);
+  EXPECT_EQ(gaussdrift_in(folder, fit + "likelihood --shape 0.1").exit_code, 2);
+  EXPECT_EQ(gaussdrift_in(folder, "fit cloud.csv --shape-by likelihood --out f.vti").exit_code, 2);  // thin-plate
+}
+
 TEST(Fit, OfATableInSpaceWithItsColumnsInAnyOrder) {
   const ScratchFolder folder;
   write_file(folder / "cloud.csv", cloud(3, 400));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 #include <string>
@@ -157,6 +158,58 @@ TEST_P(EveryInterpolant, PredictsLeftOutValues) {
   EXPECT_NEAR(fit.report().left_out[1], fit.left_out_errors().col(1).norm() / std::sqrt(30.0), 1e-14);
 }
 
+// The likelihood written out: with S = [A P; P^T 0], |det S| = det B det(P^T P), and f^T lambda from S.
+TEST_P(EveryInterpolant, TellsTheLikelihoodOfTheValues) {
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Index count = 25;
+  const rbf::Function function = function_of(GetParam(), 0.2);
+  const rbf::Points<2> points = cube<2>(count, 5);
+  const Eigen::MatrixXd values = smooth<2>(points, 2);
+  for (const double ridge : {0.0, 0.01}) {
+    const Matrix p = polynomials<2>(rbf::positive_order(GetParam()), points);
+    Matrix system = Matrix::Zero(count + p.cols(), count + p.cols()), right = Matrix::Zero(system.rows(), 2);
+    for (Index i = 0; i < count; ++i)
+      for (Index j = 0; j < count; ++j)
+        system(i, j) = naive::phi(
+            function,
+            std::sqrt(static_cast<long double>((points.col(i) - points.col(j)).cast<long double>().squaredNorm())));
+    system.topLeftCorner(count, count).diagonal().array() += GetParam() == rbf::Kernel::multiquadric ? -ridge : ridge;
+    system.topRightCorner(count, p.cols()) = p;
+    system.bottomLeftCorner(p.cols(), count) = p.transpose();
+    right.topRows(count) = values.cast<long double>();
+    const Eigen::PartialPivLU<Matrix> factors(system);
+    const Matrix weights = factors.solve(right).topRows(count), squares = p.transpose() * p;
+    const long double m = static_cast<long double>(count - p.cols());
+    long double log_determinant = factors.matrixLU().diagonal().array().abs().log().sum();
+    if (p.cols() > 0) log_determinant -= std::log(squares.determinant());
+    const rbf::Interpolant<2> fit(function, points, values, {.regularisation = ridge});
+    ASSERT_EQ(fit.report().log_likelihood.size(), 2U);
+    for (Index k = 0; k < 2; ++k) {
+      const long double energy = std::abs(right.col(k).head(count).dot(weights.col(k))),
+                        wanted = -(m * (std::log(2 * std::acos(-1.0L) * energy / m) + 1) + log_determinant) / 2;
+      // the condition times rounding
+      EXPECT_NEAR(fit.report().log_likelihood[static_cast<std::size_t>(k)], static_cast<double>(wanted),
+                  1e-9 + 1e-14 * fit.report().condition)
+          << ridge;
+    }
+  }
+}
+
+TEST_P(EveryInterpolant, HasTheMostLikelyShapeIfAsked) {
+  if (!rbf::takes_shape(GetParam())) return;
+  const rbf::Points<2> points = cube<2>(120, 3);
+  const Eigen::MatrixXd values = smooth<2>(points) + 0.01 * naive::numbers(120, 1, 4);
+  const rbf::FitOptions options{.regularisation = 1e-4, .shape_by = rbf::ShapeBy::likelihood};
+  const rbf::Interpolant<2> fit({GetParam()}, points, values, options);
+  const double shape = fit.report().function.shape;
+  EXPECT_TRUE(fit.report().shape_was_chosen);
+  for (const double other : {shape / std::sqrt(2.0), shape * std::sqrt(2.0)}) {
+    if (other < fit.report().spacing / 2 || other > 2) continue;  // not tried
+    const rbf::Interpolant<2> beside({GetParam(), other}, points, values, options);
+    EXPECT_GE(fit.report().log_likelihood[0], beside.report().log_likelihood[0]) << shape << " " << other;
+  }
+}
+
 TEST_P(EveryInterpolant, SmoothsWithRegularisation) {
   const rbf::Function function = function_of(GetParam(), 0.2);
   rbf::Points<2> points = cube<2>(50, 6);
@@ -187,6 +240,21 @@ void reproduces_polynomials(rbf::Kernel kernel, Index count, const rbf::FitOptio
   const rbf::Interpolant<d> fit(function_of(kernel, 0.05), points, polynomial(points), options);
   EXPECT_LE((fit.evaluate(targets) - polynomial(targets)).cwiseAbs().maxCoeff(), 1e-9) << fit.report();
   EXPECT_LE(fit.weights().cwiseAbs().maxCoeff(), 1e-7);
+}
+
+// A Gaussian process that was drawn with some shape: the likelihood finds it, from all points and from parts of them.
+TEST(Interpolant, FindsTheShapeOfAProcessByLikelihood) {
+  for (const Index count : {200, 700}) {
+    const rbf::Points<2> points = cube<2>(count, 11);
+    Eigen::MatrixXd covariance(count, count);
+    const rbf::Function process{rbf::Kernel::matern52, 0.2};
+    for (Index i = 0; i < count; ++i)
+      for (Index j = 0; j < count; ++j) covariance(i, j) = rbf::value(process, (points.col(i) - points.col(j)).norm());
+    const Eigen::MatrixXd values = Eigen::LLT<Eigen::MatrixXd>(covariance).matrixL() * naive::numbers(count, 2, 12);
+    const rbf::Interpolant<2> fit({process.kernel}, points, values, {.shape_by = rbf::ShapeBy::likelihood});
+    // Shapes are tried in steps of a factor 1.4; a sample of that size tells them apart.
+    EXPECT_NEAR(std::log(fit.report().function.shape / process.shape), 0, std::log(1.45)) << fit.report();
+  }
 }
 
 TEST(Interpolant, ReproducesItsPolynomials) {

@@ -37,6 +37,31 @@ TEST_P(EveryKernel, HasTheSlopesOfDifferences) {
   }
 }
 
+// Odd derivatives of x -> phi(|x|) vanish at 0 where they are continuous. The first that jumps is that after the last
+// continuous one; with r^2 ln r the second has no limit.
+TEST_P(EveryKernel, HasAsManyContinuousDerivativesAsItSays) {
+  const int continuous = rbf::continuous_derivatives(GetParam().kernel);
+  const auto second = [&](long double r) { return naive::slopes(GetParam(), r).second; };
+  const auto third = [&](long double r) { return (second(2 * r) - second(r)) / r; };
+  const long double scale = std::abs(second(0)) / GetParam().shape, small = 1e-5L;
+  if (continuous < 2) {
+    EXPECT_EQ(GetParam().kernel, rbf::Kernel::thin_plate);  // 2 ln r + 3
+    return;
+  }
+  if (continuous == 2) {
+    EXPECT_GT(std::abs(third(small)), 0.5 * scale);
+    return;
+  }
+  EXPECT_LT(std::abs(third(small)), 1e-2 * scale);
+  const long double fifth = (third(2 * small) - 2 * third(small)) / (small * small);  // of even powers: nearly 0
+  if (continuous == 4) {
+    EXPECT_GT(std::abs(fifth), scale / (GetParam().shape * GetParam().shape));
+  } else {
+    EXPECT_EQ(continuous, std::numeric_limits<int>::max());
+    EXPECT_LT(std::abs(fifth), 0.1 * scale / (GetParam().shape * GetParam().shape));
+  }
+}
+
 // Bernstein: the derivative of order m is, up to sign, the integral of rho t^m exp(-t s).
 TEST_P(EveryKernel, IsAnIntegralOverGaussians) {
   const rbf::detail::KernelEntry& entry = rbf::detail::entry_of(GetParam().kernel);

@@ -50,6 +50,18 @@ std::string to_string(GeneralMethod method) {
   return method == GeneralMethod::direct ? "direct" : "interpolation";
 }
 
+std::string meaning(GeneralMethod method) {
+  switch (method) {
+    case GeneralMethod::direct:
+      return "sums every pair";
+    case GeneralMethod::interpolation:
+      return "clusters that are apart are coupled by polynomials that interpolate the kernel, recompressed: an H2 "
+             "matrix";
+    default:
+      return "the method with the smaller predicted time";
+  }
+}
+
 std::ostream& operator<<(std::ostream& out, const GeneralChoice& choice) {
   using gaussdrift::core::text;
   if (choice.method == GeneralMethod::direct)

@@ -77,6 +77,10 @@ void FoldedVelocity::add_gradient(double t, const PointsView& x, const Gradients
         gradients.slope[k][i][j] += folded.sign(k, j) * folded.sign(i, j) * in_box.slope[k][i][j];
 }
 
+double FoldedVelocity::fit_error(const PointsView& near) const {
+  return field_->fit_error(FoldedPoints(near, folding_).points());
+}
+
 std::string FoldedVelocity::why_not_finite(double t, const Vector& x) const {
   Vector in_box = x;
   for (int k = 0; k < max_dimension; ++k) in_box[k] = folding_.fold(k, x[k]).x;

@@ -28,7 +28,8 @@ class FoldedVelocity : public VelocityField {
   bool evaluates_in_blocks() const override { return field_->evaluates_in_blocks(); }
   double held_until(double t) const override { return field_->held_until(t); }
   double cost() const override { return field_->cost(); }
-  double fit_error() const override { return field_->fit_error(); }
+  bool is_fitted() const override { return field_->is_fitted(); }
+  double fit_error(const PointsView& near) const override;
   std::string why_not_finite(double t, const Vector& x) const override;
   std::string describe() const override { return field_->describe(); }
 

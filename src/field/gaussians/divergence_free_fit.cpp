@@ -195,6 +195,17 @@ Eigen::VectorXd solve(const GaussianSystem<d>& system, const OverlappingBlocks<d
   return gamma;
 }
 
+/// The root mean square of those that are no NaN.
+double size_of_known(const Eigen::VectorXd& errors) {
+  double squares = 0, known = 0;
+  for (const double error : errors) {
+    if (std::isnan(error)) continue;
+    squares += error * error;
+    ++known;
+  }
+  return std::sqrt(squares / known);
+}
+
 }  // namespace
 
 template <int d>
@@ -235,7 +246,8 @@ GaussianFit fit_gaussians(GaussianMatrix matrix, const fgtd::Points<d>& points, 
                   ? fmt::format("conjugate gradients reached a residual of {:.1e} after {} iterations, not {:.1e}",
                                 fit.residual, fit.iterations, options.residual)
                   : fmt::format("the residual is {:.1e}, not {:.1e}", fit.residual, options.residual));
-  fit.left_out = blocks.left_out_error(right);
+  fit.left_out_errors = blocks.left_out_errors(right);
+  fit.left_out = size_of_known(fit.left_out_errors) / (right.norm() / std::sqrt(static_cast<double>(count)));
   constexpr double knowing_nothing = 0.9;  // 1 is the error of a field that is 0 everywhere
   if (!(fit.left_out < knowing_nothing))
     throw InputError(

@@ -28,12 +28,13 @@ struct GaussianFitOptions {
 };
 
 struct GaussianFit {
-  Eigen::MatrixXd coefficients;  // N x c
-  std::string solver;            // "cholesky" or "conjugate gradients"
-  int iterations = 0;            // conjugate gradients
-  double residual = 0;           // reached, of the system, recomputed from the coefficients
-  double misfit = 0;             // largest difference between field and sample, relative to the largest sample
-  double left_out = 0;           // how well samples follow from the others: OverlappingBlocks::left_out_error
+  Eigen::MatrixXd coefficients;     // N x c
+  std::string solver;               // "cholesky" or "conjugate gradients"
+  int iterations = 0;               // conjugate gradients
+  double residual = 0;              // reached, of the system, recomputed from the coefficients
+  double misfit = 0;                // largest difference between field and sample, relative to the largest sample
+  Eigen::VectorXd left_out_errors;  // of each sample: OverlappingBlocks::left_out_errors
+  double left_out = 0;              // how well samples follow from the others: their size, relative to that of samples
 };
 
 /// matrix: `field` for samples of the velocity S, `vorticity` for samples of the vorticity of the curl form.

@@ -7,10 +7,12 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <numbers>
 #include <string>
 
 #include "base/number.hpp"
 #include "base/users_words.hpp"
+#include "field/fit_errors.hpp"
 #include "field/gaussians/divergence_free.hpp"
 #include "gaussdrift/error.hpp"
 
@@ -27,11 +29,12 @@ class GaussianVelocity : public VelocityField {
  public:
   using MakeSum = std::function<std::unique_ptr<GaussianSum<d>>()>;
   /// make_slopes: the same sum, prepared for one derivative more.
-  GaussianVelocity(GaussianMatrix matrix, GaussianSum<d> sum, MakeSum make_slopes, std::string description)
-      : matrix_(matrix),
+  GaussianVelocity(const GaussianModel& model, GaussianSum<d> sum, MakeSum make_slopes)
+      : matrix_(model.matrix),
         sum_(std::move(sum)),
         make_slopes_(std::move(make_slopes)),
-        description_(std::move(description)) {}
+        errors_(d, model.positions, model.errors),
+        description_(model.about) {}
 
   void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
     fgtd::Points<d> targets(d, static_cast<Index>(x.count));
@@ -70,6 +73,8 @@ class GaussianVelocity : public VelocityField {
   bool is_steady() const override { return true; }
   bool is_solenoidal() const override { return true; }
   bool evaluates_in_blocks() const override { return sum_.pairwise(); }
+  bool is_fitted() const override { return errors_.known(); }
+  double fit_error(const PointsView& near) const override { return errors_.near(near); }
   std::string describe() const override { return description_; }
 
  private:
@@ -78,6 +83,7 @@ class GaussianVelocity : public VelocityField {
   MakeSum make_slopes_;
   mutable std::once_flag slopes_made_;
   mutable std::unique_ptr<const GaussianSum<d>> slopes_;
+  FitErrors errors_;
   std::string description_;
 };
 
@@ -188,6 +194,9 @@ GaussianModel make_model(const std::vector<double>& positions, const std::vector
       model.regularisation = by;
       sum();
     });
+    // An error of the vorticity that changes its sign from sample to sample is a velocity of it / (pi / spacing).
+    const double length = is_curl(options.kind) ? default_gaussian_width(d, positions) / (2 * std::numbers::pi) : 1;
+    for (const double error : fit.left_out_errors) model.errors.push_back(length * error);
     model.about +=
         fmt::format(", fitted to their {} by {}: residual {:.1e}, samples follow from the others to {:.1e}",
                     options.kind == GaussianKind::velocity ? "velocities" : "vorticities",
@@ -218,7 +227,7 @@ std::unique_ptr<VelocityField> make_field(const GaussianModel& model, std::size_
     return GaussianSum<d>(points, rows_of(model.coefficients, points.cols()), 1 / (model.width * model.width), options);
   };
   const auto slopes = [prepared] { return std::make_unique<GaussianSum<d>>(prepared(1)); };
-  return std::make_unique<GaussianVelocity<d>>(model.matrix, prepared(0), slopes, model.about);
+  return std::make_unique<GaussianVelocity<d>>(model, prepared(0), slopes);
 }
 
 // Errors of fgtd in the words of the case file.

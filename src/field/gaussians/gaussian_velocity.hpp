@@ -53,6 +53,7 @@ struct GaussianModel {
   double term_tolerance = 1e-8;      // of fgtd, so that the field keeps its tolerance
   std::vector<double> positions;     // [point][dimension]
   std::vector<double> coefficients;  // [point][components]
+  std::vector<double> errors;        // of the velocity near each position, estimated; NaN: not known; empty: no fit
   std::string about;                 // one line for people
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -162,11 +163,10 @@ double OverlappingBlocks<d>::reciprocal_condition() const {
 // Without sample i the others predict it with the error B_i^-1 (A^-1 u)_i, B_i the diagonal block of A^-1 that belongs
 // to i: changing u_i by that error makes the coefficients of i zero.
 template <int d>
-double OverlappingBlocks<d>::left_out_error(const Eigen::VectorXd& samples) const {
+Eigen::VectorXd OverlappingBlocks<d>::left_out_errors(const Eigen::VectorXd& samples) const {
   constexpr std::size_t most = 24;
   const std::size_t looked_at = std::min(most, blocks_.size());
-  std::vector<double> squares(looked_at);
-  std::vector<std::size_t> numbers(looked_at);
+  Eigen::VectorXd errors = Eigen::VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
   const auto unknowns = static_cast<double>(blocks_.front().factors.rows());
   const double seconds = 3e-10 * unknowns * unknowns * unknowns * static_cast<double>(looked_at);
   base::parallel_for({looked_at, seconds}, threads_, [&](std::size_t n) {
@@ -178,13 +178,10 @@ double OverlappingBlocks<d>::left_out_error(const Eigen::VectorXd& samples) cons
       const auto components = Eigen::seqN(i, columns_, size);
       const Eigen::MatrixXd own = inverse(components, components);
       const Eigen::VectorXd own_gamma = gamma(components);
-      squares[n] += own.llt().solve(own_gamma).squaredNorm();
+      errors[block.points[static_cast<std::size_t>(i)]] = own.llt().solve(own_gamma).norm();
     }
-    numbers[n] = block.own.size();
   });
-  const double total = std::accumulate(squares.begin(), squares.end(), 0.0);
-  const auto number = static_cast<double>(std::accumulate(numbers.begin(), numbers.end(), std::size_t{0}));
-  return std::sqrt(total / number) / (samples.norm() / std::sqrt(static_cast<double>(count_)));
+  return errors;
 }
 
 template class OverlappingBlocks<2>;

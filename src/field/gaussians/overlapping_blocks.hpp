@@ -32,10 +32,9 @@ class OverlappingBlocks {
   /// The reciprocal condition of the worst block, 0 if it is not definite to rounding. The whole matrix is not better.
   double reciprocal_condition() const;
 
-  /// How well samples follow from the others around them. Each is left out and predicted by a fit to the rest of its
-  /// block; this is the root mean square of the errors, relative to that of the samples [Rip99]. At most 24 blocks are
-  /// used.
-  double left_out_error(const Eigen::VectorXd& samples) const;
+  /// The length of the error of each sample that is predicted by a fit to the rest of its block [Rip99]. NaN where it was
+  /// not left out: samples of at most 24 blocks are.
+  Eigen::VectorXd left_out_errors(const Eigen::VectorXd& samples) const;
 
  private:
   struct Block {

@@ -35,6 +35,13 @@ std::string in_the_words_of_a_case(const std::string& message) {
                                         {"shape = ", "width = "}});
 }
 
+template <class Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named one : all) names.push_back(to_string(one));
+  return names;
+}
+
 template <int d>
 rbf::Points<d> points_of(const std::vector<double>& positions) {
   return Eigen::Map<const rbf::Points<d>>(positions.data(), d, static_cast<Index>(positions.size()) / d);
@@ -45,12 +52,15 @@ SampleFit fit_in(const rbf::Points<d>& points, const Eigen::MatrixXd& values, co
   const auto count = static_cast<std::size_t>(points.cols());
   const rbf::Kernel kernel = *rbf::kernel_named(options.kernel.empty() ? default_sample_kernel(count) : options.kernel);
   rbf::Function function{kernel, rbf::takes_shape(kernel) ? options.width : 0};
-  const rbf::FitOptions how{.accuracy = 1e-8,
-                            .regularisation = options.regularisation,
-                            .solver = count <= most_dense_samples ? rbf::Solver::dense : rbf::Solver::krylov,
-                            .threads = options.threads};
+  rbf::FitOptions how{.accuracy = 1e-8,
+                      .regularisation = options.regularisation,
+                      .solver = count <= most_dense_samples ? rbf::Solver::dense : rbf::Solver::krylov,
+                      .threads = options.threads};
+  for (const rbf::ShapeBy by : rbf::ways_to_choose_a_shape())
+    if (to_string(by) == options.width_by) how.shape_by = by;
   const Eigen::VectorXd sizes = values.rowwise().norm();
-  const auto told = [&](const SampleFit::Function& fitted, const rbf::FitReport& report, double largest_error) {
+  const auto told = [&](const SampleFit::Function& fitted, const rbf::FitReport& report,
+                        const Eigen::VectorXd& left_out) {
     double squares = 0;
     for (const double error : report.left_out) squares += error * error;
     SampleFit fit{.dimension = d, .function = fitted, .report = report};
@@ -62,7 +72,9 @@ SampleFit fit_in(const rbf::Points<d>& points, const Eigen::MatrixXd& values, co
     }
     fit.largest = sizes.maxCoeff();
     fit.typical_error = std::sqrt(squares);
-    fit.largest_error = largest_error;
+    for (const double error : left_out)
+      if (std::isfinite(error)) fit.largest_error = std::max(fit.largest_error, error);
+    fit.errors = FitErrors(d, {points.data(), points.data() + points.size()}, {left_out.begin(), left_out.end()});
     if (!std::isfinite(fit.typical_error) || !std::isfinite(report.residual))
       throw InputError("the fit has no finite values; check the coordinates of the samples, width and regularisation");
     return fit;
@@ -71,10 +83,10 @@ SampleFit fit_in(const rbf::Points<d>& points, const Eigen::MatrixXd& values, co
     if (function.shape == 0 && count > most_widths_tried)
       function.shape = rbf::Interpolant<d>(function, points, values, how).report().function.shape;
     const rbf::DivergenceFreeInterpolant<d> fitted(function, points, values, how);
-    return told(fitted, fitted.report(), fitted.report().left_out[0]);
+    return told(fitted, fitted.report(), fitted.left_out_errors());
   }
   const rbf::Interpolant<d> fitted(function, points, values, how);
-  return told(fitted, fitted.report(), fitted.left_out_errors().rowwise().norm().maxCoeff());
+  return told(fitted, fitted.report(), fitted.left_out_errors().rowwise().norm());
 }
 
 template <int d>
@@ -91,11 +103,12 @@ SampleIntegral integral_in(const rbf::Interpolant<d>& function, const Vector& lo
 }  // namespace
 
 std::vector<std::string_view> sample_kernel_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const rbf::Kernel kernel : rbf::kernels()) all.push_back(to_string(kernel));
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(rbf::kernels());
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string_view> width_by_names() {
+  static const std::vector<std::string> names = names_of(rbf::ways_to_choose_a_shape());
   return {names.begin(), names.end()};
 }
 
@@ -104,8 +117,8 @@ std::string default_sample_kernel(std::size_t samples) {
 }
 
 bool SampleFit::is_smooth() const {
-  const rbf::Kernel kernel = report.function.kernel;
-  return kernel != rbf::Kernel::thin_plate && !(is_divergence_free() && kernel == rbf::Kernel::matern32);
+  // A field without divergence is made of second derivatives of its kernel.
+  return rbf::continuous_derivatives(report.function.kernel) >= (is_divergence_free() ? 4 : 2);
 }
 
 SampleFit fit_samples(int dimension, const std::vector<double>& positions, const std::vector<double>& values,

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "field/fit_errors.hpp"
 #include "field/gridded/grid_data.hpp"
 #include "gaussdrift/points.hpp"
 #include "rbf/generalized.hpp"
@@ -18,6 +19,9 @@ namespace gaussdrift {
 
 /// Names of the kernels, as in a case.
 std::vector<std::string_view> sample_kernel_names();
+
+/// Ways to choose the width.
+std::vector<std::string_view> width_by_names();
 
 /// The kernel with the smallest errors for smooth functions at random points: "matern52" where the equations are solved
 /// directly, "matern32" beyond, since the iteration needs a better condition.
@@ -35,7 +39,8 @@ constexpr std::size_t most_divergence_free_samples(int dimension) {
 
 struct SampleFitOptions {
   std::string kernel = {};       // empty: default_sample_kernel()
-  double width = 0;              // shape of the kernel; 0: chosen by left-out samples
+  double width = 0;              // shape of the kernel; 0: chosen
+  std::string width_by = {};     // one of width_by_names(); empty: by left-out samples
   double regularisation = 0;     // added to the diagonal of the equations, in units of the kernel's values
   bool divergence_free = false;  // of a velocity: as many components as dimensions
   int threads = 0;               // 0: all
@@ -53,7 +58,8 @@ struct SampleFit {
   Vector low{}, high{};      // where it stands for the samples: the box around them, and one spacing more
   double largest = 0;        // of the samples: |value|, or the length of a vector
   double typical_error = 0;  // root mean square of the errors of left-out samples; of vectors, of their lengths
-  double largest_error = 0;  // of a left-out sample; divergence_free: as typical_error
+  double largest_error = 0;  // of a left-out sample
+  FitErrors errors = {};     // of left-out samples, each at its place
 
   bool is_divergence_free() const { return function.index() >= 2; }
   /// Are its second derivatives continuous, at the samples too?

@@ -123,7 +123,8 @@ class SampledVelocity : public VelocityField {
   bool is_solenoidal() const override { return fit_->is_divergence_free() && box_.outside() == Outside::error; }
   bool evaluates_in_blocks() const override { return sum_.pairwise(); }
   double cost() const override { return cost_of_pairs(*fit_); }
-  double fit_error() const override { return fit_->typical_error; }
+  bool is_fitted() const override { return true; }
+  double fit_error(const PointsView& near) const override { return fit_->errors.near(near); }
   std::string why_not_finite(double /*t*/, const Vector& x) const override { return box_.why_lost(x); }
   std::string describe() const override { return "u = " + gaussdrift::describe(*fit_); }
 

@@ -36,9 +36,13 @@ double SumField::cost() const {
   return sum;
 }
 
-double SumField::fit_error() const {
+bool SumField::is_fitted() const {
+  return std::any_of(fields_.begin(), fields_.end(), [](const auto& field) { return field->is_fitted(); });
+}
+
+double SumField::fit_error(const PointsView& near) const {
   double sum = 0;
-  for (const auto& field : fields_) sum += field->fit_error();
+  for (const auto& field : fields_) sum += field->fit_error(near);
   return sum;
 }
 

@@ -25,7 +25,8 @@ class SumField : public VelocityField {
   bool evaluates_in_blocks() const override;
   double held_until(double t) const override;
   double cost() const override;
-  double fit_error() const override;
+  bool is_fitted() const override;
+  double fit_error(const PointsView& near) const override;
   std::string why_not_finite(double t, const Vector& x) const override;
   std::string describe() const override;
 

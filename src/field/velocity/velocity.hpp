@@ -50,8 +50,10 @@ class VelocityField {
   virtual double held_until(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
   /// What a value costs, roughly, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
-  /// The error of u, estimated as a root mean square, where it is fitted to samples; 0 where it is a formula.
-  virtual double fit_error() const { return 0; }
+  /// True if u, or a part of it, is fitted to samples.
+  virtual bool is_fitted() const { return false; }
+  /// The error of the fit near some points, estimated as a root mean square; 0 where u is a formula.
+  virtual double fit_error(const PointsView& /*near*/) const { return 0; }
   /// Why u is not finite at x, and what can be done, for a message. Empty if the field knows no reason.
   virtual std::string why_not_finite(double /*t*/, const Vector& /*x*/) const { return ""; }
   /// One line for people: formula and what is known of it.

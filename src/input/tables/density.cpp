@@ -22,7 +22,7 @@ Section density_section() {
   const std::vector<Key> of_file =
       grid_file_keys("zero", "what to do where the file has no value. The choices are those of `velocity.missing`");
   keys.insert(keys.end(), of_file.begin(), of_file.end());
-  for (Key key : {samples_key("`x,y[,z],rho`"), kernel_key(), width_key(), regularisation_key()})
+  for (Key key : {samples_key("`x,y[,z],rho`"), kernel_key(), width_key(), width_by_key(), regularisation_key()})
     keys.push_back(std::move(key));
   return {Table{.name = "density",
                 .required = true,

@@ -36,8 +36,20 @@ Key width_key() {
           .range = positive,
           .unit = "length",
           .meaning =
-              "width c of the kernel, which docs/rbf.md calls its shape. Without it, the one with which left-out "
-              "samples are predicted best",
+              "width c of the kernel, which docs/rbf.md calls its shape. Without it, it is chosen as `width_by` "
+              "says",
+          .with = "samples"};
+}
+
+Key width_by_key() {
+  return {.name = "width_by",
+          .type = Type::choice,
+          .fallback = "left-out",
+          .choices = width_by_names(),
+          .meaning =
+              "how the width is chosen, where none is given. `left-out`: left-out samples are predicted best. "
+              "`likelihood`: the samples are most likely as values of a Gaussian process whose covariance is the "
+              "kernel",
           .with = "samples"};
 }
 
@@ -101,11 +113,20 @@ void fit(Reader& in, std::string_view table_name, const Value& value, const std:
   spec.outside = in.choice(table_name, "outside");
   SampleFitOptions options{.kernel = spec.kernel, .divergence_free = divergence_free, .threads = in.threads};
   if (const auto width = in.number(table_name, "width")) options.width = width->number;
+  options.width_by = in.choice(table_name, "width_by");
   if (const auto lambda = in.number(table_name, "regularisation"))
     spec.regularisation = options.regularisation = lambda->number;
   const auto kernel = rbf::kernel_named(spec.kernel);  // none: the default
   if (const Entry* entry = in.find(table_name, "width"); entry && kernel && !rbf::takes_shape(*kernel))
     in.diagnostics.error(entry->place, fmt::format("kernel = \"{}\" takes no width", spec.kernel), "remove \"width\"");
+  if (const Entry* entry = in.find(table_name, "width_by")) {
+    if (kernel && !rbf::takes_shape(*kernel))
+      in.diagnostics.error(entry->place, fmt::format("kernel = \"{}\" has no width to choose", spec.kernel),
+                           "remove \"width_by\"");
+    if (options.width > 0)
+      in.diagnostics.error(entry->place, "the width is given, so it is not chosen",
+                           "remove \"width_by\", or \"width\"");
+  }
   if (const Entry* entry = in.find(table_name, "divergence_free");
       entry && divergence_free && kernel && rbf::highest_derivative(*kernel) < 2)
     in.diagnostics.error(entry->place,

@@ -93,6 +93,7 @@ void write_grid_file(Writer& out, const FileSpec& spec);
 Key samples_key(const std::string& columns);
 Key kernel_key();
 Key width_key();
+Key width_by_key();
 Key regularisation_key();
 SamplesDensitySpec sampled_density(Reader& in, const Value& value);
 SamplesVelocitySpec sampled_velocity(Reader& in, const Value& value);

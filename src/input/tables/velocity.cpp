@@ -17,7 +17,7 @@ namespace {
 
 std::vector<Key> sample_keys() {
   return {
-      samples_key("`x,y[,z],u,v[,w]`"), kernel_key(),
+      samples_key("`x,y[,z],u,v[,w]`"), kernel_key(), width_by_key(),
       Key{.name = "divergence_free",
           .type = Type::boolean,
           .fallback = "false",
@@ -47,7 +47,7 @@ std::vector<Key> gaussian_keys() {
        .unit = "length",
        .symbol = "1/sqrt(sigma)",
        .meaning = "width of the Gaussians exp(-r^2/width^2). Without it, twice the average spacing of the points. Of "
-                  "samples: width c of the kernel, without it the one with which left-out samples are predicted best",
+                  "samples: width c of the kernel, without it chosen as `width_by` says",
        .with = "gaussians",
        .or_with = "samples"},
       {.name = "residual",

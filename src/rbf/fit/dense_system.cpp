@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "rbf/fit/kernel_matrix.hpp"
 
@@ -47,6 +48,19 @@ Coefficients DenseSystem::solve(const Eigen::MatrixXd& values) const {
   turned.bottomRows(turned.rows() - size) = sign_ * y;
   turned.applyOnTheLeft(q);
   found.weights = std::move(turned);
+  return found;
+}
+
+double DenseSystem::Gaussian::log_likelihood(Eigen::Index k) const {
+  const double m = static_cast<double>(numbers);
+  return -0.5 * (m * (std::log(2 * std::numbers::pi * squares[k] / m) + 1) + log_determinant);
+}
+
+DenseSystem::Gaussian DenseSystem::gaussian(const Eigen::MatrixXd& values, const Coefficients& solution) const {
+  Gaussian found;
+  found.numbers = factors_.rows();
+  found.log_determinant = 2 * factors_.matrixLLT().diagonal().array().log().sum();
+  found.squares = sign_ * values.cwiseProduct(solution.weights).colwise().sum();
   return found;
 }
 

@@ -39,6 +39,18 @@ class DenseSystem {
 
   /// Rows of G, where weights = G values.
   Eigen::MatrixXd weight_rows(const std::vector<Eigen::Index>& rows) const;
+  /// The likelihood of values that are Gaussian with the covariance tau^2 B, B as above, as far as they are orthogonal to P:
+  /// what it depends on.
+  struct Gaussian {
+    Eigen::Index numbers = 0;    // m of them
+    double log_determinant = 0;  // ln det B
+    Eigen::RowVectorXd squares;  // f^T Q2 B^-1 Q2^T f of each column f
+    /// ln of the density of column k for the tau that makes it largest: tau^2 = squares[k] / m.
+    double log_likelihood(Eigen::Index k) const;
+  };
+  /// @param solution  what solve() has found for the values
+  Gaussian gaussian(const Eigen::MatrixXd& values, const Coefficients& solution) const;
+
   /// Diagonal of G. Without value i the others predict it with the error weights_i / G_ii [Rip99].
   Eigen::VectorXd weight_diagonal() const;
 

@@ -140,8 +140,8 @@ Fitted<d>::Fitted(const Function& function, const Points<d>& points, const Eigen
     const double comfortable = report_.solver == Solver::dense
                                    ? comfortable_dense
                                    : std::max(smallest_reciprocal, comfortable_krylov[d - 1] * (is_rough ? rough : 1));
-    std::vector<TriedShape> tried = tried_shapes<d>(function.kernel, points_, values, report_.spacing,
-                                                    options.regularisation, comfortable, options.threads);
+    std::vector<TriedShape> tried =
+        tried_shapes<d>(function.kernel, points_, values, report_.spacing, comfortable, options);
     // What is tried are parts of the points. If all of them together are too ill-conditioned, a smaller shape is taken.
     for (;;) {
       report_.function.shape = tried.empty() ? report_.spacing / 2 : tried.front().shape;
@@ -213,7 +213,11 @@ void Fitted<d>::solve_densely(const Eigen::MatrixXd& values) {
   if (!(report_.residual <= options_.accuracy))
     refuse("the equations are met to " + text(report_.residual) + " only, FitOptions::accuracy is " +
            text(options_.accuracy));
-  left_out_ = system.solve(values).weights;
+  const Coefficients solution = system.solve(values);
+  const DenseSystem::Gaussian gaussian = system.gaussian(values, solution);
+  for (Index k = 0; k < values.cols(); ++k)
+    if (largest_[k] > 0) report_.log_likelihood.push_back(gaussian.log_likelihood(k));
+  left_out_ = solution.weights;
   const Eigen::VectorXd diagonal = system.weight_diagonal();
   left_out_ = diagonal.cwiseInverse().asDiagonal() * left_out_;
 }

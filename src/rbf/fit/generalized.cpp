@@ -55,7 +55,9 @@ struct Problem {
 struct Solved {
   Coefficients coefficients;
   double reciprocal = 0, residual = 0;
-  double left_out = 0;  // root mean square over the groups
+  Eigen::VectorXd left_out_errors;  // of the groups: lengths; NaN where a group was not left out
+  double left_out = 0;              // their root mean square
+  double minus_likelihood = 0;      // minus ln likelihood of the numbers
 };
 
 Solved solve(const Problem& problem, const Function& function, const FitOptions& options, double smallest) {
@@ -70,6 +72,8 @@ Solved solve(const Problem& problem, const Function& function, const FitOptions&
            sign * options.regularisation * found.coefficients.weights;
   };
   found.coefficients = system.solve(problem.numbers);
+  if (problem.numbers.squaredNorm() > 0)
+    found.minus_likelihood = -system.gaussian(problem.numbers, found.coefficients).log_likelihood(0);
   const Coefficients more = system.solve(left());
   found.coefficients.weights += more.weights;
   found.coefficients.polynomial += more.polynomial;
@@ -81,6 +85,7 @@ Solved solve(const Problem& problem, const Function& function, const FitOptions&
   const std::size_t groups = problem.left_out.size(), looked_at = std::min(groups, most_left_out);
   constexpr std::size_t at_a_time = 64;
   double squares = 0;
+  found.left_out_errors.setConstant(static_cast<Index>(groups), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t first = 0; first < looked_at; first += at_a_time) {
     const std::size_t last = std::min(looked_at, first + at_a_time);
     std::vector<Index> indices;
@@ -93,7 +98,9 @@ Solved solve(const Problem& problem, const Function& function, const FitOptions&
       const auto size = static_cast<Index>(group.size());
       const Eigen::MatrixXd own = rows.middleRows(begun, size)(Eigen::all, group);
       const Eigen::VectorXd weights = found.coefficients.weights.col(0)(group);
-      squares += (sign * own).ldlt().solve(sign * weights).squaredNorm();
+      const double squared = (sign * own).ldlt().solve(sign * weights).squaredNorm();
+      squares += squared;
+      found.left_out_errors[static_cast<Index>(g * groups / looked_at)] = std::sqrt(squared);
       begun += size;
     }
   }
@@ -101,10 +108,9 @@ Solved solve(const Problem& problem, const Function& function, const FitOptions&
   return found;
 }
 
-/// The solution; fills the report. Tries shapes where none is given, and takes the one with the smallest error of what is
-/// left out.
+/// The solution; fills the report. Tries shapes where none is given, and takes the best one.
 template <int d>
-Coefficients fit(const Problem& problem, const Points<d>& points, const FitOptions& options, FitReport& report) {
+Solved fit(const Problem& problem, const Points<d>& points, const FitOptions& options, FitReport& report) {
   constexpr double comfortable = 1e-13, smallest = 100 * std::numeric_limits<double>::epsilon();
   const auto begun = std::chrono::steady_clock::now();
   report.solver = Solver::dense;
@@ -120,7 +126,9 @@ Coefficients fit(const Problem& problem, const Points<d>& points, const FitOptio
       function.shape = shape;
       const Solved tried = solve(problem, function, options, best.reciprocal == 0 ? smallest : comfortable);
       if (tried.coefficients.weights.size() == 0) break;
-      if (best.reciprocal == 0 || tried.left_out < best.left_out) {
+      const bool is_better = options.shape_by == ShapeBy::likelihood ? tried.minus_likelihood < best.minus_likelihood
+                                                                     : tried.left_out < best.left_out;
+      if (best.reciprocal == 0 || is_better) {
         best = tried;
         report.function = function;
       }
@@ -137,8 +145,9 @@ Coefficients fit(const Problem& problem, const Points<d>& points, const FitOptio
   if (!(best.residual <= options.accuracy))
     refuse_condition<d>(report, points, options, "the equations are met to " + text(best.residual) + " only", "Remove");
   report.left_out = {best.left_out};
+  if (problem.numbers.squaredNorm() > 0) report.log_likelihood = {-best.minus_likelihood};
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  return best.coefficients;
+  return best;
 }
 
 void check_kernel(const Function& function, const char* what) {
@@ -172,6 +181,7 @@ template <int d>
 struct FittedDivergenceFree {
   Points<d> points;
   Eigen::MatrixXd weights;
+  Eigen::VectorXd left_out_errors;
   FitReport report;
   int threads = 0;
 };
@@ -241,7 +251,7 @@ HermiteInterpolant<d>::HermiteInterpolant(const Function& function, const Eigen:
   for (Index i = 0; i < n; ++i) problem.left_out.push_back({i});
   fitted->report.function = function;
   fitted->report.points = static_cast<std::size_t>(n + m);
-  const detail::Coefficients found = detail::fit<d>(problem, all, options, fitted->report);
+  const detail::Coefficients found = detail::fit<d>(problem, all, options, fitted->report).coefficients;
   fitted->report.values = {n > 0 ? values.norm() / std::sqrt(static_cast<double>(n)) : 0};
   fitted->values = found.weights.col(0).head(n);
   fitted->slopes = unit * found.weights.col(0).tail(d * m).reshaped(m, d);
@@ -325,9 +335,10 @@ DivergenceFreeInterpolant<d>::DivergenceFreeInterpolant(const Function& function
   }
   fitted->report.function = function;
   fitted->report.points = static_cast<std::size_t>(n);
-  const detail::Coefficients found = detail::fit<d>(problem, x, options, fitted->report);
+  const detail::Solved found = detail::fit<d>(problem, x, options, fitted->report);
   fitted->report.values = {vectors.norm() / std::sqrt(static_cast<double>(n))};
-  fitted->weights = found.weights.col(0).reshaped(n, d);
+  fitted->weights = found.coefficients.weights.col(0).reshaped(n, d);
+  fitted->left_out_errors = found.left_out_errors;
   fitted_ = std::move(fitted);
 }
 
@@ -398,6 +409,11 @@ Eigen::MatrixXd DivergenceFreeInterpolant<d>::gradient(const Eigen::Ref<const Po
 template <int d>
 const Eigen::MatrixXd& DivergenceFreeInterpolant<d>::weights() const {
   return fitted_->weights;
+}
+
+template <int d>
+const Eigen::VectorXd& DivergenceFreeInterpolant<d>::left_out_errors() const {
+  return fitted_->left_out_errors;
 }
 
 template <int d>

@@ -66,6 +66,13 @@ std::string to_string(Solver solver) {
   return solver_names[0].name;
 }
 
+const std::vector<ShapeBy>& ways_to_choose_a_shape() {
+  static const std::vector<ShapeBy> all{ShapeBy::left_out, ShapeBy::likelihood};
+  return all;
+}
+
+std::string to_string(ShapeBy by) { return by == ShapeBy::likelihood ? "likelihood" : "left-out"; }
+
 std::ostream& operator<<(std::ostream& out, const FitReport& report) {
   out << to_string(report.function.kernel);
   if (takes_shape(report.function.kernel))

@@ -38,45 +38,90 @@ double typical_spacing(const Points<d>& points) {
   return *middle;
 }
 
+namespace {
+
+/// What a part of the points says of a shape.
+struct PartOfShape {
+  double reciprocal = 0;  // condition; 0 where there are too few points
+  double errors = 0;      // of left-out values, squared, each column relative to its size
+  DenseSystem::Gaussian gaussian;
+};
+
+template <int d>
+PartOfShape judge_part(const Function& function, const Points<d>& points, const Eigen::MatrixXd& values,
+                       const std::vector<Index>& neighbours, const std::vector<Index>& own_points,
+                       double smallest_reciprocal, const FitOptions& options) {
+  PartOfShape found;
+  const Points<d> some = chosen<d>(points, neighbours);
+  const DenseSystem system =
+      DenseSystem::of<d>(function, some, Frame<d>(some, positive_order(function.kernel)), options.regularisation);
+  if (!system.determines_polynomials()) return found;
+  found.reciprocal = system.reciprocal_condition();
+  if (found.reciprocal < smallest_reciprocal) return found;
+  Eigen::MatrixXd known(some.cols(), values.cols());
+  for (std::size_t i = 0; i < neighbours.size(); ++i) known.row(static_cast<Index>(i)) = values.row(neighbours[i]);
+  if (options.shape_by == ShapeBy::likelihood) {
+    found.gaussian = system.gaussian(known, system.solve(known));
+    return found;
+  }
+  const Eigen::Array<double, 1, Eigen::Dynamic> sizes = values.colwise().squaredNorm().array().max(1e-300);
+  std::vector<Index> places;
+  for (const Index k : own_points)
+    places.push_back(std::lower_bound(neighbours.begin(), neighbours.end(), k) - neighbours.begin());
+  const Eigen::MatrixXd rows = system.weight_rows(places);
+  Eigen::MatrixXd wrong = rows * known;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    wrong.row(static_cast<Index>(i)) /= rows(static_cast<Index>(i), places[i]);
+  found.errors = (wrong.colwise().squaredNorm().array() / sizes).sum();
+  return found;
+}
+
+/// Of all parts; columns that are 0 say nothing. The likelihood takes parts as independent, with one tau for all of them:
+/// -2 ln of it is m ln(tau^2) + ln det B, but for what does not depend on the shape.
+double judgement(const std::vector<PartOfShape>& parts, ShapeBy by) {
+  if (by == ShapeBy::left_out) {
+    double errors = 0;
+    for (const PartOfShape& part : parts) errors += part.errors;
+    return std::sqrt(errors);
+  }
+  double numbers = 0, log_determinant = 0, sum = 0;
+  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(parts[0].gaussian.squares.size());
+  for (const PartOfShape& part : parts) {
+    numbers += static_cast<double>(part.gaussian.numbers);
+    log_determinant += part.gaussian.log_determinant;
+    squares += part.gaussian.squares;
+  }
+  for (const double of_column : squares)
+    if (of_column > 0) sum += std::log(of_column / numbers) + log_determinant / numbers;
+  return sum;
+}
+
+}  // namespace
+
 template <int d>
 std::vector<TriedShape> tried_shapes(Kernel kernel, const Points<d>& points, const Eigen::MatrixXd& values,
-                                     double spacing, double ridge, double smallest_reciprocal, int threads) {
+                                     double spacing, double smallest_reciprocal, const FitOptions& options) {
   const Index count = points.cols();
   const bool together = count <= whole;
   const Partition<d> partition(points, together ? count : own);
   const std::size_t parts = std::min(sampled_parts, partition.size());
-  const Eigen::Array<double, 1, Eigen::Dynamic> sizes = values.colwise().squaredNorm().array().max(1e-300);
   const double extent = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
   std::vector<TriedShape> tried;
   for (double shape = first_step * spacing; tried.empty() || shape <= 2 * extent; shape *= step) {
-    std::vector<double> errors(parts), reciprocals(parts), looked_at(parts);
+    std::vector<PartOfShape> found(parts);
     const double equations = static_cast<double>(together ? count : around);
-    gaussdrift::base::parallel_for(
-        {parts, 1e-9 * equations * equations * equations * static_cast<double>(parts)}, threads, [&](std::size_t p) {
-          const std::size_t part = p * partition.size() / parts;
-          const std::vector<Index> neighbours = partition.neighbourhood(part, together ? count : around);
-          const Points<d> some = chosen<d>(points, neighbours);
-          const DenseSystem system =
-              DenseSystem::of<d>({kernel, shape}, some, Frame<d>(some, positive_order(kernel)), ridge);
-          if (!system.determines_polynomials()) return;
-          reciprocals[p] = system.reciprocal_condition();
-          if (reciprocals[p] < smallest_reciprocal) return;
-          std::vector<Index> places;
-          for (const Index k : partition.part(part))
-            places.push_back(std::lower_bound(neighbours.begin(), neighbours.end(), k) - neighbours.begin());
-          const Eigen::MatrixXd rows = system.weight_rows(places);
-          Eigen::MatrixXd known(some.cols(), values.cols());
-          for (std::size_t i = 0; i < neighbours.size(); ++i)
-            known.row(static_cast<Index>(i)) = values.row(neighbours[i]);
-          Eigen::MatrixXd wrong = rows * known;
-          for (std::size_t i = 0; i < places.size(); ++i)
-            wrong.row(static_cast<Index>(i)) /= rows(static_cast<Index>(i), places[i]);
-          errors[p] = (wrong.colwise().squaredNorm().array() / sizes).sum();
-        });
-    if (*std::min_element(reciprocals.begin(), reciprocals.end()) < smallest_reciprocal) break;
-    double error = 0;
-    for (const double of_part : errors) error += of_part;
-    tried.push_back({shape, std::sqrt(error)});
+    gaussdrift::base::parallel_for({parts, 1e-9 * equations * equations * equations * static_cast<double>(parts)},
+                                   options.threads, [&](std::size_t p) {
+                                     const std::size_t part = p * partition.size() / parts;
+                                     const std::vector<Index> neighbours =
+                                         partition.neighbourhood(part, together ? count : around);
+                                     found[p] = judge_part<d>({kernel, shape}, points, values, neighbours,
+                                                              partition.part(part), smallest_reciprocal, options);
+                                   });
+    if (std::any_of(found.begin(), found.end(),
+                    [&](const PartOfShape& part) { return part.reciprocal < smallest_reciprocal; }))
+      break;
+    tried.push_back({shape, judgement(found, options.shape_by)});
   }
   std::stable_sort(tried.begin(), tried.end(),
                    [](const TriedShape& a, const TriedShape& b) { return a.error < b.error; });
@@ -98,10 +143,10 @@ template double typical_spacing<1>(const Points<1>&);
 template double typical_spacing<2>(const Points<2>&);
 template double typical_spacing<3>(const Points<3>&);
 template std::vector<TriedShape> tried_shapes<1>(Kernel, const Points<1>&, const Eigen::MatrixXd&, double, double,
-                                                 double, int);
+                                                 const FitOptions&);
 template std::vector<TriedShape> tried_shapes<2>(Kernel, const Points<2>&, const Eigen::MatrixXd&, double, double,
-                                                 double, int);
+                                                 const FitOptions&);
 template std::vector<TriedShape> tried_shapes<3>(Kernel, const Points<3>&, const Eigen::MatrixXd&, double, double,
-                                                 double, int);
+                                                 const FitOptions&);
 
 }  // namespace rbf::detail
