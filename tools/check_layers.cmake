@@ -57,7 +57,7 @@ set(public_mpi ranks)
 set(public_core arguments buffer dispatch simd/functions simd/product_block simd/pack)
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
-  gaussians/divergence_free gaussians/gaussian_velocity folded/folded gridded/every_second gridded/grid_data gridded/gridded gridded/land
+  gaussians/divergence_free gaussians/gaussian_velocity clocked/clocked folded/folded gridded/every_second gridded/grid_data gridded/gridded gridded/land
   named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar velocity/differences velocity/sampled_gradients velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read calendar grid_file missing_data netcdf/netcdf_file written_run)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -151,12 +152,27 @@ struct SamplesDensitySpec : SamplesSpec {};
 /// One `[[density]]`.
 using DensitySpec = std::variant<ExpressionDensitySpec, ShapeDensitySpec, FileDensitySpec, SamplesDensitySpec>;
 
+/// A tracer: the densities of one name. Particles carry all tracers beside each other.
+struct TracerSpec {
+  std::string name;                   ///< in files, pictures and expressions
+  std::vector<std::size_t> parts{};   ///< of `Case::density`
+  std::string gain{};                 ///< in a unit of time: an expression in tracers, place and time; empty: none
+  std::optional<double> half_life{};  ///< after which half of it is gone
+  std::string exact{};                ///< its exact density, an expression in place and time; empty: not given
+};
+
 // --- what enters during the run ---------------------------------------------------------------------------------
 
 /// point = [...]: one blob.
 struct PointSourceSpec {
   std::vector<double> place;  ///< one number a dimension
   double amount = 0;          ///< of a release at one time; with a rate that says it
+};
+/// face = "...": what the velocity carries in through a face of the domain.
+struct FaceSourceSpec {
+  int axis = 0;               ///< across which the face lies
+  bool upper = false;         ///< at the upper end of the axis
+  std::string concentration;  ///< of what comes in: an expression in place, time and the params
 };
 /// points = "...": a table of blobs, each with its own time and amount, already read.
 struct PointsSourceSpec {
@@ -165,12 +181,14 @@ struct PointsSourceSpec {
 };
 /// One `[[source]]`.
 struct SourceSpec {
-  std::variant<ShapeDensitySpec, PointSourceSpec, PointsSourceSpec> what;  ///< a shape is a density to be released
+  /// A shape is a density to be released.
+  std::variant<ShapeDensitySpec, PointSourceSpec, PointsSourceSpec, FaceSourceSpec> what;
   std::optional<double> at{};  ///< everything at this time; empty: over an interval, or as the table says
   double from = 0;             ///< begin of the interval
   double to = 0;               ///< end of the interval
   std::string rate{};          ///< an expression in t and the params; empty: at one time, or as the table says
   int puffs = 0;               ///< into which the interval is divided
+  std::size_t tracer = 0;      ///< of `Case::tracers`, that is released
 };
 
 // --- discretisation ---------------------------------------------------------------------------------------------
@@ -184,12 +202,32 @@ struct ParticleSpec {
   double threshold = 1e-12;       ///< part of the largest weight below which a lattice point has no particle
 };
 
-/// `[time]`: how long, and in which steps.
+/// `[time]`: how long, and in which steps. All times of a case (`end`, outputs, sources, checks) are elapsed ones: they
+/// count from the beginning of the run and go up, also where the run goes backwards in time. at() tells what the clock of
+/// the case shows then: the t of expressions and data, and of all that a run tells.
 struct TimeSpec {
-  double end = 0;              ///< T; the run begins at 0
+  double end = 0;              ///< T: elapsed when the run ends
   double step = 0;             ///< tau; the largest step where the method chooses its own, 0: none is
   double tolerance = 1e-8;     ///< of one step, where the method chooses it; relative to the longest side of the domain
   std::string method = "rk4";  ///< name of a tableau
+  double start = 0;            ///< what the clock shows when the run begins
+  bool backwards = false;      ///< the clock goes down
+  std::function<std::string(double t)> date{};  ///< of a time that the clock shows; empty: data of the case have none
+
+  /// What the clock shows after that time.
+  double at(double elapsed) const { return backwards ? start - elapsed : start + elapsed; }
+  /// After which time the clock shows t. What it shows then, rounded, has the same elapsed time.
+  double elapsed(double t) const {
+    double since = backwards ? start - t : t - start;
+    for (int i = 0; i < 4; ++i) {
+      const double shown = at(since), again = backwards ? start - shown : shown - start;
+      if (again == since) break;
+      since = again;
+    }
+    return since;
+  }
+  /// Elapsed times are those of the clock.
+  bool is_plain() const { return start == 0 && !backwards; }
 };
 
 /// Parameters of the method `hermite` by hand, in the letters of [Sch06, Table A.1].
@@ -247,7 +285,7 @@ struct GridField {
 
 /// `[output]`: when to write, and what.
 struct OutputSpec {
-  std::vector<double> times;         ///< ascending, 0 <= t <= end
+  std::vector<double> times;         ///< elapsed, ascending, 0 <= t <= end
   std::vector<OutputFile> files;     ///< files that are written at each of these times
   std::vector<PictureStyle> images;  ///< pictures of every output
   std::vector<GridField> fields;     ///< in the density files, beside the density
@@ -291,9 +329,10 @@ struct CheckSpec {
 
   Quantity what = Quantity::linf;  ///< what is bounded
   std::string by{};                ///< of what has left: the reason; empty: any
+  std::string tracer{};            ///< of which tracer; empty: of all together
   std::optional<double> max{};     ///< upper bound; there is this one, the lower one, or both
   std::optional<double> min{};     ///< lower bound
-  std::optional<double> at{};      ///< one of the output times; none: all of them
+  std::optional<double> at{};      ///< one of the output times, elapsed; none: all of them
 };
 
 // --- effects ----------------------------------------------------------------------------------------------------
@@ -380,7 +419,8 @@ struct Case {
   Params params;                       ///< `[params]`
   Domain domain;                       ///< `[domain]`
   std::vector<VelocitySpec> velocity;  ///< the fields add up
-  std::vector<DensitySpec> density;    ///< the densities add up
+  std::vector<DensitySpec> density;    ///< the densities add up; with sources there may be none
+  std::vector<TracerSpec> tracers;     ///< of named densities; empty: the densities are one, without a name
   std::vector<SourceSpec> sources;     ///< what enters during the run
   ParticleSpec particles;              ///< `[particles]`
   TimeSpec time;                       ///< `[time]`

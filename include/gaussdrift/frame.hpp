@@ -30,6 +30,19 @@ struct Stopped {
   double mass = 0;              ///< the sum of their weights
 };
 
+/// What there is of a named tracer.
+struct TracerNumbers {
+  std::string name;                  ///< as in the case
+  double mass = 0;                   ///< the sum of its weights
+  double minimum = 0;                ///< of its density on the grid
+  double maximum = 0;                ///< of its density on the grid
+  std::optional<double> released{};  ///< the sum of its weights that sources have released so far; only with sources
+  /// What reactions have added to it so far; mass = mass at the start + released + reacted - left, but for rounding.
+  std::optional<double> reacted{};
+  std::optional<ErrorNorms> error{};  ///< only where the case gives its exact density
+  std::optional<double> left{};       ///< of its weights, with what has left the run; only where particles can leave
+};
+
 /// Numbers of one output, a row of series.csv.
 struct FrameNumbers {
   double mass = 0;     ///< sum_j alpha_j, the exact integral of rho_eps^h over all space
@@ -60,12 +73,14 @@ struct FrameNumbers {
   std::optional<double> decayed{};
   /// What lies on land; only where domain.coast is "stop".
   std::optional<Stopped> stopped{};
+  std::vector<TracerNumbers> tracers{};  ///< in the order of the case; empty: its densities have no names
 };
 
 /// One output. What it points at belongs to the run and stays as it is until the observer returns.
 struct Frame {
   int index = 0;                         ///< 0 for the first output
-  double time = 0;                       ///< of the scene
+  double time = 0;                       ///< that the clock of the case shows
+  double elapsed = 0;                    ///< since the run began, as in `OutputSpec::times`
   const Particles* particles = nullptr;  ///< never null; see Observer::needs_particles()
   /// u(X_j, t) [j][dimension]; only if files that the case names need it, else null
   const std::vector<double>* velocity = nullptr;
@@ -106,9 +121,9 @@ class Observer {
   virtual ~Observer() = default;
   /// Names the stage in RunSummary::stages.
   virtual std::string name() const = 0;
-  /// Whether frame() looks at the particles of the output at this time. Where several ranks share a run, particles and
+  /// Whether frame() looks at the particles of the output at this elapsed time. Where several ranks share a run, particles and
   /// their velocities are brought together for it alone; else the frame has those of rank 0.
-  virtual bool needs_particles(double /*time*/) const { return true; }
+  virtual bool needs_particles(double /*elapsed*/) const { return true; }
   /// Whether it looks at particle_piece(): then needs_particles() is not asked where particles come in pieces.
   virtual bool takes_particle_pieces() const { return false; }
   /// Called once for each output time, in their order, on the thread of run().
@@ -122,7 +137,7 @@ class Observer {
   virtual void particle_piece(const Frame& /*frame*/, const ParticlePiece& /*piece*/) {}
   /// Bytes that restore() needs, beside what is known of the outputs.
   virtual std::string state() const { return {}; }
-  /// The run goes on after these outputs of an earlier process: files that hold all of them are made again. `state` is
+  /// The run goes on after these outputs, by the times that the clock showed, of an earlier process: files that hold all of them are made again. `state` is
   /// what state() said then.
   virtual void restore(const std::vector<std::pair<double, FrameNumbers>>& /*frames*/, const std::string& /*state*/) {}
   /// Called once after the last frame; not if the run ends before.

@@ -21,8 +21,9 @@ struct Particles {
 
   // Only what the effects of a scene ask for; empty and 0 without them.
   std::vector<std::vector<double>> path;  ///< integrals along the paths, one array an integral, since they were settled
-  std::vector<double> volume;             ///< v_j = h^d at the start, growing with div u
-  double spread = 0;                      ///< what the square of every Gaussian width of the blobs has grown by
+  std::vector<std::vector<double>> tracers{};  ///< weights of each named tracer, whose sum is alpha; empty: no names
+  std::vector<double> volume;                  ///< v_j = h^d at the start, growing with div u
+  double spread = 0;                           ///< what the square of every Gaussian width of the blobs has grown by
 
   /// Number of particles.
   std::size_t size() const { return alpha.size(); }

@@ -19,8 +19,10 @@ namespace gaussdrift {
 struct Progress {
   std::size_t steps_done = 0;     ///< since the start
   std::size_t steps_total = 0;    ///< to the end; 0: not known beforehand
-  double time = 0;                ///< of the scene
-  double end = 0;                 ///< of the scene: time.end
+  double time = 0;                ///< that the clock of the case shows
+  double end = 0;                 ///< that it shows when the run ends
+  double elapsed = 0;             ///< since the start, in the time of the case
+  double length = 0;              ///< of the run in the time of the case: `TimeSpec::end`
   double seconds = 0;             ///< since the run began
   double step_seconds = 0;        ///< of these, in steps
   std::size_t outputs_done = 0;   ///< since the start
@@ -74,7 +76,8 @@ struct RunSummary {
   StageTimes stages;                                    ///< seconds by stage
   double seconds = 0;                                   ///< wall time of all
   bool complete = false;  ///< false: a progress callback stopped the run, and run() would go on
-  double time = 0;        ///< of the scene, that was reached
+  double time = 0;        ///< that the clock of the case shows where the run is
+  double elapsed = 0;     ///< since the start, in the time of the case
 };
 
 }  // namespace gaussdrift

@@ -30,9 +30,9 @@ void pass(base::StateBytes& bytes, Budget& b) {
 }
 
 void LastFrame::frame(const Frame& frame) {
-  if (frame.time != last_) return;
+  if (frame.elapsed != last_) return;
   kept_.any = true;
-  kept_.time = frame.time;
+  kept_.time = frame.elapsed;
   kept_.particles = *frame.particles;
   kept_.density = {.lattice = frame.density->lattice, .rho = frame.density->rho};
   if (frame.exact) kept_.exact = *frame.exact;

@@ -76,7 +76,7 @@ class LastFrame : public Observer {
  public:
   struct Kept {
     bool any = false;
-    double time = 0;
+    double time = 0;  // elapsed
     Particles particles;
     DensityGrid density;
     std::optional<std::vector<double>> exact;  // on the grid, if the run had it there
@@ -84,7 +84,7 @@ class LastFrame : public Observer {
   };
   LastFrame(Kept& kept, double last_time) : kept_(kept), last_(last_time) {}
   std::string name() const override { return "error budget"; }
-  bool needs_particles(double time) const override { return time == last_; }
+  bool needs_particles(double elapsed) const override { return elapsed == last_; }
   void frame(const Frame& frame) override;
 
  private:

@@ -129,7 +129,7 @@ std::optional<std::size_t> pieces_of_particles(const Case& spec, std::size_t par
 }
 
 double particles_at_most(const Case& spec, Trial& trial) {
-  if (!changes_particles(spec)) return trial.carried + particles_released(spec, 1);
+  if (!changes_particles(spec)) return (spec.density.empty() ? 0 : trial.carried) + particles_released(spec, 1);
   const double seeded = static_cast<double>(trial.particles.size()), each = trial.carried / seeded;
   Particles particles = trial.particles;
   Carrier carrier(trial.spec, trial.scene, 1);

@@ -71,7 +71,8 @@ void sample_field(const Scene& scene, const Particles& particles, double end, Fo
           place += fmt::format("{}{:.6g}", k ? ", " : "", x[k]);
         }
         const std::string reason = scene.velocity->why_not_finite(t, x);
-        throw NumericalError(fmt::format("the velocity is not finite at t = {:.6g}, ({}); {}", t, place,
+        throw NumericalError(fmt::format("the velocity is not finite at t = {:.6g}, ({}); {}",
+                                         scene.velocity->shown_time(t), place,
                                          reason.empty() ? "guard the expression or move the density" : reason));
       }
       result.largest_speed = std::max(result.largest_speed, std::sqrt(square));
@@ -212,8 +213,9 @@ void try_steps(const Case& spec, Trial& trial, int threads, Forecast& result) {
   result.particles_at_most = result.particles_at_end;
   // On the mean of the run about half of what sources release is there.
   result.released = particles_released(spec, threads);
-  result.particles_at_end += result.released / 2;
-  result.particles_at_most += result.released;
+  const double besides = spec.density.empty() ? 0 : result.released / 2;  // else the trial stands for them
+  result.particles_at_end += besides;
+  result.particles_at_most += besides + result.released / 2;
   const double times = result.particles_at_end / static_cast<double>(particles.size());
   const bool drifts = particles_interact(spec.effects);
   double seconds = 0;
@@ -259,7 +261,7 @@ void describe_trial(const Case& spec, const Trial& trial, Forecast& result) {
                                                      std::pow(trial.part.stride, trial.lattice.dimension));
   if (trial.whole) result.beyond_at_start = part_beyond(scene.density->mass(), trial.particles, scene.seeding);
   result.velocity = scene.velocity->describe();
-  result.initial_density = scene.density->describe();
+  result.initial_density = spec.density.empty() ? "none: the run starts empty" : scene.density->describe();
   result.lattice_points = trial.lattice.size();
   result.looked_at = trial.looked_at;
   result.particles = static_cast<std::size_t>(trial.carried);

@@ -49,9 +49,10 @@ std::string particles_text(const Case& spec, const Forecast& r) {
   for (const std::string& warning : r.step_warnings) text += fmt::format("           {}\n", warning);
   text += fmt::format("density    {}\n", r.initial_density);
   text +=
-      fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}\n",
+      fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}{}\n",
                   grouped(r.lattice_points), r.spacing, spec.particles.overlap, r.core_radius, spec.particles.cutoff,
-                  r.whole ? "" : "about ", grouped(r.particles), besides.empty() ? "" : fmt::format(" or {}", besides));
+                  r.whole ? "" : "about ", grouped(r.particles), besides.empty() ? "" : fmt::format(" or {}", besides),
+                  spec.density.empty() ? " in the middle of the run" : "");
   if (!spec.sources.empty())
     text += fmt::format("sources    {} release about {} particles during the run\n", spec.sources.size(),
                         grouped(static_cast<std::size_t>(r.released)));
@@ -73,16 +74,16 @@ std::string run_text(const Case& spec, const Forecast& r) {
   for (const std::string& warning : r.effect_warnings) text += fmt::format("           {}\n", warning);
   if (!r.reference.empty()) text += fmt::format("reference  {}\n", r.reference);
   text += fmt::format("transform  {}\n", r.density.choice);
-  text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = 0\n",
-                      spec.evaluate.tolerance, r.density.measured_error, r.density.sample);
+  text += fmt::format("           asked for {:.1g} of max rho, measured {:.1e} on {} grid points at t = {:g}\n",
+                      spec.evaluate.tolerance, r.density.measured_error, r.density.sample, spec.time.start);
   if (spec.evaluate.hermite && r.density.achievable > spec.evaluate.tolerance)
     text += fmt::format("           evaluate.r, p and n take the place of the tolerance: the bound is {:.1e}\n",
                         r.density.achievable);
   else if (r.density.achievable > spec.evaluate.tolerance)
     text +=
         fmt::format("           this tolerance cannot be promised here: the bound is {:.1e}\n", r.density.achievable);
-  text += fmt::format("           max rho = {:.6g} on the {}-point grid at t = 0\n", r.density_maximum,
-                      grouped(r.grid_points));
+  text += fmt::format("           max rho = {:.6g} on the {}-point grid at t = {:g}\n", r.density_maximum,
+                      grouped(r.grid_points), spec.time.start);
   return text;
 }
 

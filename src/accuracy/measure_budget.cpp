@@ -121,7 +121,8 @@ class Measurement {
     if (budget_.known() && !last_.any) budget_.not_covered = "there was no output";
     if (budget_.known() && last_.particles.size() == 0) budget_.not_covered = "no particle carries weight";
     budget_.outside = last_.numbers.outside;
-    if (budget_.known()) budget_.not_covered = nothing_to_explain(last_.particles, budget_.outside, last_.time);
+    if (budget_.known())
+      budget_.not_covered = nothing_to_explain(last_.particles, budget_.outside, spec_.time.at(last_.time));
     if (!budget_.known()) return false;
     seeded_ = seed_scene(scene_, threads_, &seeding_);
     budget_.not_covered = about_beyond(part_beyond(scene_.density->mass(), seeded_, scene_.seeding));

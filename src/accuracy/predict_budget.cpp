@@ -172,7 +172,7 @@ class Prediction {
     carried_ = seeded_;
     if (!carry(spec_, scene_, how_, carried_)) return not_covered(lost_paths);
     budget_.outside = part_outside(carried_, spec_.domain);
-    budget_.not_covered = nothing_to_explain(carried_, budget_.outside, time());
+    budget_.not_covered = nothing_to_explain(carried_, budget_.outside, spec_.time.at(time()));
     if (!budget_.known()) return false;
     Particles aside = between(seeded_, scene_);
     if (!carry(spec_, scene_, how_, aside)) return not_covered(lost_paths);

@@ -8,6 +8,7 @@
 
 #include "effect/catalogue.hpp"
 #include "gaussdrift/error.hpp"
+#include "sim/releases.hpp"
 #include "sim/scene.hpp"
 
 namespace gaussdrift::accuracy {
@@ -103,8 +104,18 @@ Lattice LatticePart::of(const Lattice& whole) const {
   return part;
 }
 
+namespace {
+
+/// Where a run starts empty, a density all over the domain stands in for what its sources release.
+Case with_something(Case spec) {
+  if (spec.density.empty()) spec.density.emplace_back(ExpressionDensitySpec{"1"});
+  return spec;
+}
+
+}  // namespace
+
 Trial make_trial(const Case& spec, std::size_t most_particles, int threads) {
-  Trial trial{.spec = spec, .scene = make_scene(spec, threads), .particles = {}};
+  Trial trial{.spec = with_something(spec), .scene = make_scene(with_something(spec), threads), .particles = {}};
   trial.lattice = trial.scene.seeding;
   trial.effects = spec.effects;
   const double dearness = std::max(1.0, trial.scene.density->cost());
@@ -145,6 +156,7 @@ Trial make_trial(const Case& spec, std::size_t most_particles, int threads) {
   take(trial, part, std::move(found));
   if (trial.particles.size() == 0) seed_scene(trial.scene, threads);  // says why there is nothing to carry
   thin_out(trial, most_particles, threads);
+  if (spec.density.empty()) trial.carried = std::max(1.0, particles_released(spec, threads) / 2);
 
   const Lattice& grid = trial.scene.evaluation;
   const std::size_t longest = *std::max_element(grid.points.begin(), grid.points.end());

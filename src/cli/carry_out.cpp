@@ -114,11 +114,11 @@ class Run {
     simulation.on_progress([&](const Progress& progress) {
       if (first_) line.show(progress);
       moved_on_ = true;
-      if (is_to_stop() && progress.time < progress.end) return false;
+      if (is_to_stop() && progress.elapsed < progress.length) return false;
       std::int64_t keeps = first_ && keeper_->is_time(progress);
       ranks_.max(std::span(&keeps, 1));
-      if (keeps) keep(simulation, progress.time, progress.steps_done);
-      return !keeps || !is_to_stop() || progress.time >= progress.end;  // so it is the last one
+      if (keeps) keep(simulation, progress.elapsed, progress.steps_done);
+      return !keeps || !is_to_stop() || progress.elapsed >= progress.length;  // so it is the last one
     });
     try {
       const base::ProcessStopwatch running;
@@ -126,7 +126,7 @@ class Run {
       share_seconds_ = running.seconds();
       if (!complete()) {
         is_to_stop();  // all ranks know why, also where something was abandoned
-        keep(simulation, summary_.time, summary_.steps);
+        keep(simulation, summary_.elapsed, summary_.steps);
       }
     } catch (const FileError& error) {  // a full disk, mostly
       if (ranks_.size() > 1 && !ranks_.failed_together(std::current_exception())) throw;
@@ -172,7 +172,7 @@ class Run {
     if (keeper_->written() > 0)
       more_["checkpoints"] = {{"written", keeper_->written()},
                               {"seconds", keeper_->seconds()},
-                              {"time", keeper_->last().time},
+                              {"time", spec_.time.at(keeper_->last().time)},
                               {"bytes", keeper_->last().bytes}};
     summary_text_ = write::summary_json(spec_, summary_, more_);
     const bool told = owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); });
@@ -377,7 +377,7 @@ class Run {
   void keep_what_there_is(const Simulation& simulation) {
     try {
       const RunSummary so_far = simulation.summary();
-      keep(simulation, so_far.time, so_far.steps);
+      keep(simulation, so_far.elapsed, so_far.steps);
     } catch (const FileError&) {  // the one before stands
     }
   }
@@ -397,7 +397,7 @@ class Run {
   }
 
   std::string stopped_text() const {
-    return fmt::format("stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.end,
+    return fmt::format("stopped at t = {:.6g} of {:.6g} ({}). {}\n", summary_.time, spec_.time.at(spec_.time.end),
                        reason_to_stop(stop_code()), how_to_go_on());
   }
 

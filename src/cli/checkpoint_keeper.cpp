@@ -29,15 +29,15 @@ bool CheckpointKeeper::is_due(const Progress& progress) const {
   if (asked_) return *asked_ > 0 && since >= *asked_;
   if (since < std::max(usual_interval, least_part_of_run * last_seconds_)) return false;
   // The rest is taken to go on at the pace so far.
-  const double done = progress.time - begun_at_.value_or(0), left = progress.end - progress.time;
+  const double done = progress.elapsed - begun_at_.value_or(0), left = progress.length - progress.elapsed;
   return done <= 0 || since_start_.seconds() * (1 + left / done) >= write::long_run;
 }
 
 bool CheckpointKeeper::is_time(const Progress& progress) {
-  if (!begun_at_) begun_at_ = progress.time;
+  if (!begun_at_) begun_at_ = progress.elapsed;
   if (asked_ && *asked_ == 0) return false;
   const bool keeps_one = asked_ ? *asked_ > 0 : resumed_ || since_start_.seconds() >= write::long_run;
-  return (keeps_one && progress.time >= progress.end) || is_due(progress);
+  return (keeps_one && progress.elapsed >= progress.length) || is_due(progress);
 }
 
 bool CheckpointKeeper::is_wanted(double time, std::size_t steps, std::size_t outputs) const {

@@ -44,7 +44,7 @@ class KeepLastOutput : public accuracy::LastFrame {
   bool needs_particles(double time) const override { return LastFrame::needs_particles(time) && may_gather_(); }
 
   void frame(const Frame& frame) override {
-    last_.too_many = LastFrame::needs_particles(frame.time) && !may_gather_();
+    last_.too_many = LastFrame::needs_particles(frame.elapsed) && !may_gather_();
     if (last_.too_many) return;
     LastFrame::frame(frame);
     if (!last_.kept.any || last_.kept.time >= spec_.time.end) return;
@@ -72,7 +72,7 @@ class KeepLastOutput : public accuracy::LastFrame {
     pass(bytes, seen);
     bytes.end();
     const double last = spec_.output.times.back();
-    if (time == last && !frames.empty() && frames.back().first == last) last_.seen = std::move(seen);
+    if (time == last && !frames.empty() && frames.back().first == spec_.time.at(last)) last_.seen = std::move(seen);
   }
 
  private:

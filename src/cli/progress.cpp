@@ -48,7 +48,7 @@ std::string_view cut(std::string_view text, std::size_t most) {
 double part_done(const Progress& progress) {
   if (progress.steps_total > 0)
     return static_cast<double>(progress.steps_done) / static_cast<double>(progress.steps_total);
-  return progress.end > 0 ? progress.time / progress.end : 1;
+  return progress.length > 0 ? progress.elapsed / progress.length : 1;
 }
 
 }  // namespace

@@ -101,11 +101,12 @@ std::vector<double> keep_written_outputs(const Case& before, double now, Case& s
   return too_late;
 }
 
-std::string words_of_late_outputs(const std::vector<double>& times, double now) {
+std::string words_of_late_outputs(const std::vector<double>& times, double now, const TimeSpec& clock) {
   if (times.empty()) return "";
   const bool one = times.size() == 1;
-  return fmt::format("warning: no output at t = {:.6g}{}: the run is at t = {:.6g} already\n", times.front(),
-                     one ? "" : fmt::format(" and at {} more times that were asked for", times.size() - 1), now);
+  return fmt::format("warning: no output at t = {:.6g}{}: the run is at t = {:.6g} already\n", clock.at(times.front()),
+                     one ? "" : fmt::format(" and at {} more times that were asked for", times.size() - 1),
+                     clock.at(now));
 }
 
 /// Outputs that the run has, as far as its checkpoint knows of them.
@@ -147,9 +148,11 @@ Asked asked_for(const ResumeOptions& options) {
   });
   Case spec = case_in(options.folder, options.overrides, options.threads);
   if (options.until) {
-    if (!std::isfinite(*options.until) || *options.until < 0)
-      throw CommandLineError(fmt::format("--until {:g} is no time", *options.until));
-    spec.time.end = *options.until;
+    const double end = spec.time.elapsed(*options.until);
+    if (!std::isfinite(end) || end < 0)
+      throw CommandLineError(fmt::format("--until {:g} is no time of this run, which goes from {} {}", *options.until,
+                                         spec.time.start, spec.time.backwards ? "backwards" : "on"));
+    spec.time.end = end;
     std::erase_if(spec.output.times, [&](double time) { return time > spec.time.end; });
   }
   if (!times_set) add_outputs(spec, before.time.end);
@@ -187,9 +190,9 @@ RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<
   if (task.from) {
     const double now = task.from->facts.time;
     if (spec.time.end < now)
-      throw InputError(
-          fmt::format("time.end = {:g} lies before t = {:g}, where the last checkpoint is", spec.time.end, now));
-    task.told = words_of_late_outputs(keep_written_outputs(before, now, spec), now);
+      throw InputError(fmt::format("time.end = {:g} lies before t = {:g}, where the last checkpoint is",
+                                   spec.time.at(spec.time.end), spec.time.at(now)));
+    task.told = words_of_late_outputs(keep_written_outputs(before, now, spec), now, spec.time);
     tell_missing_files(before, options.folder, outputs_until(before, now, options.folder));
   }
   if (complete && !task.from) tell_missing_files(before, options.folder, write::outputs_of_folder(options.folder));
@@ -206,7 +209,7 @@ RunTask task_of(const ResumeOptions& options, const Asked& asked, std::optional<
   if (task.changed) task.told += fmt::format("changed from now on: {}\n", fmt::join(changed, ", "));
   if (task.from)
     task.told += fmt::format("goes on at t = {:.6g} of {:.6g}, after {} steps: the last checkpoint\n",
-                             task.from->facts.time, spec.time.end, task.from->facts.steps);
+                             spec.time.at(task.from->facts.time), spec.time.at(spec.time.end), task.from->facts.steps);
   else
     task.told += "there is no checkpoint; the run begins again\n";
   task.force = !task.from;

@@ -12,8 +12,8 @@ namespace gaussdrift::cli {
 namespace fs = std::filesystem;
 
 void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder, std::vector<std::string>& later) {
-  simulation.observe(
-      write::series_table(folder, spec.domain.dimension, spec.reference.kind != ReferenceSpec::Kind::none));
+  simulation.observe(write::series_table(folder, spec.domain.dimension,
+                                         spec.reference.kind != ReferenceSpec::Kind::none, spec.time.date));
   for (const OutputFile& file : spec.output.files)
     simulation.observe(write::file_series(write::find_output_file(file.name), folder));
   if (const auto& images = spec.output.images; !images.empty()) {
@@ -23,6 +23,7 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
       simulation.observe(render::picture_series(
           folder, images, spec.title.empty() ? spec.name : spec.title,
           {.warn = [&](const std::string& line) { later.push_back(line); },
+           .date = spec.time.date,
            .run_writes_densities = base::has_one(spec.output.files, &OutputFile::shows_density)}));
   }
 }

@@ -72,6 +72,11 @@ std::string extremes_text(const FrameNumbers& numbers) {
                              : fmt::format("max rho = {:.6g}", numbers.maximum);
 }
 
+/// "72, 2020-01-06 00:00"
+std::string time_text(const Case& spec, double t) {
+  return fmt::format("{:.4g}{}", t, spec.time.date ? ", " + spec.time.date(t) : "");
+}
+
 /// What was done, and what came out.
 std::string result_text(const Case& spec, const RunSummary& summary) {
   std::string text =
@@ -84,8 +89,8 @@ std::string result_text(const Case& spec, const RunSummary& summary) {
     for (const auto& [time, numbers] : summary.frames) worst = std::max(worst, numbers.transform_error);
     const auto& [t0, first] = summary.frames.front();
     const auto& [t1, last] = summary.frames.back();
-    std::string heights = fmt::format("{} at t = {:.4g}", extremes_text(first), t0);
-    if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {:.4g}", extremes_text(last), t1);
+    std::string heights = fmt::format("{} at t = {}", extremes_text(first), time_text(spec, t0));
+    if (summary.frames.size() > 1) heights += fmt::format(", {} at t = {}", extremes_text(last), time_text(spec, t1));
     const std::string derivatives = summary.derivatives_achievable > 0
                                         ? fmt::format(", derivatives to {:.0e} of theirs", summary.derivatives_error)
                                         : "";

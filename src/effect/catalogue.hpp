@@ -56,6 +56,8 @@ struct EffectTraits {
   bool diffuses = false;
   /// What carries the density changes, the density does not.
   bool keeps_density = false;
+  /// It cannot be undone: a run that goes backwards in time does not know what was there before.
+  Trait irreversible = {};
   /// Flat patches of density are usual with it, and ripple when particles leave their lattice.
   bool flat_patches_ripple = false;
   /// Blobs overlap again where the flow has drawn them apart.

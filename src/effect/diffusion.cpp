@@ -111,7 +111,9 @@ NamedEffect diffusion() {
                  .needs_fixed_steps = {.words = "method = \"particle-exchange\"",
                                        .remedy = "a step of at most about eps^2 / (2 D)",
                                        .holds = exchanges},
-                 .diffuses = true},
+                 .diffuses = true,
+                 .irreversible = {.words = "diffusion cannot be undone: what was there before is lost in it, and small "
+                                           "errors would grow without bound"}},
       .elsewhere = {{"diffusivity", asked_for}, {"viscosity", asked_for}, {"nu", asked_for}, {"kappa", asked_for}},
       .problems = problems,
       .spreading = spreading,

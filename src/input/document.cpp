@@ -75,6 +75,14 @@ class OverrideLocator : public Locator {
   std::size_t value_column_, value_length_;
 };
 
+/// A date or time, as TOML writes it.
+std::string written(const toml::node& node) {
+  std::ostringstream text;
+  if (const auto* date = node.as_date()) text << *date;
+  if (const auto* moment = node.as_date_time()) text << *moment;
+  return text.str();
+}
+
 Value convert(const toml::node& node, const Locator& locator) {
   Value value;
   value.place = locator.place(node.source());
@@ -110,6 +118,7 @@ Value convert(const toml::node& node, const Locator& locator) {
       break;
     default:
       value.kind = Value::Kind::date;
+      value.text = written(node);
       break;
   }
   return value;

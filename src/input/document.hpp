@@ -17,7 +17,7 @@ struct Value {
   enum class Kind { table, list, text, whole, number, boolean, date };
   Kind kind = Kind::table;
   Place place;                 // of the value; of the header for a table [name]
-  std::string text;            // text
+  std::string text;            // text, date
   std::int64_t whole = 0;      // whole
   double number = 0;           // whole, number
   bool boolean = false;        // boolean

@@ -73,7 +73,10 @@ Explanation about(const Key& key) {
 
 Explanation about(const Table& table) {
   Explanation result{"table", fmt::format("[{}]", table.name), std::string(table.meaning), {}};
-  add(result.facts, "required", table.required ? "yes" : "no");
+  add(result.facts, "required",
+      !table.required        ? "no"
+      : table.unless.empty() ? "yes"
+                             : fmt::format("yes, unless there is [[{}]]", table.unless));
   if (!table.kinds.empty()) add(result.facts, "one of", fmt::format("{}", fmt::join(table.kinds, ", ")));
   for (const Key& key : keys())
     if (key.table == table.name && key.value.empty())

@@ -19,7 +19,7 @@ constexpr const char* prescribed = "the velocity is prescribed, in [velocity]; n
 constexpr const char* no_mesh =
     "there is no mesh: particles.per_axis is the number of particles along the longest side, evaluate.per_axis that of "
     "points where density is written";
-constexpr const char* end_of_run = "a run goes from t = 0 to time.end";
+constexpr const char* end_of_run = "a run goes from time.start to time.end";
 constexpr const char* width = "particles.overlap is the core radius of a blob divided by the particles' spacing";
 constexpr const char* formats =
     "output.vtk writes files for ParaView, series.csv has numbers for every output time, pictures are PNG";
@@ -71,9 +71,10 @@ constexpr Written written[] = {
     {"endtime", "time.end", end_of_run},
     {"stoptime", "time.end", end_of_run},
     {"duration", "time.end", end_of_run},
-    {"start", "", end_of_run},
-    {"starttime", "", end_of_run},
-    {"t0", "", end_of_run},
+    {"starttime", "time.start", end_of_run},
+    {"tstart", "time.start", end_of_run},
+    {"tbegin", "time.start", end_of_run},
+    {"t0", "time.start", end_of_run},
     {"integrator", "time.method", "a Runge-Kutta method"},
     {"solver", "time.method", "a Runge-Kutta method"},
     {"scheme", "time.method", "a Runge-Kutta method"},

@@ -29,7 +29,7 @@ Case read_tables(Reader& in) {
   read_density(in, spec.density);
   read_particles(in, spec.particles, spec.domain);
   read_time(in, spec.time);
-  check_times_of_files(in);
+  check_times_of_files(in, spec.time);
   read_sources(in, spec);
   read_evaluate(in, spec.evaluate, spec.domain);
   read_output(in, spec.output, spec.time);

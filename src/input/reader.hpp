@@ -47,7 +47,7 @@ struct Facts {
   Box box;  // the domain, if it is valid
   std::array<bool, max_dimension> one_particle_across{};
   std::vector<std::pair<Place, std::shared_ptr<const GridData>>> grid_files;
-  std::optional<double> end;  // time.end
+  std::optional<double> end;  // time.end, elapsed
 };
 
 /// Reads a part of a table that may be repeated: its kind, and the value of that key.
@@ -96,7 +96,9 @@ class Reader {
   /// Seconds; none if the key is not there, or after a complaint.
   std::optional<double> duration(std::string_view table_name, std::string_view name);
   /// A number or an expression of the params, finite. Nothing after a complaint.
-  std::optional<double> number_in(const Value& value, const std::string& label);
+  std::optional<double> number_in(const Value& value, const std::string& label) {
+    return number_in(value, label, false);
+  }
   /// The same for a key, in its range; its default if it is absent.
   std::optional<Number> number(std::string_view table_name, std::string_view name, const std::string& note = "");
   std::optional<double> number_of(const Key& key, const Entry& entry, const std::string& note = "");
@@ -130,6 +132,10 @@ class Reader {
   std::vector<std::string> later_params;  // not read yet
 
  private:
+  /// is_time: a date of the data of the case is one too.
+  std::optional<double> number_in(const Value& value, const std::string& label, bool is_time);
+  /// What a date means; nothing after a complaint.
+  std::optional<double> time_of_date(const Value& value, const std::string& label);
   /// The tables of the registry as they stand at the top of the file: all [effects.x] lie in one.
   static std::vector<std::string> top_level_tables();
   void check_effects(const Entry& effects);

@@ -53,6 +53,7 @@ struct Table {
   std::string name;
   bool required = false;
   std::string meaning = {};
+  std::string_view unless = {};              // a required one may be missing where this one is there
   std::vector<std::string_view> kinds = {};  // keys of which a table has exactly one; the table may then be repeated,
                                              // [[velocity]], and its parts add up
 };

@@ -15,7 +15,7 @@ Case without_future(Case spec) {
   spec.title.clear();
   spec.cite.clear();
   spec.output = {};
-  spec.time.end = 0;
+  spec.time.end = spec.time.backwards ? 1 : 0;  // the direction belongs to the past
   spec.accuracy = {};
   spec.checks.clear();
   return with_bare_names(std::move(spec));

@@ -167,7 +167,8 @@ std::string schema_json() {
       rest.remove_prefix(dot + 1);
     }
     (*place)["properties"][std::string(rest)] = table_schema(table);
-    if (table.required) (*place)["required"].push_back(rest);
+    if (table.required && table.unless.empty()) (*place)["required"].push_back(rest);
+    if (!table.unless.empty()) (*place)["anyOf"] = {{{"required", {rest}}}, {{"required", {table.unless}}}};
   }
   return schema.dump(2) + "\n";
 }

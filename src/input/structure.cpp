@@ -90,7 +90,8 @@ void Reader::check_parts(const Entry& entry) {
 void Reader::check_tables() {
   std::vector<std::string> missing;
   for (const Table& table : tables())
-    if (table.required && !root_.find(std::string(table.name)) && !is_meant(table.name))
+    if (table.required && !root_.find(std::string(table.name)) && !is_meant(table.name) &&
+        (table.unless.empty() || !root_.find(std::string(table.unless))))
       missing.push_back(fmt::format("[{}]", table.name));
   if (!missing.empty())
     diagnostics.error(source.end(),

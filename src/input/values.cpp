@@ -7,6 +7,7 @@
 
 #include "base/duration_text.hpp"
 #include "base/suggest.hpp"
+#include "field/gridded/grid_data.hpp"
 #include "input/foreign_keys.hpp"
 #include "input/reader.hpp"
 
@@ -43,8 +44,42 @@ void Reader::expression_error(const Value& value, const ExpressionError& error, 
   diagnostics.error(place_in_text(value, source, error.position(), error.length()), message, note);
 }
 
-std::optional<double> Reader::number_in(const Value& value, const std::string& label) {
+namespace {
+
+constexpr std::string_view unit_of_times = "time";  // the keys that may be dates
+
+/// "2020-01-03 12:30"; as an expression it would be a difference.
+bool looks_like_date(std::string_view text) {
+  const auto digits = [&](std::size_t most) {
+    std::size_t count = 0;
+    while (count < most && !text.empty() && text.front() >= '0' && text.front() <= '9') text.remove_prefix(1), ++count;
+    return count;
+  };
+  const auto dash = [&] { return !text.empty() && text.front() == '-' && (text.remove_prefix(1), true); };
+  return digits(6) >= 4 && dash() && digits(2) > 0 && dash() && digits(2) > 0;
+}
+
+}  // namespace
+
+std::optional<double> Reader::time_of_date(const Value& value, const std::string& label) {
+  for (const auto& [place, data] : facts.grid_files) {
+    if (!data->dates) continue;
+    if (const auto time = data->dates->time(value.text)) return time;
+    diagnostics.error(value.place,
+                      fmt::format("{} is no date of the calendar of {}: \"{}\"", label, data->name, value.text),
+                      "a date is written as in \"2020-01-03\" or \"2020-01-03 12:30\"");
+    return std::nullopt;
+  }
+  if (diagnostics.errors() == 0)  // else the data may not have been read
+    diagnostics.error(value.place, fmt::format("{} is a date, and no data of the case have dates", label),
+                      "give a number; NetCDF files with several times have dates");
+  return std::nullopt;
+}
+
+std::optional<double> Reader::number_in(const Value& value, const std::string& label, bool is_time) {
   double number = value.number;
+  if ((value.kind == Kind::text || value.kind == Kind::date) && is_time && looks_like_date(value.text))
+    return time_of_date(value, label);
   if (value.kind == Kind::text) {
     try {
       const Expression expression(value.text, {}, constants());
@@ -84,7 +119,7 @@ std::optional<Number> Reader::number(std::string_view table_name, std::string_vi
 }
 
 std::optional<double> Reader::number_of(const Key& key, const Entry& entry, const std::string& note) {
-  const auto value = number_in(entry.value, label_of(key));
+  const auto value = number_in(entry.value, label_of(key), key.unit == unit_of_times);
   return value && check_range(key, *value, entry.value, note) ? value : std::nullopt;
 }
 
@@ -141,7 +176,8 @@ std::optional<std::vector<double>> Reader::numbers(const Entry& entry, const Key
   std::vector<double> list;
   bool valid = true;
   for (std::size_t k = 0; k < entry.value.items.size(); ++k) {
-    const auto value = number_in(entry.value.items[k], fmt::format("entry {} of {}", k + 1, label_of(key)));
+    const auto value =
+        number_in(entry.value.items[k], fmt::format("entry {} of {}", k + 1, label_of(key)), key.unit == unit_of_times);
     valid = valid && value;
     list.push_back(value.value_or(0));
   }

@@ -17,11 +17,11 @@ std::string case_text(const Case& spec, const std::filesystem::path& folder) {
   write_particles(out, spec.particles);
   write_time(out, spec.time);
   write_evaluate(out, spec.evaluate);
-  write_output(out, spec.output);
+  write_output(out, spec.output, spec.time);
   write_effects(out, spec.effects);
   write_reference(out, spec.reference);
   write_accuracy(out, spec.accuracy);
-  write_checks(out, spec.checks);
+  write_checks(out, spec.checks, spec.time);
   return out.text();
 }
 

@@ -1,6 +1,7 @@
 // A .pvd: the files of a series, one a time.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -20,7 +21,7 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& file, bool eac
     throw GridFileError(fmt::format("{} is not a ParaView series: it has no <Collection>", name),
                         "a .pvd lists one file a time: <DataSet timestep=\"0\" file=\"a.vti\"/>");
   std::vector<SeriesEntry> entries;
-  bool timeless = false;
+  bool timeless = false, descends = false;  // the outputs of a run that went backwards
   for (const Element& item : collection->children) {
     if (item.name != "DataSet") continue;
     const std::size_t line = item.line;
@@ -52,14 +53,16 @@ std::vector<SeriesEntry> read_series(const std::filesystem::path& file, bool eac
           "ParaView: open the series, apply the filter Resample To Image, save the data as .vti with all times. Of two "
           "whole "
           "snapshots duplicates = \"first\" or \"last\" takes one");
-    if (!entries.empty() && entry.time < entries.back().time)
-      throw GridFileError(
-          fmt::format("{}: the times of {} do not ascend: {} after {}", place, name, entry.time, entries.back().time));
+    if (entries.size() == 1) descends = entry.time < entries.front().time;
+    if (!entries.empty() && (descends ? entry.time > entries.back().time : entry.time < entries.back().time))
+      throw GridFileError(fmt::format("{}: the times of {} do not {}: {} after {}", place, name,
+                                      descends ? "descend" : "ascend", entry.time, entries.back().time));
     entries.push_back(std::move(entry));
   }
   if (entries.empty())
     throw GridFileError(fmt::format("the series {} is empty", name),
                         "a .pvd lists one file a time: <DataSet timestep=\"0\" file=\"a.vti\"/>");
+  if (descends) std::reverse(entries.begin(), entries.end());
   return entries;
 }
 

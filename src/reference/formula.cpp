@@ -1,5 +1,7 @@
 #include "reference/formula.hpp"
 
+#include <utility>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,8 +20,10 @@ constexpr std::size_t most_together = 256;  // points in one call of the express
 
 class Formula : public Reference {
  public:
-  Formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params, const Lattice& lattice)
-      : expression_(rho,
+  Formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params, const Lattice& lattice,
+          std::function<double(double elapsed)> clock)
+      : clock_(std::move(clock)),
+        expression_(rho,
                     lattice.dimension == 3 ? std::vector<std::string>{"x", "y", "z", "t"}
                                            : std::vector<std::string>{"x", "y", "t"},
                     params),
@@ -40,7 +44,7 @@ class Formula : public Reference {
   template <class PointOf>
   ReferenceReport fill(double time, std::vector<double>& rho, const PointOf& point_of) const {
     ReferenceReport report;
-    const std::vector<double> times(most_together, time);
+    const std::vector<double> times(most_together, clock_ ? clock_(time) : time);
     std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * most_together);
     std::vector<std::size_t> points(most_together);
     for (std::size_t first = 0; first < rho.size(); first += most_together) {
@@ -64,6 +68,7 @@ class Formula : public Reference {
     return report;
   }
 
+  std::function<double(double elapsed)> clock_;
   Expression expression_;
   Lattice lattice_;
 };
@@ -71,8 +76,8 @@ class Formula : public Reference {
 }  // namespace
 
 std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params,
-                                   const Lattice& lattice) {
-  return std::make_unique<Formula>(rho, params, lattice);
+                                   const Lattice& lattice, std::function<double(double elapsed)> clock) {
+  return std::make_unique<Formula>(rho, params, lattice, std::move(clock));
 }
 
 }  // namespace gaussdrift

@@ -1,6 +1,7 @@
 // The exact density by an expression of the case.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -11,8 +12,8 @@
 
 namespace gaussdrift {
 
-/// rho as an expression in x, y, (z,) t and the params. Throws ExpressionError.
+/// rho as an expression in x, y, (z,) t and the params; `clock` tells the t of a time of the run; empty: they are the same. Throws ExpressionError.
 std::unique_ptr<Reference> formula(const std::string& rho, const std::vector<std::pair<std::string, double>>& params,
-                                   const Lattice& lattice);
+                                   const Lattice& lattice, std::function<double(double elapsed)> clock = {});
 
 }  // namespace gaussdrift

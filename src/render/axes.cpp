@@ -36,7 +36,8 @@ void draw_heading(Canvas& canvas, const PictureOptions& options, const ValueFact
   const Scale scale(canvas);
   const double left = scale(48), right = canvas.width() - scale(48), top = canvas.height() - scale(34);
 
-  const std::string time = options.time ? fmt::format("t = {}", number(*options.time, 5)) : "";
+  std::string time = options.time ? fmt::format("t = {}", number(*options.time, 5)) : "";
+  if (options.time && !options.date.empty()) time += fmt::format("   {}", options.date);
   const int time_size = scale.font(24);
   canvas.text({right, top}, time, {.size = time_size, .across = Across::right, .along = Along::top});
 

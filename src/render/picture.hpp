@@ -19,6 +19,7 @@ struct PictureOptions {
   std::string quantity = "density";
   std::array<std::string, 2> axes{"x", "y"};  // names of those of a plane
   std::optional<double> time = 0;             // empty: the picture has none
+  std::string date{};                         // of that time; empty: it has none
   bool from_below = false;                    // contour: the plane's lines as seen from below instead of from above
   double range_min = 0;  // of the colours, height axis and contour levels; the same for all pictures of a run
   double range_max = 1;

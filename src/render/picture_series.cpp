@@ -58,6 +58,7 @@ class PictureSeries : public Observer {
                 SeriesOptions options)
       : folder_(folder / "images"),
         warn_(std::move(options.warn)),
+        date_(std::move(options.date)),
         kept_(folder, options.most_bytes, options.run_writes_densities) {
     for (const PictureStyle& about : styles) styles_.push_back({find_style(about.name), {}});
     options_.title = std::move(title);
@@ -181,6 +182,7 @@ class PictureSeries : public Observer {
   void draw_one(const Style& style, std::pair<double, double> range, std::size_t index, const DensityGrid& density) {
     base::seam();
     options_.time = times_[index];
+    if (date_) options_.date = date_(times_[index]);
     options_.quantity = style.quantity;
     std::tie(options_.range_min, options_.range_max) = range;
     draw(style, density, options_, folder_ / fmt::format("{}_{:04}.png", style.about.name, index));
@@ -188,6 +190,7 @@ class PictureSeries : public Observer {
 
   fs::path folder_;
   std::function<void(const std::string&)> warn_;
+  std::function<std::string(double t)> date_;
   std::vector<Drawn> styles_;
   PictureOptions options_;
   std::vector<double> times_;  // of all outputs so far, those of earlier processes too

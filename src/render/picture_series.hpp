@@ -18,6 +18,7 @@ constexpr std::size_t most_kept_bytes = 256'000'000;
 
 struct SeriesOptions {
   std::function<void(const std::string&)> warn{};  // gets lines for people
+  std::function<std::string(double t)> date{};     // of an output, shown beside its time; empty: there is none
   std::size_t most_bytes = most_kept_bytes;
   bool run_writes_densities = false;  // in its density files
 };

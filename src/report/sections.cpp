@@ -12,6 +12,13 @@
 
 namespace gaussdrift::report {
 
+/// "72 (2020-01-06 00:00)"
+std::string time_of(const json& frame, const char* format = "{:.4g}") {
+  const std::string time = number(frame.at("t"), format);
+  const json date = get(frame, "date");
+  return date.is_string() ? fmt::format("{} ({})", time, escaped(date.get<std::string>())) : time;
+}
+
 std::string verdict(const json& summary) {
   const json frames = get(summary, "frames"), checks = get(summary, "checks"), target = get(summary, "accuracy"),
              budget = get(get(summary, "budget"), "measured"), advice = get(get(summary, "budget"), "advice");
@@ -20,13 +27,13 @@ std::string verdict(const json& summary) {
   if (!last.contains("Linf"))
     text += "The run was compared with nothing, so its error is not known.";
   else if (!last.at("Linf").is_number())
-    text += fmt::format("At t = {} {}.", number(last.at("t"), "{:.4g}"),
+    text += fmt::format("At t = {} {}.", time_of(last),
                         get(last, "no_norms").is_string() ? escaped(last.at("no_norms").get<std::string>())
                                                           : "the error is not a number");
   else
     text += fmt::format("At t = {} the largest error is <b>{}</b> of the largest density (L1 {}, L2 {}).",
-                        number(last.at("t"), "{:.4g}"), number(last.at("Linf"), "{:.2e}"),
-                        number(last.at("L1"), "{:.2e}"), number(last.at("L2"), "{:.2e}"));
+                        time_of(last), number(last.at("Linf"), "{:.2e}"), number(last.at("L1"), "{:.2e}"),
+                        number(last.at("L2"), "{:.2e}"));
   if (const json worst = get(summary, "worst"); worst.is_object() && worst.at("t") != get(last, "t"))
     text += fmt::format(" The output with the largest L1 is that at t = {}: L1 {}, L2 {}, Linf {}.",
                         number(worst.at("t"), "{:.4g}"), number(worst.at("L1"), "{:.2e}"),
@@ -177,7 +184,7 @@ std::string conservation(const json& frames) {
     for (const auto& [reason, at_start] : departed.items())
       edges += "<td class=n>" + number(get(get(get(frame, "left"), reason.c_str()), "mass"), "{:.6g}");
     text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}{}<td class=n>{}<td class=n>{}<td class=n>{}",
-                        number(frame.at("t"), "{:.5g}"), number(frame.at("mass"), "{:.9g}"),
+                        time_of(frame, "{:.5g}"), number(frame.at("mass"), "{:.9g}"),
                         change == 0 ? "0" : fmt::format("{:.1e}", change), edges, centroid,
                         number(frame.at("minimum"), "{:.4g}"), number(frame.at("maximum"), "{:.6g}"));
   }

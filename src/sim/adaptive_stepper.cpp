@@ -133,13 +133,14 @@ std::string AdaptiveStepper::why_no_step(const Particles& particles, std::size_t
   std::string place;
   for (int k = 0; k < particles.dimension; ++k) place += fmt::format("{}{:.6g}", k ? ", " : "", x[k]);
   const std::string reason = why_path_ends(velocity_, time, particles.dimension, x, 1e-6 * options_.length);
+  const double shown = velocity_.shown_time(time);
   if (!reason.empty())
     return fmt::format("in step {} at t = {:.10g} particle {} at ({}) comes to a place without a velocity: {}", step,
-                       time, particles.id[worst], place, reason);
+                       shown, particles.id[worst], place, reason);
   return fmt::format(
       "no step is short enough for time.tolerance = {:g} in step {} at t = {:.10g}: particle {} at ({}) moves too "
       "fast, or the velocity is not finite there; guard the expression, raise the tolerance or shorten time.end",
-      options_.tolerance, step, time, particles.id[worst], place);
+      options_.tolerance, step, shown, particles.id[worst], place);
 }
 
 }  // namespace gaussdrift

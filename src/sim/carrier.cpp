@@ -32,10 +32,32 @@ std::vector<const PathIntegral*> integrals_of(const std::vector<Effect*>& effect
   return integrals;
 }
 
-std::vector<const Drift*> drifts_of(const Effects& effects) {
+/// A drift where the clock goes backwards.
+class ReversedDrift : public Drift {
+ public:
+  explicit ReversedDrift(const Drift& drift) : drift_(drift) {}
+  void add(double t, const Particles& particles, const PointsView& x, const VectorsView& u) const override {
+    negate(u);
+    drift_.add(t, particles, x, u);
+    negate(u);
+  }
+
+ private:
+  static void negate(const VectorsView& u) {
+    for (int k = 0; k < u.dimension; ++k)
+      for (std::size_t j = 0; j < u.count; ++j) u.axis[k][j] = -u.axis[k][j];
+  }
+  const Drift& drift_;
+};
+
+std::vector<const Drift*> drifts_of(const Effects& effects, bool backwards,
+                                    std::vector<std::unique_ptr<Drift>>& reversed) {
   std::vector<const Drift*> drifts;
-  for (const auto& effect : effects)
-    if (effect->drift()) drifts.push_back(effect->drift());
+  for (const auto& effect : effects) {
+    if (!effect->drift()) continue;
+    if (backwards) reversed.push_back(std::make_unique<ReversedDrift>(*effect->drift()));
+    drifts.push_back(backwards ? reversed.back().get() : effect->drift());
+  }
   return drifts;
 }
 
@@ -50,7 +72,7 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
       effects_(make_effects(
           spec, scene, [this](Particles& particles) { follow(particles); }, ranks, rank_at, threads)),
       integrating_(integrating(effects_)),
-      drifts_(drifts_of(effects_)),
+      drifts_(drifts_of(effects_, spec.time.backwards, reversed_)),
       between_steps_(std::any_of(effects_.begin(), effects_.end(),
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
       folding_(folding_of(spec.domain)),
@@ -129,7 +151,7 @@ void Carrier::refuse_unstable_step() const {
       "{:.4g} at ({}), t = {:.4g}. Use time.step <= {:g}{}.",
       case_.time.step, tableau_.name, rate.turns() ? "a pure rotation" : "what should only decay", 100 * growth_allowed,
       rate.turns() ? "turns" : "contracts", rate.turns() ? std::abs(rate.value.imag()) : -rate.value.real(), place,
-      rate.time, longest, other ? fmt::format(", or time.method = \"{}\"", other->name) : ""));
+      case_.time.at(rate.time), longest, other ? fmt::format(", or time.method = \"{}\"", other->name) : ""));
 }
 
 // Particles that cross a jump in one step take the velocity of one side for a part of the step that belongs to the
@@ -153,7 +175,7 @@ void Carrier::warn_of_jumps(const Particles& particles) {
       fmt::format("the velocity jumps by {:.3g} at ({}), t = {:.4g}: a particle that crosses the jump in one step is "
                   "misplaced by up "
                   "to {:.2g}, the jump times time.step{}",
-                  largest->height, place, largest->time, misplaced,
+                  largest->height, place, case_.time.at(largest->time), misplaced,
                   case_.reference.kind == ReferenceSpec::Kind::characteristics
                       ? ". The exact density does not contain what gathers or thins out at the jump"
                       : ""));

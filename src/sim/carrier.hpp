@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -103,7 +104,7 @@ class Carrier {
 
   const Effects& effects() const { return effects_; }
 
-  /// Velocities that particles give each other.
+  /// Velocities that particles give each other, in elapsed time.
   const std::vector<const Drift*>& drifts() const { return drifts_; }
 
  private:
@@ -148,7 +149,8 @@ class Carrier {
   base::Communicator alone_;
   base::Communicator& ranks_;
   Effects effects_;
-  std::vector<Effect*> integrating_;  // those with a path integral, in the order of Particles::path
+  std::vector<Effect*> integrating_;              // those with a path integral, in the order of Particles::path
+  std::vector<std::unique_ptr<Drift>> reversed_;  // where the clock goes backwards: those of the effects, turned round
   std::vector<const Drift*> drifts_;
   bool between_steps_ = false;  // some effect acts between any two steps
   Folding folding_;             // where places beyond the domain lie in it

@@ -104,7 +104,7 @@ const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<
 }
 
 std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass_at_start,
-                               const std::vector<std::pair<double, FrameNumbers>>& frames) {
+                               const std::vector<std::pair<double, FrameNumbers>>& frames, const TimeSpec& clock) {
   std::vector<CheckResult> results;
   for (const CheckSpec& check : checks) {
     CheckResult result;
@@ -117,7 +117,7 @@ std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass
       const double value = quantity_of(check, mass_at_start, numbers), beyond = excess(check, value);
       if (seen && beyond <= worst) continue;
       seen = true;
-      worst = beyond, result.value = value, result.time = time;
+      worst = beyond, result.value = value, result.time = clock.at(time);
       why = why_not_known(check, numbers);
     }
     if (!seen) result.value = nan;

@@ -19,9 +19,9 @@ std::string words_for(const CheckSpec& check);
 const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames);
 
 /// One result for each check, over all outputs or the one that it names. A norm fails if it is not known, or if it
-/// leaves out points whose exact density is not known. `frames`: time and numbers of each output. Mass, inside,
-/// left and stopped are relative to the mass at the start.
+/// leaves out points whose exact density is not known. `frames`: elapsed time and numbers of each output; what is told are
+/// the times of the clock. Mass, inside, left and stopped are relative to the mass at the start.
 std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass_at_start,
-                               const std::vector<std::pair<double, FrameNumbers>>& frames);
+                               const std::vector<std::pair<double, FrameNumbers>>& frames, const TimeSpec& clock);
 
 }  // namespace gaussdrift

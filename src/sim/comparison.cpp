@@ -56,7 +56,8 @@ std::unique_ptr<Reference> make_reference(const Case& spec, const Scene& scene, 
     case ReferenceSpec::Kind::none:
       return nullptr;
     case ReferenceSpec::Kind::exact:
-      return formula(spec.reference.rho, spec.params, scene.evaluation);
+      return formula(spec.reference.rho, spec.params, scene.evaluation,
+                     [clock = spec.time](double elapsed) { return clock.at(elapsed); });
     case ReferenceSpec::Kind::characteristics: {
       ScalarRate growth;
       const VelocityField* diverging = scene.velocity->is_solenoidal() ? nullptr : scene.velocity.get();

@@ -8,7 +8,7 @@
 
 namespace gaussdrift {
 
-/// The times on which steps land exactly: outputs, time.end, and those at which sources release something.
+/// The elapsed times on which steps land exactly: outputs, time.end, and those at which sources release something.
 std::vector<double> landings(const Case& spec);
 
 /// Releases this near to a landing happen then.

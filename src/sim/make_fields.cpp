@@ -78,8 +78,8 @@ std::unique_ptr<InitialDensity> make_part(const SamplesDensitySpec& part, const 
                               spec.domain.max);
 }
 
-std::unique_ptr<InitialDensity> make_part(const FileDensitySpec& part, const Case& /*spec*/, int /*threads*/) {
-  return std::make_unique<GriddedDensity>(interpolator(part));
+std::unique_ptr<InitialDensity> make_part(const FileDensitySpec& part, const Case& spec, int /*threads*/) {
+  return std::make_unique<GriddedDensity>(interpolator(part), spec.time.start);
 }
 
 std::unique_ptr<InitialDensity> make_part(const ExpressionDensitySpec& part, const Case& spec, int /*threads*/) {
@@ -103,16 +103,20 @@ std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& spec,
 
 }  // namespace
 
+Clock clock_of(const TimeSpec& time) { return {.start = time.start, .backwards = time.backwards}; }
+
 Outside outside_of(const FileVelocitySpec& part) { return named_choice<Outside>(outside_names, part.outside); }
 
 std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads, std::vector<std::string>* misfits) {
   auto velocity = make_sum<SumField, VelocityField>(spec.velocity, spec, threads);
-  const Folding folding = folding_of(spec.domain);
-  if (!folding.folds()) return velocity;
-  std::vector<std::string> words = misfits_at_faces(*velocity, spec.domain, spec.time.end);
-  const bool smooth = words.empty();
-  if (misfits) *misfits = std::move(words);
-  return std::make_unique<FoldedVelocity>(std::move(velocity), folding, smooth);
+  if (const Folding folding = folding_of(spec.domain); folding.folds()) {
+    std::vector<std::string> words = misfits_at_faces(*velocity, spec.domain, spec.time);
+    const bool smooth = words.empty();
+    if (misfits) *misfits = std::move(words);
+    velocity = std::make_unique<FoldedVelocity>(std::move(velocity), folding, smooth);
+  }
+  if (spec.time.is_plain()) return velocity;
+  return std::make_unique<ClockedVelocity>(std::move(velocity), clock_of(spec.time));
 }
 
 namespace {
@@ -138,6 +142,12 @@ std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& te
   const Folding folding = folding_of(spec.domain);
   if (!folding.folds()) return field;
   return std::make_unique<FoldedScalar>(std::move(field), folding);
+}
+
+std::unique_ptr<ScalarField> make_rate(const Case& spec, const std::string& text) {
+  auto field = make_scalar(spec, text);
+  if (spec.time.is_plain()) return field;
+  return std::make_unique<ClockedRate>(std::move(field), clock_of(spec.time));
 }
 
 }  // namespace gaussdrift

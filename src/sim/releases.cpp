@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <variant>
 
@@ -26,8 +27,8 @@ constexpr double most_released = 5e11;  // images of particles have larger ids (
 /// The rate of a source, and its integral.
 class Rate {
  public:
-  Rate(const std::string& text, const Params& params, std::size_t source)
-      : rate_(text, {"t"}, params), source_(source) {}
+  Rate(const std::string& text, const Case& spec, std::size_t source)
+      : rate_(text, {"t"}, spec.params), clock_(clock_of(spec.time)), source_(source) {}
 
   double integral(double from, double to) const {
     const Sum whole = sum(from, to);
@@ -41,8 +42,8 @@ class Rate {
     double value = 0, size = 0;  // of |rate|
   };
 
-  double at(double t) const {
-    const double value = rate_.evaluate({t});
+  double at(double elapsed) const {
+    const double t = clock_.at(elapsed), value = rate_.evaluate({t});
     if (std::isfinite(value)) return value;
     throw NumericalError(fmt::format(
         "the rate \"{}\" of source {} is {} at t = {:.10g}; it must be finite from \"from\" to \"to\": guard "
@@ -76,6 +77,7 @@ class Rate {
   }
 
   Expression rate_;
+  Clock clock_;
   std::size_t source_;
 };
 
@@ -160,6 +162,8 @@ double particles_released(const Case& spec, int threads) {
       count += static_cast<double>(rows_of(*table, spec));
       continue;
     }
+    if (const auto* face = std::get_if<FaceSourceSpec>(&source.what))
+      each = static_cast<double>(Inflow::cells_of(spec, *face));
     if (const auto* shape = std::get_if<ShapeDensitySpec>(&source.what)) {
       const auto met = particles_of(*shape, spec, coarse, spec.particles.threshold, threads).size();
       each = std::max(1.0, static_cast<double>(met)) * std::pow(stride, whole.dimension);
@@ -169,49 +173,86 @@ double particles_released(const Case& spec, int threads) {
   return count;
 }
 
-Releases::Releases(const Case& spec, const Lattice& lattice, double threshold, int threads)
-    : rounding_(rounding_of_times(spec)) {
-  double all = 0;
-  for (std::size_t number = 0; number < spec.sources.size(); ++number) {
-    const SourceSpec& source = spec.sources[number];
-    const auto* shape = std::get_if<ShapeDensitySpec>(&source.what);
-    const auto* point = std::get_if<PointSourceSpec>(&source.what);
-    const auto* table = std::get_if<PointsSourceSpec>(&source.what);
-    of_sources_.push_back(shape   ? particles_of(*shape, spec, lattice, threshold, threads)
-                          : point ? particles_of(*point, spec)
-                                  : particles_of(*table, spec));
-    const std::size_t count = of_sources_.back().size();
-    if (count == 0)
-      throw InputError(
-          fmt::format("the shape of source {} is 0 on every point of the particle lattice, so it releases "
-                      "nothing; move or enlarge it, or raise particles.per_axis",
-                      number + 1));
-    const auto add = [&](double time, double times, std::size_t first, std::size_t some) {
-      puffs_.push_back({time, times, number, first, some});
-      all += static_cast<double>(some);
-    };
-    if (table) {
-      for (std::size_t row = 0; row < count; ++row) add(time_of_row(*table, spec, row), 1, row, 1);
-    } else if (source.at) {
-      add(*source.at, point ? point->amount : 1, 0, count);
-    } else {
-      const Rate rate(source.rate, spec.params, number);
-      for (int puff = 0; puff < source.puffs; ++puff)
-        add(middle(source, puff), rate.integral(boundary(source, puff), boundary(source, puff + 1)), 0, count);
-    }
-  }
+Releases::Releases(const Case& spec, const Scene& scene, int threads) : rounding_(rounding_of_times(spec)) {
+  for (std::size_t number = 0; number < spec.sources.size(); ++number) add_source(spec, scene, number, threads);
   std::stable_sort(puffs_.begin(), puffs_.end(), [](const Puff& a, const Puff& b) { return a.time < b.time; });
+  double all = 0;
+  for (const Puff& puff : puffs_) all += static_cast<double>(puff.count);
   if (all > most_released)
     throw InputError(
         fmt::format("the sources release {:.3g} particles, and at most {:.3g} can be told apart; lower "
                     "source.puffs",
                     all, most_released));
   // In the order of time, so that particles stay in the order of ids when they come.
-  std::int64_t next = static_cast<std::int64_t>(lattice.size());
+  std::int64_t next = static_cast<std::int64_t>(scene.seeding.size());
   for (Puff& puff : puffs_) {
     puff.id = next;
     next += static_cast<std::int64_t>(puff.count);
   }
+}
+
+void Releases::add_source(const Case& spec, const Scene& scene, std::size_t number, int threads) {
+  const SourceSpec& source = spec.sources[number];
+  faces_.emplace_back();
+  if (const auto* face = std::get_if<FaceSourceSpec>(&source.what)) {
+    faces_.back() = std::make_unique<Inflow>(spec, *face, scene, source.from, source.to);
+    of_sources_.push_back(faces_.back()->places());
+    look_at_face(scene, *faces_.back(), source);
+  } else if (const auto* shape = std::get_if<ShapeDensitySpec>(&source.what)) {
+    of_sources_.push_back(particles_of(*shape, spec, scene.seeding, scene.threshold, threads));
+  } else if (const auto* point = std::get_if<PointSourceSpec>(&source.what)) {
+    of_sources_.push_back(particles_of(*point, spec));
+  } else {
+    of_sources_.push_back(particles_of(std::get<PointsSourceSpec>(source.what), spec));
+  }
+  const std::size_t count = of_sources_.back().size();
+  if (count == 0)
+    throw InputError(
+        fmt::format("the shape of source {} is 0 on every point of the particle lattice, so it releases "
+                    "nothing; move or enlarge it, or raise particles.per_axis",
+                    number + 1));
+  add_puffs(spec, number, count);
+}
+
+void Releases::look_at_face(const Scene& scene, const Inflow& face, const SourceSpec& source) {
+  const double apart = face.fastest() * (source.to - source.from) / source.puffs;
+  if (apart <= scene.core_radius) return;
+  const double enough = std::ceil(source.puffs * apart / (0.5 * scene.core_radius));
+  warnings_.push_back(fmt::format(
+      "what comes in through {} goes {:.2g} from one puff to the next, farther than a blob reaches ({:.2g}), so that "
+      "the density has gaps there. Use source.puffs = {:.0f}.",
+      face.name(), apart, scene.core_radius, enough));
+}
+
+void Releases::add_puffs(const Case& spec, std::size_t number, std::size_t count) {
+  const SourceSpec& source = spec.sources[number];
+  if (const auto* table = std::get_if<PointsSourceSpec>(&source.what)) {
+    for (std::size_t row = 0; row < count; ++row)
+      puffs_.push_back({.time = time_of_row(*table, spec, row), .source = number, .first = row, .count = 1});
+    return;
+  }
+  const auto* point = std::get_if<PointSourceSpec>(&source.what);
+  if (source.at)
+    return puffs_.push_back({.time = *source.at, .times = point ? point->amount : 1, .source = number, .count = count});
+  std::optional<Rate> rate;  // of a face the concentration says how much
+  if (!faces_[number]) rate.emplace(source.rate, spec, number);
+  for (int puff = 0; puff < source.puffs; ++puff) {
+    const double from = boundary(source, puff), to = boundary(source, puff + 1);
+    puffs_.push_back({.time = middle(source, puff),
+                      .times = rate ? rate->integral(from, to) : 1,
+                      .source = number,
+                      .count = count,
+                      .from = from,
+                      .to = to});
+  }
+}
+
+std::vector<double> Releases::weights_of(const Puff& puff) const {
+  if (faces_[puff.source]) return faces_[puff.source]->carried_in(puff.from, puff.to);
+  const auto begin = of_sources_[puff.source].alpha.begin() + static_cast<std::ptrdiff_t>(puff.first);
+  std::vector<double> weights(begin, begin + static_cast<std::ptrdiff_t>(puff.count));
+  for (double& weight : weights) weight *= puff.times;
+  return weights;
 }
 
 bool Releases::release(Particles& particles, double time, const std::function<bool(const Vector& place)>& is_here) {
@@ -219,9 +260,10 @@ bool Releases::release(Particles& particles, double time, const std::function<bo
   for (; done_ < puffs_.size() && puffs_[done_].time <= time + rounding_; ++done_) {
     const Puff& puff = puffs_[done_];
     const Particles& source = of_sources_[puff.source];
+    const std::vector<double> weights = weights_of(puff);
     for (std::size_t i = 0; i < puff.count; ++i) {
       const std::size_t from = puff.first + i;
-      const double weight = puff.times * source.alpha[from];
+      const double weight = weights[i];
       sum_.add(weight);
       if (weight == 0) continue;
       Vector place{};

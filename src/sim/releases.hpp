@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "base/exact_sum.hpp"
@@ -12,6 +14,8 @@
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/lattice.hpp"
 #include "gaussdrift/particles.hpp"
+#include "sim/inflow.hpp"
+#include "sim/scene.hpp"
 
 namespace gaussdrift {
 
@@ -24,8 +28,9 @@ double particles_released(const Case& spec, int threads);
 class Releases {
  public:
   /// Nothing where the case has no sources. Shapes are put on the points of the lattice as densities at the start are.
-  /// Throws InputError for a shape that has no point there, NumericalError for a rate that is not finite.
-  Releases(const Case& spec, const Lattice& lattice, double threshold, int threads);
+  /// Throws InputError for a shape that has no point there and for a face where nothing comes in, NumericalError for a
+  /// rate that is not finite. The scene must outlive it.
+  Releases(const Case& spec, const Scene& scene, int threads);
 
   /// False: nothing is ever released, and nobody need ask.
   bool possible() const { return !puffs_.empty(); }
@@ -40,6 +45,9 @@ class Releases {
   /// Places of some particles that are going to be released, appended to a sample of those that are there.
   void add_places(Particles& sample, std::size_t most) const;
 
+  /// What is not exact about the releases of this case, as sentences for the user.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   /// How far it is: writes it, or takes it up.
   void pass_state(base::StateBytes& bytes);
 
@@ -48,11 +56,18 @@ class Releases {
   struct Puff {
     double time = 0, times = 1;
     std::size_t source = 0, first = 0, count = 0;
-    std::int64_t id = 0;  // of the first
+    std::int64_t id = 0;      // of the first
+    double from = 0, to = 0;  // of a face: when it comes in
   };
-  std::vector<Particles> of_sources_;  // positions and weights alone
-  std::vector<Puff> puffs_;            // by time
-  double rounding_ = 0;                // of times
+  std::vector<double> weights_of(const Puff& puff) const;
+  void add_source(const Case& spec, const Scene& scene, std::size_t number, int threads);
+  void look_at_face(const Scene& scene, const Inflow& face, const SourceSpec& source);
+  void add_puffs(const Case& spec, std::size_t number, std::size_t count);
+  std::vector<Particles> of_sources_;           // positions and weights alone
+  std::vector<std::unique_ptr<Inflow>> faces_;  // of the sources that are faces; null for others
+  std::vector<Puff> puffs_;                     // by time
+  std::vector<std::string> warnings_;
+  double rounding_ = 0;  // of times
   std::uint64_t done_ = 0;
   base::ExactSum sum_;
 };

@@ -93,7 +93,7 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
 // Numbers of an output, one by one: a new one must not be forgotten here. Those about edges are there only where the
 // case has some, and so those about land and sources, so that what other cases keep stays as it is.
 void pass(base::StateBytes& bytes, FrameNumbers& n, Counted counted) {
-  static_assert(sizeof(FrameNumbers) == 248 + sizeof(std::string), "a number is not passed yet");
+  static_assert(sizeof(FrameNumbers) == 272 + sizeof(std::string), "a number is not passed yet");
   if (counted.sources) bytes(n.released, n.decayed);
   if (counted.stopped) {
     Stopped stopped = n.stopped.value_or(Stopped{});
@@ -159,6 +159,8 @@ std::vector<double> Simulation::Parts::velocity_at_particles(double time, bool w
     add(&ranks_);
   ranks_.agree_on([&] { check_velocity(*scene_.velocity, particles_, u, time, steps_before_); });
   if (!wanted) return velocity;
+  if (case_.time.backwards)  // people know it as the case has it
+    for (double& component : columns) component = -component;
   velocity.resize(count * dimension);
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t k = 0; k < dimension; ++k) velocity[j * dimension + k] = u.axis[k][j];
@@ -265,7 +267,8 @@ std::vector<FieldOnGrid> Simulation::Parts::fields_of_piece(double time, const L
     derivatives.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(box.size()));
   }
   values.resize(box.size());
-  return fields_on_grid(case_.output, scene_.evaluation, box, derivatives, *scene_.velocity, time, threads_);
+  return fields_on_grid(case_.output, scene_.evaluation, box, derivatives, scene_.velocity->shown(),
+                        case_.time.at(time), threads_);
 }
 
 // Every k-th value on rank 0; the pieces go to the observers.
@@ -288,11 +291,11 @@ DensityGrid Simulation::Parts::sum_in_pieces(Frame& frame, DensityReport& report
             const LatticeBox box = pieces_.shown(number);
             std::vector<FieldOnGrid> fields;
             if (!frame.piece_fields.empty())
-              summary_.stages.run("fields on the grid", [&] { fields = fields_of_piece(frame.time, box, values); });
+              summary_.stages.run("fields on the grid", [&] { fields = fields_of_piece(frame.elapsed, box, values); });
             const std::vector<double>& rho = values;
             DensityPiece piece{number, box, &rho, nullptr, &fields};
             if (frame.pieces_have_exact) {
-              summary_.stages.run("reference", [&] { comparison.compare(*reference_, frame.time, piece, exact); });
+              summary_.stages.run("reference", [&] { comparison.compare(*reference_, frame.elapsed, piece, exact); });
               piece.exact = &exact;
             }
             for (const auto& observer : observers) {
@@ -338,7 +341,8 @@ void Simulation::Parts::show_frame(double time) {
   place(time);
   Frame frame;
   frame.index = index_;
-  frame.time = time;
+  frame.time = case_.time.at(time);
+  frame.elapsed = time;
   std::function<bool(std::size_t)> stops;
   if (case_.domain.coast == AtCoast::stop)
     stops = [&](std::size_t j) { return scene_.coast && scene_.coast->is_land(time, particles_.view().at(j)); };
@@ -356,8 +360,8 @@ void Simulation::Parts::show_frame(double time) {
     on_first([&] {
       summary_.stages.run("fields on the grid", [&] {
         const LatticeBox all{{}, density.lattice.points};
-        density.fields =
-            fields_on_grid(case_.output, density.lattice, all, report.derivatives, *scene_.velocity, time, threads_);
+        density.fields = fields_on_grid(case_.output, density.lattice, all, report.derivatives,
+                                        scene_.velocity->shown(), case_.time.at(time), threads_);
         report.derivatives.clear();
       });
     });
@@ -410,7 +414,7 @@ void Simulation::Parts::show_frame(double time) {
 bool Simulation::Parts::somebody_needs_particles(const Frame& frame) const {
   std::int64_t needed = std::any_of(observers.begin(), observers.end(), [&](const auto& observer) {
     const bool has_pieces = frame.particle_pieces > 1 && observer->takes_particle_pieces();
-    return !has_pieces && observer->needs_particles(frame.time);
+    return !has_pieces && observer->needs_particles(frame.elapsed);
   });
   ranks_.max(std::span(&needed, 1));
   return needed != 0;
@@ -432,7 +436,7 @@ void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame
     traced = compare_thinned(density, frame, exact);
     if (!place_.is_first()) return;
   } else if (compares_everywhere()) {
-    traced = reference_->evaluate(frame.time, exact);
+    traced = reference_->evaluate(frame.elapsed, exact);
     if (!place_.is_first()) return;
     frame.exact = &exact;
     frame.numbers.error = compare(density.rho, exact);
@@ -440,7 +444,7 @@ void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame
   } else {
     GridSample sample;
     if (place_.is_first()) sample = sample_of_grid(scene_.evaluation, density.rho, compared_.points);
-    traced = reference_->evaluate_at(frame.time, sample.points, exact);
+    traced = reference_->evaluate_at(frame.elapsed, sample.points, exact);
     if (!place_.is_first()) return;
     frame.numbers.error = compare(density.rho, sample, exact);
     frame.numbers.compared = sample.points.size();
@@ -463,7 +467,7 @@ ReferenceReport Simulation::Parts::compare_thinned(const DensityGrid& density, F
     sample = sample_of_grid(density.lattice, density.rho, compared_.points);
     points = points_of_thinned(sample.points, density.lattice, frame.every, scene_.evaluation);
   }
-  const ReferenceReport traced = reference_->evaluate_at(frame.time, points, exact);
+  const ReferenceReport traced = reference_->evaluate_at(frame.elapsed, points, exact);
   if (!place_.is_first()) return traced;
   if (all) frame.exact = &exact;
   if (compares_pieces()) return traced;

@@ -70,6 +70,8 @@ class Simulation::Parts {
   bool finish();
   void end();
   void sum_up();
+  RunSummary as_told() const;
+  std::vector<std::pair<double, FrameNumbers>> frames_as_told() const;
   /// Null where nobody has said when.
   const base::AbandonWanted* abandon_wanted() const { return abandon_wanted_ ? &abandon_wanted_ : nullptr; }
 
@@ -152,7 +154,7 @@ class Simulation::Parts {
   } before_output_;
   double seconds_before_ = 0;  // of earlier calls of run()
   base::Stopwatch watch_;
-  RunSummary summary_;
+  RunSummary summary_;  // its outputs by elapsed times
 };
 
 /// The numbers of an output, to be kept or told.

@@ -139,10 +139,11 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes, std::uint64_t format
 
 // Observers as they were after the outputs so far.
 void Simulation::Parts::take_up_outputs(const ObserverStates& seen) {
+  const auto frames = frames_as_told();
   for (const auto& observer : observers) {
     const auto same =
         std::find_if(seen.begin(), seen.end(), [&](const auto& other) { return other.first == observer->name(); });
-    observer->restore(summary_.frames, same == seen.end() ? std::string() : same->second);
+    observer->restore(frames, same == seen.end() ? std::string() : same->second);
   }
 }
 
@@ -165,13 +166,14 @@ void Simulation::Parts::plan_landings() {
     if (landing > leg_.now) later.push_back(landing);
   const bool arrived = leg_.now >= leg_.to;
   if (leg_.now > case_.time.end || (!arrived && later.empty()))
-    throw InputError(fmt::format("time.end = {:g} lies before t = {:g}, where the run is", case_.time.end, leg_.now));
+    throw InputError(fmt::format("time.end = {:g} lies before t = {:g}, where the run is",
+                                 case_.time.at(case_.time.end), case_.time.at(leg_.now)));
   if (!arrived && later.front() < leg_.to) {
     if (carrier_.acts_between_steps())
       throw InputError(fmt::format(
           "the next output has to stay at t = {:g}, because an effect of this case has begun what ends there. "
           "Outputs after it may change.",
-          leg_.to));
+          case_.time.at(leg_.to)));
     leg_.to = later.front();
   }
   // An output at the end of the leg is shown by run(), perhaps again.
@@ -208,7 +210,7 @@ void Simulation::Parts::take_particles(Particles particles) {
   });
   const bool none = particles_of_all(particles, ranks_) == 0;
   ranks_.agree_on([&] {
-    if (none && !carrier_.departures().possible()) throw misfit("it has no particles");
+    if (none && !carrier_.departures().possible() && !releases_.possible()) throw misfit("it has no particles");
   });
   if (particles.size() > 0) {
     particles_ = std::move(particles);

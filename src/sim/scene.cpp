@@ -24,8 +24,10 @@ void make_effect_fields(const Case& spec, Scene& scene) {
       return make_scalar(spec, values.text(key));
     };
     const auto decay_of = [&, &effect = effect, &values = values]() -> std::unique_ptr<ScalarField> {
-      if (effect->half_life.empty() || !values.has(effect->half_life)) return field_of(effect->decay_rate);
-      return make_scalar(spec, fmt::format("{}", std::numbers::ln2 / values.number(effect->half_life)));
+      if (!effect->half_life.empty() && values.has(effect->half_life))
+        return make_rate(spec, fmt::format("{}", std::numbers::ln2 / values.number(effect->half_life)));
+      if (effect->decay_rate.empty() || !values.has(effect->decay_rate)) return nullptr;
+      return make_rate(spec, values.text(effect->decay_rate));
     };
     if (auto decay = decay_of()) decays.push_back(std::move(decay));
     scene.effect_fields.push_back({values.name, decay_of(), field_of(effect->carried),
@@ -47,6 +49,7 @@ Lattice evaluation_lattice(const Case& spec) {
 Scene make_scene(const Case& spec, int threads) {
   Scene scene;
   const Domain& domain = spec.domain;
+  scene.starts_empty = spec.density.empty();
   scene.velocity = make_velocity(spec, threads, &scene.misfits);
   scene.density = make_density(spec);
   if (auto coast = std::make_unique<Coast>(spec); coast->exists()) scene.coast = std::move(coast);
@@ -90,7 +93,7 @@ Particles seed_scene(const Scene& scene, int threads, SeedReport* report, base::
   std::int64_t some =
       std::any_of(particles.alpha.begin(), particles.alpha.end(), [](double alpha) { return alpha != 0; });
   ranks.max(std::span(&some, 1));
-  if (!some)
+  if (!some && !scene.starts_empty)
     throw InputError(
         "the initial density is 0 on every point of the particle lattice, so there is nothing to carry; move or "
         "enlarge "

@@ -30,10 +30,11 @@ struct Scene {
   std::unique_ptr<InitialDensity> density;
   std::unique_ptr<ScalarField> decay_rate;  // of all weights along their paths, u0; null if none decays
   std::vector<EffectFields> effect_fields;
-  Lattice seeding;         // where particles start
-  Lattice evaluation;      // where rho is summed
-  double core_radius = 0;  // eps = c h
-  double threshold = 0;    // particles.threshold
+  Lattice seeding;            // where particles start
+  Lattice evaluation;         // where rho is summed
+  double core_radius = 0;     // eps = c h
+  double threshold = 0;       // particles.threshold
+  bool starts_empty = false;  // there are sources and no density at the start
   Cutoff cutoff;
   std::unique_ptr<Coast> coast;      // null: the data have no land
   std::vector<std::string> misfits;  // what is wrong with the velocity at the edges of the domain, for people

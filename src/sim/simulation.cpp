@@ -70,7 +70,7 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
       place_(ranks_),
       scene_(make_scene(case_, threads_)),
       carrier_(case_, scene_, threads_, ranks_, [this](const Vector& place) { return place_.owner_of(place); }),
-      releases_(case_, scene_.seeding, scene_.threshold, threads_),
+      releases_(case_, scene_, threads_),
       landings_(landings(case_)),
       pieces_(scene_.evaluation, case_.evaluate.piece_points) {
   if (ranks_.size() == 1) return;
@@ -157,8 +157,16 @@ bool Simulation::Parts::carry() {
     if (!go_on) return true;
     double stepping = summary_.stages.of("transport");
     for (const auto& effect : carrier_.effects()) stepping += summary_.stages.of("effect " + effect->name());
-    wanted = go_on({steps_before_ + leg.steps, steps_total_, leg.now, case_.time.end,
-                    seconds_before_ + watch_.seconds(), stepping, summary_.frames.size(), case_.output.times.size()});
+    wanted = go_on({.steps_done = steps_before_ + leg.steps,
+                    .steps_total = steps_total_,
+                    .time = case_.time.at(leg.now),
+                    .end = case_.time.at(case_.time.end),
+                    .elapsed = leg.now,
+                    .length = case_.time.end,
+                    .seconds = seconds_before_ + watch_.seconds(),
+                    .step_seconds = stepping,
+                    .outputs_done = summary_.frames.size(),
+                    .outputs_total = case_.output.times.size()});
     return wanted;
   });
   return arrived && wanted;
@@ -186,7 +194,7 @@ RunSummary Simulation::Parts::run() {
   summary_.complete = arrived && finish();
   if (shown && !arrived) stage_ = Stage::under_way;
   end();
-  return summary_;
+  return as_told();
 }
 
 // False if it was abandoned. A run that goes on from state() then shows the last output again, if it is of this time.
@@ -214,12 +222,13 @@ void Simulation::Parts::end() {
 }
 
 void Simulation::Parts::sum_up() {
-  summary_.time = leg_.now;
-  summary_.checks = judge(case_.checks, mass_at_start_, summary_.frames);
+  summary_.elapsed = leg_.now;
+  summary_.checks = judge(case_.checks, case_.density.empty() ? 1 : mass_at_start_, summary_.frames, case_.time);
   summary_.steps = steps_before_ + leg_.steps;
   summary_.steps_rejected = carrier_.steps_rejected();
   summary_.warnings = scene_.misfits;
   summary_.warnings.insert(summary_.warnings.end(), carrier_.warnings().begin(), carrier_.warnings().end());
+  summary_.warnings.insert(summary_.warnings.end(), releases_.warnings().begin(), releases_.warnings().end());
   if (!compared_.left_out.empty()) summary_.warnings.push_back(compared_.left_out);
   if (in_pieces() && !case_.output.times.empty())
     summary_.warnings.push_back(words_for_pieces(pieces_, scene_.evaluation, compared_, compares_pieces()));
@@ -231,7 +240,21 @@ void Simulation::Parts::sum_up() {
 
 RunSummary Simulation::Parts::summary() {
   sum_up();
-  return summary_;
+  return as_told();
+}
+
+// With the times that the clock of the case shows.
+RunSummary Simulation::Parts::as_told() const {
+  RunSummary told = summary_;
+  told.time = case_.time.at(told.elapsed);
+  told.frames = frames_as_told();
+  return told;
+}
+
+std::vector<std::pair<double, FrameNumbers>> Simulation::Parts::frames_as_told() const {
+  std::vector<std::pair<double, FrameNumbers>> frames = summary_.frames;
+  for (auto& [time, numbers] : frames) time = case_.time.at(time);
+  return frames;
 }
 
 Simulation::Simulation(const Case& spec, int threads) : parts_(std::make_unique<Parts>(spec, threads, nullptr)) {}

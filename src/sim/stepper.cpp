@@ -46,7 +46,7 @@ void check_block(const VelocityField& field, const PointsView& x, const VectorsV
       moving = moving && std::isfinite(u.axis[k][j]);
     }
     if (placed && moving) continue;
-    const std::string when = fmt::format("in step {} at t = {:.10g}", step, time);
+    const std::string when = fmt::format("in step {} at t = {:.10g}", step, field.shown_time(time));
     if (!placed)
       throw NumericalError(fmt::format(
           "particle {} left for infinity {}. Either time.step is too long for this field, or the flow itself blows up.",
@@ -175,7 +175,8 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
           const std::int64_t* const ids = particles.id.data() + begin;
           check_block(velocity_, block.points(x), block.vectors(u), ids, t, steps_before + i + 1);
           for (std::size_t q = 0; q < integrals_.size(); ++q)
-            check_rates(*integrals_[q], block.points(x), values + q * length, ids, t, steps_before + i + 1);
+            check_rates(*integrals_[q], block.points(x), values + q * length, ids, velocity_.shown_time(t),
+                        steps_before + i + 1);
         });
       };
       const auto traced_rate = [&](double t, const double* x, double* u) {

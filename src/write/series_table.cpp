@@ -16,8 +16,8 @@ namespace {
 
 class SeriesTable : public Observer {
  public:
-  SeriesTable(const fs::path& folder, int dimension, bool errors)
-      : text_(folder / series_name), dimension_(dimension), errors_(errors) {}
+  SeriesTable(const fs::path& folder, int dimension, bool errors, std::function<std::string(double t)> date)
+      : text_(folder / series_name), dimension_(dimension), errors_(errors), date_(std::move(date)) {}
   std::string name() const override { return "write series"; }
   bool needs_particles(double /*time*/) const override { return false; }
   void frame(const Frame& frame) override {
@@ -32,7 +32,8 @@ class SeriesTable : public Observer {
 
  private:
   void begin(const std::vector<std::pair<double, FrameNumbers>>& frames) {
-    std::string table = "t,mass,minimum,maximum,centroid_x,centroid_y";
+    std::string table = date_ ? "t,date," : "t,";
+    table += "mass,minimum,maximum,centroid_x,centroid_y";
     table += dimension_ == 3 ? ",centroid_z" : "";
     table += ",transform_error";
     table += errors_ ? ",L1,L2,Linf" : "";
@@ -50,7 +51,9 @@ class SeriesTable : public Observer {
   }
 
   std::string row(double time, const FrameNumbers& n) const {
-    std::string row = fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}", time, n.mass, n.minimum, n.maximum);
+    std::string row = fmt::format("{:.17g},", time);
+    if (date_) row += date_(time) + ",";
+    row += fmt::format("{:.17g},{:.17g},{:.17g}", n.mass, n.minimum, n.maximum);
     for (int k = 0; k < dimension_; ++k) row += fmt::format(",{:.17g}", n.centroid[k]);
     row += fmt::format(",{:.3e}", n.transform_error);
     const ErrorNorms error = n.error.value_or(ErrorNorms{});
@@ -67,13 +70,15 @@ class SeriesTable : public Observer {
   GrowingFile text_;
   int dimension_;
   bool errors_;
+  std::function<std::string(double t)> date_;  // empty: times have none
   bool begun_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Observer> series_table(const fs::path& folder, int dimension, bool errors) {
-  return std::make_unique<SeriesTable>(folder, dimension, errors);
+std::unique_ptr<Observer> series_table(const fs::path& folder, int dimension, bool errors,
+                                       std::function<std::string(double t)> date) {
+  return std::make_unique<SeriesTable>(folder, dimension, errors, std::move(date));
 }
 
 }  // namespace gaussdrift::write

@@ -88,6 +88,7 @@ json frames_of(const Case& spec, const RunSummary& summary) {
                       {"outside", n.outside},
                       {"transform_error", n.transform_error},
                       {"evaluate_seconds", n.evaluate_seconds}});
+    if (spec.time.date) frames.back()["date"] = spec.time.date(time);
     if (n.inside) frames.back()["inside"] = *n.inside;
     if (n.released) frames.back()["released"] = *n.released;
     if (n.decayed) frames.back()["decayed"] = *n.decayed;
@@ -117,9 +118,10 @@ std::string summary_json(const Case& spec, const RunSummary& summary, const json
       {"effects", effects_of(summary)},
       {"particles", particles_of(spec, summary)},
       {"time",
-       {{"method", spec.time.method},
+       {{"start", spec.time.start},
+        {"method", spec.time.method},
         {"step", spec.time.step},
-        {"end", spec.time.end},
+        {"end", spec.time.at(spec.time.end)},
         {"reached", summary.time},
         {"steps", summary.steps},
         {"steps_rejected", summary.steps_rejected}}},

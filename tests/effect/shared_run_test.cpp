@@ -43,8 +43,9 @@ struct Seen {
 
 void watch(Simulation& simulation, std::vector<Seen>& seen) {
   simulation.observe("test", [&](const Frame& frame) {
-    while (!seen.empty() && seen.back().time >= frame.time) seen.pop_back();  // an output that is shown again
-    seen.push_back({frame.time, frame.numbers, frame.density->rho, frame.exact ? *frame.exact : std::vector<double>(),
+    while (!seen.empty() && seen.back().time >= frame.elapsed) seen.pop_back();  // an output that is shown again
+    seen.push_back({frame.elapsed, frame.numbers, frame.density->rho,
+                    frame.exact ? *frame.exact : std::vector<double>(),
                     frame.velocity ? *frame.velocity : std::vector<double>(), *frame.particles});
   });
 }
@@ -145,6 +146,9 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"open_edges",
              {"domain.edges=[\"open\", \"periodic\"]", "velocity.u=[\"1.2\", \"0.3*x\"]", "effects.reaction.rate=1+x",
               "density.center=[0.4, 0.95]", characteristics, "reference.points=300"}},
+        Kind{"inflow",
+             {"source.face=x_min", "source.concentration=1+y*y", "source.puffs=5", "velocity.u=[\"0.3\", \"x\"]"}},
+        Kind{"backwards", {"time.start=0.9", "time.end=0.5", "output.times=[0.9, 0.7, 0.5]"}},
         Kind{"sources",
              {"source.shape=gaussian", "source.center=[0.1, 0.3]", "source.radius=0.03", "source.from=0.1",
               "source.to=0.4", "source.rate=1+t", "source.puffs=3", "effects.reaction.rate=1+x",

@@ -45,7 +45,8 @@ TEST_F(DamagedGrid, SeriesHasTimesThatAreNumbers) {
       {entry("0") + "\n<DataSet file=\"b.vti\"/>", "series.pvd:3: b.vti has no timestep"},
       {entry("0", " part=\"0\"") + entry("0", " part=\"1\""),
        "series.pvd:3: a.vti and a.vti of line 2 are both for t = 0\none file a time is read"},
-      {entry("1") + entry("0"), "series.pvd:3: the times of series.pvd do not ascend: 0 after 1"},
+      {entry("1") + entry("2") + entry("0"), "series.pvd:4: the times of series.pvd do not ascend: 0 after 2"},
+      {entry("2") + entry("1") + entry("3"), "series.pvd:4: the times of series.pvd do not descend: 3 after 1"},
   };
   for (const auto& refusal : refusals) {
     const std::string found = series_refusal(refusal.entries);

@@ -125,7 +125,9 @@ TEST_F(GridFile, ThatCannotBeUsedIsRefusedWithItsPlaceInTheCase) {
   for (const char* name : {"text.txt", "wind.nc", "wind.h5", "wind.png"}) std::ofstream(folder_ / name) << "u v\n";
   write_series("empty.pvd", "");
   write_series("lost.pvd", "<DataSet timestep=\"0\" file=\"nowhere.vti\"/>");
-  write_series("back.pvd", "<DataSet timestep=\"1\" file=\"wind.vti\"/><DataSet timestep=\"0\" file=\"wind.vti\"/>");
+  write_series("back.pvd",
+               "<DataSet timestep=\"0.5\" file=\"wind.vti\"/><DataSet timestep=\"1\" file=\"wind.vti\"/><DataSet "
+               "timestep=\"0\" file=\"wind.vti\"/>");
   write_series("short.pvd", "<DataSet timestep=\"0\" file=\"wind.vti\"/><DataSet timestep=\"0.5\" file=\"wind.vti\"/>");
   write_series("mixed.pvd", "<DataSet timestep=\"0\" file=\"wind.vti\"/><DataSet timestep=\"1\" file=\"other.vti\"/>");
   write_vti("other.vti", 4, 4, 1, "u", 2, sampled(4, turning));

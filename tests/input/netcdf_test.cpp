@@ -5,6 +5,7 @@
 
 #include "field/gridded/gridded.hpp"
 #include "grid_files.hpp"
+#include "message_of.hpp"
 #include "read/netcdf/netcdf_file.hpp"
 
 #ifdef HAS_NETCDF
@@ -368,6 +369,9 @@ TEST_F(Netcdf, long_series_are_read_on_the_way_with_the_same_values) {
     EXPECT_TRUE(std::isinf(a.held_until(0)));
     EXPECT_EQ(b.held_until(7.5), 9);
     EXPECT_TRUE(std::isinf(b.held_until(38.5)));
+    EXPECT_TRUE(std::isinf(a.held_since(39)));
+    EXPECT_EQ(b.held_since(7.5), 6) << "the same as seen from the end";
+    EXPECT_TRUE(std::isinf(b.held_since(0.5)));
   }
 }
 
@@ -464,6 +468,28 @@ TEST_F(Netcdf, the_text_of_a_case_names_its_clock_again) {
   const std::string text = case_text(first.spec);
   EXPECT_NE(text.find("time = { start = \"2000-01-01 01:00\", unit = \"h\" }"), std::string::npos) << text;
   EXPECT_EQ(case_text(parse_case(text, folder_ / "cone.toml").spec), text);
+}
+
+TEST_F(Netcdf, times_of_a_case_may_be_dates_of_its_data) {
+  write_wind("wind.nc", {.times = {0, 6}, .units = "m h-1"});
+  const auto read = [&](const std::string& start, const std::string& end, const std::string& times) {
+    return parse_case(case_with("file = \"wind.nc\"\ntime = { unit = \"min\" }"), folder_ / "cone.toml",
+                      {"time.start=" + start, "time.end=" + end, "output.times=" + times})
+        .spec;
+  };
+  const Case spec = read("2000-01-01 05:30", "\"2000-01-01 01:00\"", "[\"2000-01-01T05:00\", 60]");
+  EXPECT_EQ(spec.time.start, 330);
+  EXPECT_TRUE(spec.time.backwards);
+  EXPECT_EQ(spec.time.end, 270);
+  EXPECT_EQ(spec.output.times, (Numbers{30, 270}));
+  EXPECT_EQ(spec.time.date(spec.time.at(30)), "2000-01-01 05:00");
+  EXPECT_NE(
+      message_of<CaseError>([&] { read("2000-01-32", "60", "[60]"); }).find("time.start is no date of the calendar"),
+      std::string::npos);
+  EXPECT_NE(message_of<CaseError>([&] {
+              read("1999-12-31", "60", "[60]");
+            }).find("covers the times 0 to 360, but the run goes from -1440 to 60"),
+            std::string::npos);
 }
 
 #endif

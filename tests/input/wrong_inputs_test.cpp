@@ -341,8 +341,6 @@ const std::vector<Wrong> wrongs = {
     {"cutoff = \"gauss2\"", "cutoff = 2", 27, "2", "particles.cutoff must be a string, found the number 2",
      "known values: \"gauss2\", \"gauss4\", \"gauss6\", \"gauss8\", \"two-gauss\""},
     // time
-    {"end = \"turn\"", "end = -1", 30, "-1", "time.end must be at least 0, found -1",
-     "end: time at which the run ends; it begins at 0"},
     {"end = \"turn\"", "end = inf", 30, "inf", "time.end must be finite, found inf"},
     {"step = 0.001", "step = 0", 31, "0", "time.step must be greater than 0, found 0", step_note},
     {"step = 0.001", "step = -0.001", 31, "-0.001", "time.step must be greater than 0, found -0.001", step_note},
@@ -382,7 +380,7 @@ const std::vector<Wrong> wrongs = {
      "[output] has both \"times\" and \"frames\"", "give exactly one of \"times\", \"frames\""},
     {"times = [0, \"turn/4\", \"turn\"]", "frames = 0", 40, "0",
      "output.frames must be at least 1 and at most 1000000, found 0",
-     "frames: number of outputs, evenly spaced from 0 to time.end; 1 means the end alone"},
+     "frames: number of outputs, evenly spaced from time.start to time.end; 1 means the end alone"},
     {"vtk = [\"density\", \"particles\"]", "vtk = [\"density\", \"denstiy\"]", 41, "\"denstiy\"",
      "unknown value \"denstiy\" for entry 2 of output.vtk; did you mean \"density\"?",
      "known values: \"density\", \"particles\""},
@@ -525,7 +523,7 @@ TEST(Overrides, AreRefusedLikeTheFile) {
       {"tim.step=1", "error: unknown table [tim]; did you mean [time]?\n  --> --set tim.step=1\n            ^^^\n"},
       {"time.stpe=1",
        "error: unknown key \"stpe\" in [time]; did you mean \"step\"?\n  --> --set time.stpe=1\n            "
-       "^^^^^^^^^\n   = known keys: end, step, method, tolerance\n"},
+       "^^^^^^^^^\n   = known keys: start, end, step, method, tolerance\n"},
       {"step=1",
        "error: unknown key \"step\" at the top of the file; it belongs in [time]\n  --> --set step=1\n            "
        "^^^^\n"},

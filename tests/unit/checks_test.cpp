@@ -22,7 +22,7 @@ std::vector<std::pair<double, FrameNumbers>> frames() {
   return list;
 }
 
-CheckResult judged(const CheckSpec& check) { return judge({check}, 4, frames()).at(0); }
+CheckResult judged(const CheckSpec& check) { return judge({check}, 4, frames(), {}).at(0); }
 
 TEST(Checks, AreDecidedByTheWorstOutput) {
   const CheckResult l1 = judged({.what = Quantity::l1, .max = 0.17});
@@ -54,22 +54,22 @@ TEST(Checks, ThatCannotBeJudgedFail) {
   auto list = frames();
   list[1].second.error->linf = std::numeric_limits<double>::quiet_NaN();
   const CheckSpec check{.what = Quantity::linf, .max = 10};
-  const CheckResult nan = judge({check}, 4, list).at(0);
+  const CheckResult nan = judge({check}, 4, list, {}).at(0);
   EXPECT_FALSE(nan.passed);
   EXPECT_EQ(nan.time, 1);
   EXPECT_EQ(nan.text, "Linf at t = 1 must be at most 10 but is not known: it is not a number");
   list[1].second.no_norms = "nothing is left to compare (all of the mass has left the domain)";
-  EXPECT_EQ(judge({check}, 4, list).at(0).text,
+  EXPECT_EQ(judge({check}, 4, list, {}).at(0).text,
             "Linf at t = 1 must be at most 10 but is not known: nothing is left to compare (all of the mass has left "
             "the domain)");
   list = frames();
   list[2].second.untraced = 1;
-  EXPECT_FALSE(judge({check}, 4, list).at(0).passed) << "a norm that leaves points out";
+  EXPECT_FALSE(judge({check}, 4, list, {}).at(0).passed) << "a norm that leaves points out";
   list = frames();
   list[0].second.error.reset();
-  EXPECT_FALSE(judge({check}, 4, list).at(0).passed) << "no reference";
-  EXPECT_FALSE(judge({check}, 4, {}).at(0).passed) << "no outputs";
-  EXPECT_FALSE(judge({{.what = Quantity::mass, .max = 2}}, 0, frames()).at(0).passed) << "no mass to compare with";
+  EXPECT_FALSE(judge({check}, 4, list, {}).at(0).passed) << "no reference";
+  EXPECT_FALSE(judge({check}, 4, {}, {}).at(0).passed) << "no outputs";
+  EXPECT_FALSE(judge({{.what = Quantity::mass, .max = 2}}, 0, frames(), {}).at(0).passed) << "no mass to compare with";
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ class FoldedVelocity : public VelocityField {
   bool is_solenoidal() const override { return smooth_ && field_->is_solenoidal(); }
   bool evaluates_in_blocks() const override { return field_->evaluates_in_blocks(); }
   double held_until(double t) const override { return field_->held_until(t); }
+  double held_since(double t) const override { return field_->held_since(t); }
   double cost() const override { return field_->cost(); }
   bool is_fitted() const override { return field_->is_fitted(); }
   double fit_error(const PointsView& near) const override;

@@ -200,6 +200,15 @@ double GridInterpolator::held_until(double t) const {
   return last + 1 < times.size() ? times[last] : std::numeric_limits<double>::infinity();
 }
 
+double GridInterpolator::held_since(double t) const {
+  const auto& times = data_->times;
+  if (!data_->levels) return -std::numeric_limits<double>::infinity();
+  const auto after = static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), t) - times.begin());
+  const std::size_t around = parabola_of_times_.empty() ? 0 : 2, held = data_->levels->most_held();
+  const std::size_t reach = held > around + 1 ? held - around - 1 : 1;
+  return after > reach ? times[after - reach] : -std::numeric_limits<double>::infinity();
+}
+
 namespace {
 
 /// sum over the stencil points of weight_x weight_y (weight_z) values[point * stride].

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,12 @@ namespace gaussdrift {
 /// What is odd about data, and what can be done about it.
 struct DataWarning {
   std::string message, remedy;
+};
+
+/// What dates the times of data are.
+struct GridDates {
+  std::function<std::string(double t)> written;                          // "2020-01-03 12:30"
+  std::function<std::optional<double>(const std::string& date)> time{};  // nothing: no date of that calendar
 };
 
 /// One array of a file or of a series of files.
@@ -32,6 +40,7 @@ struct GridData {
   bool land = false;                           // some values are NaN: there is land, without any fluid
   std::string filled;                          // "12 of 100 values missing, taken as zero"; empty: none are
   std::string clock;                           // "t = 0 at 2020-01-03 00:00, in hours"; empty: nothing to tell
+  std::optional<GridDates> dates{};            // nothing: its times are numbers alone
   std::vector<DataWarning> warnings;
 
   std::size_t points() const;
@@ -77,6 +86,8 @@ class GridInterpolator {
   bool is_steady() const { return data_->times.size() == 1; }
   /// Until when values from `t` on can be had in any order without reading one twice.
   double held_until(double t) const;
+  /// Since when values up to `t` can be had in the same way.
+  double held_since(double t) const;
   /// "u of wind.pvd on 100 x 50 points, 12 times, cubic, 0 outside".
   std::string describe() const;
   const GridData& data() const { return *data_; }

@@ -25,6 +25,7 @@ class GriddedVelocity : public VelocityField {
   }
   bool is_steady() const override { return grid_.is_steady(); }
   double held_until(double t) const override { return grid_.held_until(t); }
+  double held_since(double t) const override { return grid_.held_since(t); }
   bool is_smooth() const override { return false; }
   double cost() const override { return 10; }
   std::string why_not_finite(double t, const Vector& x) const override {
@@ -39,12 +40,14 @@ class GriddedVelocity : public VelocityField {
 
 class GriddedDensity : public InitialDensity {
  public:
-  explicit GriddedDensity(GridInterpolator grid) : grid_(std::move(grid)) {}
-  void add(const PointsView& x, double* values) const override { grid_.add(0, x, 1, &values); }
+  /// That of the data at one time.
+  explicit GriddedDensity(GridInterpolator grid, double time = 0) : grid_(std::move(grid)), time_(time) {}
+  void add(const PointsView& x, double* values) const override { grid_.add(time_, x, 1, &values); }
   std::string describe() const override { return "rho_0 = " + grid_.describe(); }
 
  private:
   GridInterpolator grid_;
+  double time_;
 };
 
 }  // namespace gaussdrift

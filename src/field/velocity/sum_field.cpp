@@ -30,6 +30,12 @@ double SumField::held_until(double t) const {
   return until;
 }
 
+double SumField::held_since(double t) const {
+  double since = -std::numeric_limits<double>::infinity();
+  for (const auto& field : fields_) since = std::max(since, field->held_since(t));
+  return since;
+}
+
 double SumField::cost() const {
   double sum = 0;
   for (const auto& field : fields_) sum += field->cost();

@@ -24,6 +24,7 @@ class SumField : public VelocityField {
   std::optional<Vector> flow(double from, double to, const Vector& x) const override;
   bool evaluates_in_blocks() const override;
   double held_until(double t) const override;
+  double held_since(double t) const override;
   double cost() const override;
   bool is_fitted() const override;
   double fit_error(const PointsView& near) const override;

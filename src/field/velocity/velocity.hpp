@@ -48,6 +48,12 @@ class VelocityField {
   /// Until when values from `t` on may be asked for in any order. Beyond, a field that reads its data on the way may have
   /// to read them twice: then all points go as far as that before any goes on.
   virtual double held_until(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
+  /// The same backwards: since when values up to `t` may be asked for.
+  virtual double held_since(double /*t*/) const { return -std::numeric_limits<double>::infinity(); }
+  /// What the clock of the case shows at `t`, for messages.
+  virtual double shown_time(double t) const { return t; }
+  /// The field as people know it: at times of the clock, and not turned round.
+  virtual const VelocityField& shown() const { return *this; }
   /// What a value costs, roughly, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
   /// True if u, or a part of it, is fitted to samples.

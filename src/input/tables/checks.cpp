@@ -46,15 +46,18 @@ namespace {
 
 /// The output time that a number means, exactly as the outputs have it; a complaint if there is none.
 double output_time(Reader& in, const Number& at, const Case& spec) {
-  const auto& times = spec.output.times;
+  std::vector<double> times = spec.output.times;
+  const double elapsed = spec.time.elapsed(at.number);
+  const double most = std::max(std::abs(spec.time.start), std::abs(spec.time.at(spec.time.end)));
   for (const double time : times)
-    if (std::abs(time - at.number) <= same_time * spec.time.end) return time;
+    if (std::abs(time - elapsed) <= same_time * std::max(spec.time.end, most)) return time;
+  for (double& time : times) time = spec.time.at(time);
   if (!times.empty() && in.facts.end)
     in.diagnostics.error(
         at.written->place,
         fmt::format("check.at = {} is none of the output times", found_number(at.number, *at.written)),
         times.size() <= 10 ? fmt::format("output times: {:.6g}", fmt::join(times, ", ")) : "give one of output.times");
-  return at.number;
+  return elapsed;
 }
 
 /// Masses that only some cases count.
@@ -110,14 +113,14 @@ void read_checks(Reader& in, Case& spec) {
   });
 }
 
-void write_checks(Writer& out, const std::vector<CheckSpec>& checks) {
+void write_checks(Writer& out, const std::vector<CheckSpec>& checks, const TimeSpec& time) {
   for (const CheckSpec& check : checks) {
     out.part("check", checks.size());
     out.entry("what", written_choice(find_key("check", "what"), check.what));
     if (!check.by.empty()) out.entry("by", written(check.by));
     if (check.max) out.entry("max", written(*check.max));
     if (check.min) out.entry("min", written(*check.min));
-    if (check.at) out.entry("at", written(*check.at));
+    if (check.at) out.entry("at", written(time.at(*check.at)));
   }
 }
 

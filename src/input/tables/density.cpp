@@ -7,7 +7,7 @@ namespace gaussdrift::input {
 
 Section density_section() {
   std::vector<Key> keys{
-      {.name = "expression", .type = Type::expression, .symbol = "rho_0", .meaning = "the density at time 0"},
+      {.name = "expression", .type = Type::expression, .symbol = "rho_0", .meaning = "the density when the run begins"},
       {.name = "shape",
        .type = Type::choice,
        .choices = base::names_of(named_shapes()),
@@ -24,11 +24,14 @@ Section density_section() {
   keys.insert(keys.end(), of_file.begin(), of_file.end());
   for (Key key : {samples_key("`x,y[,z],rho`"), kernel_key(), width_key(), width_by_key(), regularisation_key()})
     keys.push_back(std::move(key));
-  return {Table{.name = "density",
-                .required = true,
-                .meaning = "the density rho_0 at time 0. Several `[[density]]` add up",
-                .kinds = {"expression", "shape", "file", "samples"}},
-          keys};
+  return {
+      Table{.name = "density",
+            .required = true,
+            .meaning = "the density rho_0 when the run begins. Several `[[density]]` add up. With `[[source]]` it may "
+                       "be left out: then the run starts empty",
+            .unless = "source",
+            .kinds = {"expression", "shape", "file", "samples"}},
+      keys};
 }
 
 void read_density(Reader& in, std::vector<DensitySpec>& density) {

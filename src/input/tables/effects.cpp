@@ -147,6 +147,17 @@ void refuse_sources(Reader& in, const NamedEffect& effect, const EffectSpec& val
                          "leave out one of them");
 }
 
+/// Effects that a run backwards in time cannot undo.
+void refuse_backwards(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
+  const Trait& irreversible = effect.traits.irreversible;
+  if (!spec.time.backwards || !irreversible.of(values, spec.domain.dimension)) return;
+  in.diagnostics.error(in.find("time", "end")->value.place,
+                       fmt::format("time.end lies before time.start, so that the run goes backwards in time, and that "
+                                   "does not go with [{}]: {}",
+                                   table_of(effect), irreversible.words),
+                       "leave out the effect, or let the run go forwards");
+}
+
 /// Effects that put particles on a lattice, which knows no land.
 void refuse_coast(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
   const Entry* coast = in.find("domain", "coast");
@@ -179,6 +190,7 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
       refuse_edges(in, *effect, values, spec);
       refuse_sources(in, *effect, values, spec);
       refuse_coast(in, *effect, values, spec);
+      refuse_backwards(in, *effect, values, spec);
     }
     if (!effect->problems || !is_complete(*effect, values)) continue;
     for (const Complaint& problem : effect->problems(values, spec)) {

@@ -244,15 +244,19 @@ template FileVelocitySpec grid_file(Reader&, std::string_view, const Value&, int
 template FileDensitySpec grid_file(Reader&, std::string_view, const Value&, int, int);
 
 /// Data at several times must cover the run.
-void check_times_of_files(Reader& in) {
+void check_times_of_files(Reader& in, const TimeSpec& time) {
   if (!in.facts.end) return;
+  const double start = time.start, end = time.at(time.end),
+               length = same_time * std::max(std::abs(start), std::abs(end));
   for (const auto& [place, data] : in.facts.grid_files) {
     const double first = data->times.front(), last = data->times.back();
-    if (data->times.size() > 1 && (first > same_time * *in.facts.end || last < *in.facts.end * (1 - same_time)))
+    if (data->times.size() > 1 && (first > std::min(start, end) + length || last < std::max(start, end) - length))
       in.diagnostics.error(place,
-                           fmt::format("{} covers the times {} to {}, but the run goes from 0 to {}", data->name, first,
-                                       last, *in.facts.end),
-                           "shorten time.end, or let the data cover the run");
+                           fmt::format("{} covers the times {} to {}, but the run goes from {} to {}", data->name,
+                                       first, last, start, end),
+                           time.start == 0 && !time.backwards
+                               ? "shorten time.end, or let the data cover the run"
+                               : "change time.start or time.end, or let the data cover the run");
   }
 }
 

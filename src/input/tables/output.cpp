@@ -58,14 +58,16 @@ Section output_section() {
             .meaning = "what is written, and when. The times are given by `times` or by `frames`"},
       {{.name = "times",
         .type = Type::numbers,
-        .range = {0, infinity},
         .unit = "time",
-        .meaning = "times at which output is written, in ascending order between 0 and `time.end`"},
+        .meaning = "times at which output is written, in the order in which the run meets them, between `time.start` "
+                   "and `time.end`. Dates are possible as there"},
        {.name = "frames",
         .type = Type::whole,
         .fallback = "5",
         .range = {1, 1e6},
-        .meaning = "number of outputs, evenly spaced from 0 to `time.end`; 1 means the end alone. It replaces `times`"},
+        .meaning =
+            "number of outputs, evenly spaced from `time.start` to `time.end`; 1 means the end alone. It replaces "
+            "`times`"},
        {.name = "vtk",
         .type = Type::choices,
         .fallback = kept(joined(default_names(write::output_files()))),
@@ -110,24 +112,28 @@ using Kind = Value::Kind;
 
 namespace {
 
-void spread_frames(Reader& in, const Number& count, double end, std::vector<double>& times) {
+void spread_frames(Reader& in, const Number& count, const TimeSpec& clock, std::vector<double>& times) {
   const int frames = static_cast<int>(count.number);
+  const double end = clock.end;
   if (end == 0) {
     if (count.written && frames > 1)
       in.diagnostics.error(count.written->place,
-                           fmt::format("output.frames = {}, but time.end = 0 leaves one time", frames),
+                           fmt::format("output.frames = {}, but time.end = {} leaves one time", frames, clock.at(end)),
                            "give frames = 1");
     times = {0.0};
     return;
   }
-  for (int k = 0; k < frames; ++k) times.push_back(k == frames - 1 ? end : end * (double(k) / (frames - 1)));
+  for (int k = 0; k < frames; ++k)
+    times.push_back(k == frames - 1 ? end : clock.elapsed(clock.at(end * (double(k) / (frames - 1)))));
   if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
-    in.diagnostics.error(count.written ? count.written->place : in.source.end(),
-                         fmt::format("{} times between 0 and {} cannot be told apart", frames, end),
-                         "lower output.frames");
+    in.diagnostics.error(
+        count.written ? count.written->place : in.source.end(),
+        fmt::format("{} times between {} and {} cannot be told apart", frames, clock.start, clock.at(end)),
+        "lower output.frames");
 }
 
-void read_times(Reader& in, const Entry& entry, std::vector<double>& times) {
+/// Elapsed times from those that the clock shows.
+void read_times(Reader& in, const Entry& entry, const TimeSpec& clock, std::vector<double>& times) {
   const Key& key = find_key("output", "times");
   const auto list = in.numbers(entry, key);
   if (!list || !in.facts.end) return;
@@ -135,22 +141,26 @@ void read_times(Reader& in, const Entry& entry, std::vector<double>& times) {
     in.diagnostics.error(entry.value.place, "output.times is empty; give at least one time",
                          "output.frames = 5 spreads 5 times evenly");
   const double end = *in.facts.end;
+  const char* const beyond = clock.backwards ? "before" : "after";
   for (std::size_t k = 0; k < list->size(); ++k) {
-    double time = (*list)[k];
-    if (std::abs(time - end) <= same_time * end) time = end;
+    double time = clock.elapsed((*list)[k]);
+    const double rounding = same_time * std::max({end, std::abs(clock.start), std::abs(clock.at(end))});
+    if (std::abs(time - end) <= rounding) time = end;
+    if (clock.start != 0 && std::abs(time) <= rounding) time = 0;
     const Value& written = entry.value.items[k];
-    const std::string found = found_number(time, written);
+    const std::string found = found_number((*list)[k], written);
     if (time < 0)
-      in.diagnostics.error(written.place,
-                           fmt::format("entry {} of output.times is {}; the run begins at 0", k + 1, found));
+      in.diagnostics.error(written.place, fmt::format("entry {} of output.times is {}; the run begins at {}", k + 1,
+                                                      found, clock.start));
     else if (time > end)
-      in.diagnostics.error(written.place,
-                           fmt::format("entry {} of output.times is {}, after time.end = {}", k + 1, found, end));
+      in.diagnostics.error(written.place, fmt::format("entry {} of output.times is {}, {} time.end = {}", k + 1, found,
+                                                      beyond, clock.at(end)));
     else if (!times.empty() && time <= times.back())
       in.diagnostics.error(
           written.place,
-          fmt::format("entry {} of output.times is {}, not after the entry before it, {}", k + 1, found, times.back()),
-          "output.times must ascend");
+          fmt::format("entry {} of output.times is {}, not {} the entry before it, {}", k + 1, found, beyond,
+                      clock.at(times.back())),
+          clock.backwards ? "the run goes backwards: output.times must descend" : "output.times must ascend");
     times.push_back(time);
   }
 }
@@ -208,9 +218,9 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   if (times && frames)
     in.exactly_one("output", {"times", "frames"});
   else if (times)
-    read_times(in, *times, output.times);
+    read_times(in, *times, time, output.times);
   else if (const auto count = in.number("output", "frames"); count && in.facts.end)
-    spread_frames(in, *count, time.end, output.times);
+    spread_frames(in, *count, time, output.times);
 
   for (const std::size_t k : in.choices("output", "vtk")) output.files.push_back(write::output_files()[k].about);
   for (const std::size_t k : in.choices("output", "images")) output.images.push_back(render::styles()[k].about);
@@ -226,14 +236,16 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
                            "have \"density\" in output.vtk");
 }
 
-void write_output(Writer& out, const OutputSpec& output) {
+void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time) {
   const auto names = [](const auto& things) {
     std::vector<std::string> list;
     for (const auto& thing : things) list.emplace_back(thing.name);
     return written(list);
   };
   out.table("output");
-  out.entry("times", written(output.times));
+  std::vector<double> times = output.times;
+  for (double& one : times) one = time.at(one);
+  out.entry("times", written(times));
   out.entry("vtk", names(output.files));
   out.entry("images", names(output.images));
   if (output.fields.size() != 1 || output.fields.front().name != grid_fields().front().about.name)

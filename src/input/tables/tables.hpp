@@ -56,7 +56,7 @@ void write_evaluate(Writer& out, const EvaluateSpec& evaluate);
 
 Section output_section();
 void read_output(Reader& in, OutputSpec& output, const TimeSpec& time);
-void write_output(Writer& out, const OutputSpec& output);
+void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time);
 
 Section reference_section();
 void read_reference(Reader& in, Case& spec);
@@ -68,7 +68,7 @@ void write_accuracy(Writer& out, const AccuracySpec& accuracy);
 
 Section checks_section();
 void read_checks(Reader& in, Case& spec);
-void write_checks(Writer& out, const std::vector<CheckSpec>& checks);
+void write_checks(Writer& out, const std::vector<CheckSpec>& checks, const TimeSpec& time);
 
 Section effect_section(const NamedEffect& effect);
 void read_effects(Reader& in, Case& spec);
@@ -85,7 +85,7 @@ template <class FileSpec>
 FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, int least_components,
                    int most_components);
 /// Data at several times must cover the run.
-void check_times_of_files(Reader& in);
+void check_times_of_files(Reader& in, const TimeSpec& time);
 template <class FileSpec>
 void write_grid_file(Writer& out, const FileSpec& spec);
 

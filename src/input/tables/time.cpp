@@ -1,6 +1,10 @@
 // [time]: how long, and in which steps.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "field/gridded/grid_data.hpp"
 #include "input/tables/tables.hpp"
 #include "time/tableau.hpp"
 
@@ -9,13 +13,19 @@ namespace gaussdrift::input {
 Section time_section() {
   return {
       Table{.name = "time", .required = true, .meaning = "how long the run lasts, and in which steps"},
-      {{.name = "end",
+      {{.name = "start",
+        .type = Type::number,
+        .fallback = "0",
+        .unit = "time",
+        .meaning = "time at which the run begins, a number or, with data that have dates, a date such as "
+                   "\"2020-01-03 12:00\". The density is that of this time"},
+       {.name = "end",
         .type = Type::number,
         .required = true,
-        .range = {0, infinity},
         .unit = "time",
         .symbol = "T",
-        .meaning = "time at which the run ends; it begins at 0"},
+        .meaning = "time at which the run ends. If it is before `start`, the run goes backwards in time: particles go "
+                   "back to where they came from"},
        {.name = "step",
         .type = Type::number,
         .range = {0, infinity, true},
@@ -39,7 +49,7 @@ Section time_section() {
 constexpr double most_steps = 2147483648.0;
 
 void read_time(Reader& in, TimeSpec& time) {
-  const auto end = in.number("time", "end");
+  const auto start = in.number("time", "start"), end = in.number("time", "end");
   time.method = in.choice("time", "method");
   const bool adaptive = time::is_adaptive(time::find_tableau(time.method));
   if (!adaptive) in.require(find_key("time", "step"));
@@ -50,18 +60,33 @@ void read_time(Reader& in, TimeSpec& time) {
         "a method with fixed steps takes them as time.step says");
   const auto step = in.number("time", "step");
   if (const auto tolerance = in.number("time", "tolerance")) time.tolerance = tolerance->number;
-  if (end) time.end = end->number, in.facts.end = end->number;
+  if (start && end) {
+    time.start = start->number;
+    time.backwards = end->number < start->number;
+    time.end = time.elapsed(end->number);
+    in.facts.end = time.end;
+  }
   if (step) time.step = step->number;
-  if (end && step && time.end / time.step > most_steps)
+  const double apart = std::max(std::abs(time.start), std::abs(time.at(time.end))) * 4e-16;  // of neighbouring numbers
+  if (start && end && step && time.end > 0 && time.step <= apart)
+    in.diagnostics.error(
+        step->written->place,
+        fmt::format("time.step = {} is too short beside times of {}: the clock would not move", time.step, time.start),
+        "let the clock begin nearer to 0");
+  if (start && end && step && time.end / time.step > most_steps)
     in.diagnostics.error(step->written->place,
-                         fmt::format("time.end / time.step is {:.3g} steps; at most {} are possible",
-                                     time.end / time.step, static_cast<long long>(most_steps)),
+                         fmt::format("{} / time.step is {:.3g} steps; at most {} are possible",
+                                     time.start == 0 ? "time.end" : "|time.end - time.start|", time.end / time.step,
+                                     static_cast<long long>(most_steps)),
                          "raise time.step");
+  for (const auto& [place, data] : in.facts.grid_files)
+    if (!time.date && data->dates) time.date = data->dates->written;
 }
 
 void write_time(Writer& out, const TimeSpec& time) {
   out.table("time");
-  out.entry("end", written(time.end));
+  if (time.start != 0) out.entry("start", written(time.start));
+  out.entry("end", written(time.at(time.end)));
   if (time.step > 0) out.entry("step", written(time.step));
   out.entry("method", written(time.method));
   if (time::is_adaptive(time::find_tableau(time.method))) out.entry("tolerance", written(time.tolerance));

@@ -35,6 +35,7 @@ class Snapshots {
     }
     stamps_ = times.settled(warnings_);
     clock_ = times.describe();
+    dates_ = times.dates();
     factor_ = times.velocity_factor(layout_, warnings_);
   }
 
@@ -58,6 +59,7 @@ class Snapshots {
     }
     for (const Stamp& stamp : stamps_) data.times.push_back(stamp.time);
     data.clock = clock_;
+    data.dates = dates_;
     data.warnings = warnings_;
     return data;
   }
@@ -102,6 +104,7 @@ class Snapshots {
   const GridRequest request_;
   std::vector<std::filesystem::path> files_;
   std::string name_, clock_;
+  std::optional<GridDates> dates_;
   NetcdfLayout layout_;
   std::vector<Stamp> stamps_;
   std::vector<DataWarning> warnings_;

@@ -97,6 +97,19 @@ std::string NetcdfTimes::describe() const {
   return fmt::format("t = 0 at {}{}", start, scene_seconds_ > 0 && !scaled ? ", in " + plural(scene_seconds_) : "");
 }
 
+std::optional<GridDates> NetcdfTimes::dates() const {
+  if (!clock_ || !clock_->since || stamps_.size() < 2) return std::nullopt;
+  const double scaled =
+      request_.clock && request_.clock->unit_number ? *request_.clock->unit_number * clock_->seconds : scene_seconds_;
+  const Moment zero = later(*clock_->since, start_ * clock_->seconds);
+  return GridDates{
+      [zero, scaled, calendar = calendar_](double t) { return written_date(later(zero, t * scaled), calendar); },
+      [zero, scaled, calendar = calendar_](const std::string& date) -> std::optional<double> {
+        const auto moment = read_date(date, calendar);
+        return moment ? std::optional(seconds_between(zero, *moment) / scaled) : std::nullopt;
+      }};
+}
+
 double NetcdfTimes::velocity_factor(const NetcdfLayout& layout, std::vector<DataWarning>& warnings) const {
   if (request_.most_components == 1) return 1;
   const bool converts = request_.clock && !request_.clock->unit.empty();

@@ -20,6 +20,8 @@ class NetcdfTimes {
   std::vector<Stamp> settled(std::vector<DataWarning>& warnings);
   /// "t = 0 at 2020-01-03 00:00, in hours"; empty for one time. After settled().
   std::string describe() const;
+  /// What dates the times of the scene are. After settled().
+  std::optional<GridDates> dates() const;
   /// By what velocities are multiplied to be lengths per time of the scene. Warns of units that do not fit.
   double velocity_factor(const NetcdfLayout& layout, std::vector<DataWarning>& warnings) const;
 

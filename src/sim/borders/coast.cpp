@@ -13,7 +13,10 @@
 namespace gaussdrift {
 
 Coast::Coast(const Case& spec)
-    : rule_(spec.domain.coast), folding_(folding_of(spec.domain)), dimension_(spec.domain.dimension) {
+    : rule_(spec.domain.coast),
+      clock_(clock_of(spec.time)),
+      folding_(folding_of(spec.domain)),
+      dimension_(spec.domain.dimension) {
   spacing_.fill(std::numeric_limits<double>::infinity());
   for (const VelocitySpec& part : spec.velocity) {
     const auto* file = std::get_if<FileVelocitySpec>(&part);
@@ -33,7 +36,7 @@ Land::Shore Coast::shore(double t, const Vector& x) const {
     }
   Land::Shore most;
   for (const Land& land : lands_)
-    if (const Land::Shore one = land.shore(t, folded, 0); one.water < most.water) most = one;
+    if (const Land::Shore one = land.shore(clock_.at(t), folded, 0); one.water < most.water) most = one;
   for (int k = 0; k < dimension_; ++k) most.slope[k] *= sign[k];
   return most;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/folding.hpp"
+#include "field/clocked/clocked.hpp"
 #include "field/gridded/land.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/particles.hpp"
@@ -42,6 +43,7 @@ class Coast {
 
   std::vector<Land> lands_;
   AtCoast rule_;
+  Clock clock_;
   Folding folding_;
   int dimension_;
   Vector spacing_{};  // of the finest data with land

@@ -136,7 +136,7 @@ std::optional<int> axis_without_whole_cells(const Domain& domain, int per_axis) 
   return std::nullopt;
 }
 
-std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const Domain& domain, double end) {
+std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const Domain& domain, const TimeSpec& time) {
   std::vector<std::string> words;
   constexpr int times = 5;
   constexpr double rounding = 1e-9;  // of the largest velocity at the faces
@@ -147,7 +147,7 @@ std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const D
     Misfit jump, through;
     double largest = 0;
     for (int i = 0; axis.folds() && i < (velocity.is_steady() ? 1 : times); ++i) {
-      const double t = end * i / (times - 1);
+      const double t = time.at(time.end * i / (times - 1));
       const std::vector<Vector> low = points_of_face(domain, k, axis.low), high = points_of_face(domain, k, axis.high);
       const auto below = velocities(velocity, t, low, domain.dimension),
                  above = velocities(velocity, t, high, domain.dimension);

@@ -48,8 +48,8 @@ Lattice seeding_lattice(const Domain& domain, int per_axis);
 std::optional<int> axis_without_whole_cells(const Domain& domain, int per_axis);
 
 /// What is wrong at the faces with a velocity that is to go on beyond them in images of the domain: sentences for people,
-/// from a sample of points and of times until `end`. None: it goes on smoothly.
-std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const Domain& domain, double end);
+/// from a sample of points and of times of the run. None: it goes on smoothly. The velocity is that at times of the clock.
+std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const Domain& domain, const TimeSpec& time);
 
 /// What a density is summed over where blobs are felt within `reach`: the particles, or, where the domain folds, `images`,
 /// which becomes the particles and their images. Throws InputError as with_images() does.
