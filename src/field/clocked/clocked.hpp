@@ -44,7 +44,8 @@ class ClockedVelocity : public VelocityField {
     return clock_.elapsed(clock_.backwards ? field_->held_until(clock_.at(t)) : field_->held_since(clock_.at(t)));
   }
   double cost() const override { return field_->cost(); }
-  double fit_error() const override { return field_->fit_error(); }
+  bool is_fitted() const override { return field_->is_fitted(); }
+  double fit_error(const PointsView& near) const override { return field_->fit_error(near); }
   double shown_time(double t) const override { return clock_.at(t); }
   const VelocityField& shown() const override { return *field_; }
   std::string why_not_finite(double t, const Vector& x) const override {
