@@ -111,23 +111,24 @@ TEST_F(SampledScene, OfDivergenceFreeGaussiansTellsTheSameCause) {
     const double e = std::exp(-x * x - y * y);
     return std::vector<double>{-y * e, x * e};
   });
-  const auto scene_with = [&](const std::string& velocity) {
-    return scene({.velocity = velocity,
-                  .density = "expression = \"exp(-((x - 0.2)^2 + y^2)/0.04)\"",
-                  .particles = fine,
-                  .time = "end = 0.5\nstep = 0.1",
-                  .evaluate = "per_axis = 31",
-                  .reference = "kind = \"characteristics\""});
-  };
-  for (const std::string velocity :
-       {"gaussians = \"wind.csv\"", "samples = \"wind.csv\"\ndivergence_free = true\nwidth = 0.6"}) {
-    const Case spec = scene_with(velocity);
-    const Budget budget = predict_budget(spec, make_scene(spec), Effort::whatever, 0);
-    ASSERT_TRUE(budget.known()) << budget.not_covered;
-    EXPECT_GT(budget.fit, 1e-9) << velocity;
-    EXPECT_LT(budget.fit, 0.1) << velocity;
-    EXPECT_NE(to_text(budget).find("fit of samples"), std::string::npos);
-  }
+  // A circle of radius r turns by t exp(-r^2).
+  const std::string cosine = "cos(t*exp(-x^2-y^2))", sine = "sin(t*exp(-x^2-y^2))";
+  const std::string from_x = "(x*" + cosine + " + y*" + sine + " - 0.2)",
+                    from_y = "(y*" + cosine + " - x*" + sine + ")";
+  const Found found =
+      run(scene({.velocity = "gaussians = \"wind.csv\"",
+                 .density = "expression = \"exp(-((x - 0.2)^2 + y^2)/0.04)\"",
+                 .particles = fine,
+                 .time = "end = 0.5\nstep = 0.1",
+                 .evaluate = "per_axis = 31",
+                 .reference = "kind = \"exact\"\nrho = \"exp(-(" + from_x + "^2 + " + from_y + "^2)/0.04)\""}));
+  ASSERT_TRUE(found.measured.known()) << found.measured.not_covered;
+  EXPECT_EQ(found.measured.dominates, "fit of samples");
+  EXPECT_NEAR(found.measured.fit / found.linf, 1, 0.1);
+  ASSERT_TRUE(found.predicted.known()) << found.predicted.not_covered;
+  EXPECT_GT(found.predicted.fit, 0.5 * found.linf);
+  EXPECT_LT(found.predicted.fit, 10 * found.linf);
+  EXPECT_NE(to_text(found.predicted).find("fit of samples"), std::string::npos);
 }
 
 TEST_F(SampledScene, IsRefusedATargetThatItsFitMisses) {
