@@ -6,8 +6,8 @@ cd "$root"
 program=$root/build/release/gaussdrift
 
 packages_to_build="g++ cmake ninja-build pkg-config libvtk9-dev libexpat1-dev zlib1g-dev libnetcdf-dev libosmesa6-dev libeigen3-dev
-  libtomlplusplus-dev libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-dejavu-core"
-packages_to_test="libgtest-dev python3 python3-vtk9 clang libomp-dev clang-format-14 doxygen"
+  libtomlplusplus-dev libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-dejavu-core python3-dev python3-numpy pybind11-dev"
+packages_to_test="libgtest-dev python3 python3-scipy mypy python3-vtk9 clang libomp-dev clang-format-14 doxygen"
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -64,7 +64,7 @@ build() {
       say "Configuring failed; build/configure.log has these lines too."
       exit 1
     fi
-    grep -E 'No pictures|No tests' "$log" >&2 || true
+    grep -E 'No pictures|No tests|No Python modules' "$log" >&2 || true
   fi
   cmake --build --preset release --target "$1" >&2
 }

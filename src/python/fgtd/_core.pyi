@@ -1,0 +1,19 @@
+# The compiled part of the package, as type checkers see it.
+from typing import Any
+
+import numpy as np
+
+Operator = list[tuple[list[int], float]]
+
+smallest_tolerance: float
+
+class Sums:
+    @property
+    def dimension(self) -> int: ...
+    def at(self, targets: Any, operators: list[Operator]) -> np.ndarray[Any, np.dtype[np.float64]]: ...
+    def on_grid(self, axes: list[list[float]], operators: list[Operator]) -> np.ndarray[Any, np.dtype[np.float64]]: ...
+    def set_weights(self, weights: Any) -> None: ...
+    def choice(self) -> dict[str, Any]: ...
+
+def plan(sources: Any, weights: Any, sigma: float, tolerance: float, derivatives: int, method: str, threads: int,
+         memory_limit: int, most_seconds: float, expected_targets: int, expected_grid: list[list[float]]) -> Sums: ...
