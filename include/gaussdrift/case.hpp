@@ -281,6 +281,27 @@ struct GridField {
   std::string_view meaning;            ///< one line
   std::array<bool, 2> is_vector = {};  ///< in the plane, in space; else it is a number
   bool is_of_flow = false;             ///< it follows from the prescribed velocity alone
+  bool is_matrix = false;              ///< a matrix, row after row
+  bool is_of_particles = false;        ///< it belongs to particles: files of particles have it
+  bool is_on_grid = true;              ///< density files have it, too
+};
+
+/// A kind of files that tracks are written to, as far as a case needs to know it. `write` has all of them.
+struct TrackFile {
+  std::string_view name;     ///< in a case
+  std::string_view meaning;  ///< one line
+  bool by_default = false;   ///< written where a case does not say which
+};
+
+/// `[output.tracks]`: which particles are followed, and what is told along their paths.
+struct TracksSpec {
+  std::vector<std::int64_t> ids;  ///< of particles
+  int every = 0;                  ///< every n-th along each axis of the lattice, every n-th of those released; 0: none
+  std::filesystem::path file{};   ///< absolute: a table of points that go with the flow; empty: none
+  std::shared_ptr<const std::vector<double>> points{};  ///< x, y, z in space, row after row; null: none
+  int steps = 0;                                        ///< a look after so many steps; 0: at outputs alone
+  std::vector<GridField> fields{};                      ///< beside place and time
+  std::vector<TrackFile> files{};                       ///< beside the table
 };
 
 /// `[output]`: when to write, and what.
@@ -288,11 +309,12 @@ struct OutputSpec {
   std::vector<double> times;         ///< elapsed, ascending, 0 <= t <= end
   std::vector<OutputFile> files;     ///< files that are written at each of these times
   std::vector<PictureStyle> images;  ///< pictures of every output
-  std::vector<GridField> fields;     ///< in the density files, beside the density
+  std::vector<GridField> fields;     ///< in the files, beside the density
   bool report = true;                ///< report.html, report.json, summary.png
   double piece_particles = 4194304;  ///< most particles of a file: more are written in pieces
   /// Seconds between two checkpoints; 0: none; empty: about a minute in runs of more than five.
   std::optional<double> checkpoint{};
+  std::optional<TracksSpec> tracks{};  ///< empty: nobody is followed
 };
 
 // --- what the results are compared with -------------------------------------------------------------------------

@@ -14,6 +14,7 @@
 #include "gaussdrift/norms.hpp"
 #include "gaussdrift/particles.hpp"
 #include "gaussdrift/points.hpp"
+#include "gaussdrift/tracks.hpp"
 
 namespace gaussdrift {
 
@@ -84,6 +85,8 @@ struct Frame {
   const Particles* particles = nullptr;  ///< never null; see Observer::needs_particles()
   /// u(X_j, t) [j][dimension]; only if files that the case names need it, else null
   const std::vector<double>* velocity = nullptr;
+  /// What the case names of the particles in output.fields, [j][component]; null: nothing
+  const std::vector<FieldOnGrid>* particle_fields = nullptr;
   /// On all of the evaluation lattice, or on every k-th point of it where there are pieces; never null.
   const DensityGrid* density = nullptr;
   /// rho at the points of the density, NaN where not known; null without a reference and where a sample is compared
@@ -110,9 +113,10 @@ struct DensityPiece {
 
 /// A piece of particles that are too many for one file (`output.piece_particles`): neighbours in the order of ids.
 struct ParticlePiece {
-  std::size_t number = 0;                         ///< from 0
-  const Particles* particles = nullptr;           ///< places, weights and ids, which ascend; never null
-  const std::vector<double>* velocity = nullptr;  ///< there, [j][dimension]; never null
+  std::size_t number = 0;                            ///< from 0
+  const Particles* particles = nullptr;              ///< places, weights and ids, which ascend; never null
+  const std::vector<double>* velocity = nullptr;     ///< there, [j][dimension]; never null
+  const std::vector<FieldOnGrid>* fields = nullptr;  ///< Frame::particle_fields of these particles
 };
 
 /// Looks at the frames of a run. What it throws ends the run, and comes out of Simulation::run().
@@ -135,6 +139,9 @@ class Observer {
   /// The same of particles, whose pieces come once, before frame(). Of the frame only index, time and particle_pieces are
   /// there.
   virtual void particle_piece(const Frame& /*frame*/, const ParticlePiece& /*piece*/) {}
+  /// Some more of the tracks, `output.tracks`: all that were looked at together, and those that have ended since. On
+  /// rank 0.
+  virtual void tracks(const TrackSamples& /*samples*/) {}
   /// Bytes that restore() needs, beside what is known of the outputs.
   virtual std::string state() const { return {}; }
   /// The run goes on after these outputs, by the times that the clock showed, of an earlier process: files that hold all of them are made again. `state` is

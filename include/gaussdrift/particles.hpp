@@ -19,10 +19,12 @@ struct Particles {
   std::vector<double> alpha;                                ///< weights, masses: alpha_j = h^d rho_0(x_j) at the start
   std::vector<std::int64_t> id;  ///< index on the seeding lattice, first axis fastest; beyond it: released; constant
 
-  // Only what the effects of a scene ask for; empty and 0 without them.
+  // Only what the effects and outputs of a scene ask for; empty and 0 without them.
   std::vector<std::vector<double>> path;  ///< integrals along the paths, one array an integral, since they were settled
   std::vector<std::vector<double>> tracers{};  ///< weights of each named tracer, whose sum is alpha; empty: no names
   std::vector<double> volume;                  ///< v_j = h^d at the start, growing with div u
+  /// What particles remember of their paths for outputs that ask for it, one array a quantity; 0 where they begin.
+  std::vector<std::vector<double>> kept{};
   double spread = 0;                           ///< what the square of every Gaussian width of the blobs has grown by
 
   /// Number of particles.

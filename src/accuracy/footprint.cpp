@@ -25,6 +25,7 @@
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
 #include "sim/fields_on_grid.hpp"
+#include "sim/follow/particle_fields.hpp"
 #include "sim/grid_pieces.hpp"
 #include "sim/releases.hpp"
 #include "sim/scene.hpp"
@@ -65,6 +66,7 @@ double most_pieces(const Case& spec, double particles) {
 /// What files hold: pieces of a density show layers that others have, too, and of exact densities formulas alone.
 Extent in_files(const Case& spec, Extent extent) {
   extent.particle_pieces = most_pieces(spec, extent.particles);
+  extent.particle_numbers = particle_field_numbers(spec.output);
   extent.field_numbers = field_numbers(spec.output, spec.domain.dimension);
   const LatticePieces pieces = pieces_of_grid(spec);
   if (pieces.count() == 1) return extent;
@@ -90,7 +92,8 @@ EffectMemory memory_of_effects(const Case& spec) {
 }
 
 double bytes_of_particle(const Case& spec, const EffectMemory& effects) {
-  return number * (spec.domain.dimension + 2 + effects.integrals + effects.columns);
+  return number * (spec.domain.dimension + 2 + effects.integrals + effects.columns +
+                   (remembers(spec.output) ? static_cast<double>(kept_numbers) : 0));
 }
 
 /// What is summed, of what is carried: with the images of particles beyond periodic and closed edges.

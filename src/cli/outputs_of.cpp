@@ -55,7 +55,8 @@ std::vector<read::WrittenOutput> outputs_of(const std::filesystem::path& place, 
 std::vector<std::string> arrays_of_outputs() {
   std::vector<std::string> names{"rho", "rho_exact", "error"};
   for (const GridFieldKind& kind : grid_fields())
-    if (std::find(names.begin(), names.end(), kind.about.name) == names.end()) names.emplace_back(kind.about.name);
+    if (kind.about.is_on_grid && std::find(names.begin(), names.end(), kind.about.name) == names.end())
+      names.emplace_back(kind.about.name);
   return names;
 }
 

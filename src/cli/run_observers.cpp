@@ -6,6 +6,7 @@
 #include "render/picture_series.hpp"
 #include "write/output_files.hpp"
 #include "write/series_table.hpp"
+#include "write/track_files.hpp"
 
 namespace gaussdrift::cli {
 
@@ -16,6 +17,7 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
                                          spec.reference.kind != ReferenceSpec::Kind::none, spec.time.date));
   for (const OutputFile& file : spec.output.files)
     simulation.observe(write::file_series(write::find_output_file(file.name), folder));
+  if (spec.output.tracks) simulation.observe(write::track_writer(folder, spec));
   if (const auto& images = spec.output.images; !images.empty()) {
     if (const std::string reason = render::unavailable_reason(); !reason.empty())
       note("warning: no pictures are drawn: {}\n", reason);

@@ -34,6 +34,7 @@ Case read_tables(Reader& in) {
   read_evaluate(in, spec.evaluate, spec.domain);
   read_output(in, spec.output, spec.time);
   read_effects(in, spec);
+  read_tracks(in, spec);
   read_reference(in, spec);
   read_accuracy(in, spec);
   read_checks(in, spec);

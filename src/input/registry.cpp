@@ -17,8 +17,8 @@ namespace {
 std::vector<Section> sections() {
   std::vector<Section> all{case_section(),     params_section(),  domain_section(),    velocity_section(),
                            density_section(),  sources_section(), particles_section(), time_section(),
-                           evaluate_section(), output_section(),  reference_section(), accuracy_section(),
-                           checks_section()};
+                           evaluate_section(), output_section(),  tracks_section(),    reference_section(),
+                           accuracy_section(), checks_section()};
   for (const NamedEffect& effect : effects()) all.push_back(effect_section(effect));
   return all;
 }

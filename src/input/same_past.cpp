@@ -14,7 +14,12 @@ namespace {
 Case without_future(Case spec) {
   spec.title.clear();
   spec.cite.clear();
-  spec.output = {};
+  // What particles remember, and where tracks began, are of the past.
+  OutputSpec past;
+  past.tracks = spec.output.tracks;
+  for (const GridField& field : spec.output.fields)
+    if (field.is_of_particles) past.fields.push_back(field);
+  spec.output = past;
   spec.time.end = spec.time.backwards ? 1 : 0;  // the direction belongs to the past
   spec.accuracy = {};
   spec.checks.clear();

@@ -13,6 +13,15 @@ namespace gaussdrift::input {
 
 using Kind = Value::Kind;
 
+namespace {
+
+bool is_table(const std::string& name) {
+  const std::vector<std::string> all = table_names();
+  return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+}  // namespace
+
 void Reader::read_version() {
   const Key& key = find_key("", "gaussdrift");
   const Entry* entry = root_.find("gaussdrift");
@@ -137,8 +146,20 @@ void Reader::unknown_at_top(const Entry& entry, const std::vector<std::string>& 
 }
 
 void Reader::check_keys(const Entry& table, const std::string& table_name) {
-  const std::vector<std::string> known = key_names(table_name);
+  std::vector<std::string> known = key_names(table_name);
+  const std::string inner_name = table_name + ".";
+  for (const std::string& name : table_names())  // tables in this one
+    if (name.starts_with(inner_name)) known.push_back(name.substr(inner_name.size()));
   for (const Entry& entry : table.value.entries) {
+    const std::string inner = inner_name + entry.name;
+    if (std::find(known.begin(), known.end(), entry.name) != known.end() && is_table(inner)) {
+      if (entry.value.kind == Kind::table)
+        check_keys(entry, inner);
+      else
+        diagnostics.error(entry.place,
+                          fmt::format("{0} must be one table [{0}], found {1}", inner, entry.value.description()));
+      continue;
+    }
     if (std::find(known.begin(), known.end(), entry.name) != known.end()) continue;
     const std::string remedy = remedy_for(entry.name, known, table_name);
     diagnostics.error(entry.place, fmt::format("unknown key \"{}\" in [{}]{}", entry.name, table_name, remedy),

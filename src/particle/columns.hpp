@@ -18,6 +18,7 @@ void for_each_column(SomeParticles& particles, const Visit& visit) {
   visit(std::string_view("id"), std::size_t{0}, particles.id);
   for (std::size_t q = 0; q < particles.path.size(); ++q) visit(std::string_view("path"), q, particles.path[q]);
   for (std::size_t q = 0; q < particles.tracers.size(); ++q) visit(std::string_view("tracer"), q, particles.tracers[q]);
+  for (std::size_t q = 0; q < particles.kept.size(); ++q) visit(std::string_view("kept"), q, particles.kept[q]);
   if (!particles.volume.empty()) visit(std::string_view("volume"), std::size_t{0}, particles.volume);
 }
 

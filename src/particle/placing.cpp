@@ -35,6 +35,7 @@ Particles empty_like(const Particles& particles) {
   Particles none;
   none.dimension = particles.dimension;
   none.path.resize(particles.path.size());
+  none.kept.resize(particles.kept.size());
   none.spread = particles.spread;
   return none;
 }

@@ -77,6 +77,7 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
       folding_(folding_of(spec.domain)),
       departures_(ways_out(spec)),
+      memory_(spec),
       counts_decay_(!spec.sources.empty() && !integrating_.empty()),
       coast_(spec.domain.coast != AtCoast::refuse ? scene.coast.get() : nullptr),
       tableau_(time::find_tableau(spec.time.method)),
@@ -84,6 +85,8 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
       scene_(scene),
       stepper_(*scene.velocity, tableau_, threads, integrals_of(integrating_), drifts_, &ranks),
       threads_(base::resolve_threads(threads)) {
+  if (memory_.wanted())
+    departures_.on_leaving([this](const Particles& particles, std::size_t j) { memory_.leave(particles, j); });
   if (!time::is_adaptive(tableau_)) return;
   AdaptiveStepper::Options options{spec.time.tolerance, 0, spec.time.step, threads};
   options.length = longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max);
@@ -106,6 +109,7 @@ void Carrier::begin(Particles& particles, const Particles& sample) {
     });
   ranks_.agree_on([&] {
     particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
+    memory_.begin(particles);
     if (is_adaptive() || case_.time.end <= 0) return;
     flow_ = sample_flow_rates(*scene_.velocity, sample, case_.time.end, difference_length(scene_));
     refuse_unstable_step();
@@ -186,6 +190,7 @@ bool Carrier::carry(Particles& particles, Leg& leg, std::size_t steps_before, St
   const bool arrived = carry_on(particles, leg, steps_before, stages, go_on);
   if (arrived) land(particles, leg.to, stages);
   if (departures_.possible()) departures_.bring_together(ranks_);
+  if (departures_.possible() && memory_.wanted()) memory_.bring_together(ranks_);
   if (counts_decay_) bring_decay_together();
   return arrived;
 }
@@ -243,7 +248,7 @@ bool Carrier::adapt(Particles& particles, Leg& leg, std::size_t steps_before, St
     double reached = leg.now;
     const bool taken = attempt(particles, [&] {
       const base::Stopwatch watch;
-      if (coast_) began_ = particles.position;
+      if (needs_beginnings()) began_ = particles.position;
       const double before = adaptive_->drift_seconds();
       reached = adaptive_->advance(particles, leg.now, leg.to, steps_before + leg.steps);
       const double drifts = adaptive_->drift_seconds() - before;
@@ -286,6 +291,7 @@ bool Carrier::step(Particles& particles, Leg& leg, std::size_t steps_before, Sta
     const std::size_t first = leg.steps;
     std::size_t count = std::min(batch, interval.steps() - first);
     const double held = scene_.velocity->held_until(interval.start(first));
+    if (pause_every_ > 0) count = std::min(count, pause_every_ - (steps_before + first) % pause_every_);
     while (count > 1 && interval.start(first + count) > held) --count;
     if (!attempt(particles, [&] { advance(particles, interval, first, count, steps_before, stages); })) return false;
     leg.steps += count;
@@ -302,7 +308,7 @@ void Carrier::advance(Particles& particles, const time::Interval& interval, std:
   for (std::size_t i = first; i < first + count; ++i) {
     const double half = interval.length(i) / 2;
     if (i == 0) exchange(particles, interval.start(i), half, stages);
-    if (coast_) began_ = particles.position;
+    if (needs_beginnings()) began_ = particles.position;
     take_steps(particles, interval, i, 1, steps_before, stages);
     arrive(particles, interval.start(i), interval.start(i + 1), stages);
     if (!between_steps_) continue;
@@ -324,6 +330,7 @@ void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles, st
     taken_.pass(bytes, landed_on, case_.time.step);
   if (adaptive_) adaptive_->pass_state(bytes);
   if (departures_.possible()) departures_.pass_state(bytes);
+  if (departures_.possible() && memory_.wanted()) memory_.pass_state(bytes);
   if (counts_decay_) bytes(decayed_.own, decayed_.together);
   for (const auto& effect : effects_) effect->pass_state(bytes, particles);
 }
@@ -364,6 +371,8 @@ void Carrier::arrive(Particles& particles, double from, double time, StageTimes&
   if (!looks_at_steps()) return;
   if (coast_)
     stages.run("coast", [&] { ranks_.agree_on([&] { coast_->meet(began_, particles, from, time, threads_); }); });
+  if (memory_.wanted())
+    stages.run("exits", [&] { ranks_.agree_on([&] { memory_.add(began_, particles, from, time, threads_); }); });
   if (!departures_.possible()) return fold_positions(folding_, particles);
   settle(particles, time, stages);  // what leaves is counted with the weight that it has now
   std::int64_t some = 0;

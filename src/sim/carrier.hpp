@@ -20,6 +20,7 @@
 #include "sim/borders/coast.hpp"
 #include "sim/borders/departures.hpp"
 #include "sim/effects.hpp"
+#include "sim/follow/particle_memory.hpp"
 #include "sim/stable_step.hpp"
 #include "sim/stepper.hpp"
 #include "sim/steps_taken.hpp"
@@ -55,6 +56,9 @@ class Carrier {
 
   /// Steps may be abandoned at their seams once `wanted` says so. Null: they may not. It must outlive the carrier.
   void abandon_when(const base::AbandonWanted* wanted) { abandon_wanted_ = wanted; }
+
+  /// Batches end where so many steps have been taken since the start, and at multiples of that. 0: wherever.
+  void pause_every(std::size_t steps) { pause_every_ = steps; }
 
   /// The way from one landing time to the next, and how far along it the particles are.
   struct Leg {
@@ -96,6 +100,11 @@ class Carrier {
 
   /// What may leave the run, and has.
   const Departures& departures() const { return departures_; }
+  Departures& departures() { return departures_; }
+
+  /// What particles remember of their paths.
+  ParticleMemory& memory() { return memory_; }
+  const ParticleMemory& memory() const { return memory_; }
 
   /// With sources: what weights have lost along the paths so far, on all ranks. Nothing where they keep them.
   std::optional<double> decayed() const;
@@ -141,7 +150,8 @@ class Carrier {
   void settle(Particles& particles, double time, StageTimes& stages);
   void bring_decay_together();
   // Steps end one by one, with a look at what has come to an edge or to land.
-  bool looks_at_steps() const { return departures_.possible() || coast_; }
+  bool looks_at_steps() const { return departures_.possible() || coast_ || memory_.wanted(); }
+  bool needs_beginnings() const { return coast_ || memory_.wanted(); }
   // At the end of a step: what has come to land meets the coast, and what leaves is taken out.
   void arrive(Particles& particles, double from, double time, StageTimes& stages);
   void bring_up(Particles& particles, double time, StageTimes& stages) const;
@@ -155,12 +165,13 @@ class Carrier {
   bool between_steps_ = false;  // some effect acts between any two steps
   Folding folding_;             // where places beyond the domain lie in it
   Departures departures_;
+  ParticleMemory memory_;
   bool counts_decay_ = false;
   struct {
     base::ExactSum own, together;  // of this rank since the ranks brought it together, and of all ranks until then
   } decayed_;
   const Coast* coast_ = nullptr;                          // null: nobody looks at it
-  std::array<std::vector<double>, max_dimension> began_;  // positions at the start of a step, where there is a coast
+  std::array<std::vector<double>, max_dimension> began_;  // positions at the start of a step, where they are needed
   const time::Tableau& tableau_;
   const Case& case_;
   const Scene& scene_;
@@ -171,6 +182,7 @@ class Carrier {
   std::vector<std::string> warnings_;
   const base::AbandonWanted* abandon_wanted_ = nullptr;
   Particles before_;  // steps that may be abandoned: what of them is not set at their very end
+  std::size_t pause_every_ = 0;
   int threads_;
 };
 

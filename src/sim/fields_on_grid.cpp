@@ -5,71 +5,18 @@
 #include <cstddef>
 
 #include "base/parallel.hpp"
+#include "sim/flow_on_block.hpp"
+#include "sim/follow/particle_fields.hpp"
 #include "sim/grid_fields.hpp"
 
 namespace gaussdrift {
-
-namespace {
-
-// The flow at some points of a box, as columns.
-class FlowOnBlock {
- public:
-  FlowOnBlock(int dimension, std::size_t most, bool with_gradient)
-      : dimension_(dimension), with_gradient_(with_gradient) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-      place_[k].resize(most), velocity_[k].resize(most);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) gradient_[k][i].resize(most);
-    }
-  }
-
-  void evaluate(const VelocityField& velocity, double t, const Lattice& lattice, const LatticeBox& box,
-                std::size_t first, std::size_t count) {
-    PointsView points{dimension_, count, {}};
-    VectorsView u{dimension_, count, {}};
-    GradientsView slopes{dimension_, count, {}};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k) {
-      std::size_t before = 1;
-      for (std::size_t axis = 0; axis < k; ++axis) before *= box.points[axis];
-      for (std::size_t j = 0; j < count; ++j)
-        place_[k][j] = lattice.coordinate(static_cast<int>(k), box.first[k] + (first + j) / before % box.points[k]);
-      points.axis[k] = place_[k].data();
-      std::fill_n(velocity_[k].begin(), count, 0.0);
-      u.axis[k] = velocity_[k].data();
-      for (std::size_t i = 0; i < static_cast<std::size_t>(dimension_); ++i) {
-        std::fill_n(gradient_[k][i].begin(), count, 0.0);
-        slopes.slope[k][i] = gradient_[k][i].data();
-      }
-    }
-    velocity.add(t, points, u);
-    if (with_gradient_) velocity.add_gradient(t, points, slopes);
-  }
-
-  FlowThere at(std::size_t j) const {
-    FlowThere flow;
-    flow.dimension = dimension_;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k) {
-      flow.velocity[k] = velocity_[k][j];
-      for (std::size_t i = 0; i < static_cast<std::size_t>(dimension_); ++i) flow.gradient[k][i] = gradient_[k][i][j];
-    }
-    return flow;
-  }
-
- private:
-  using Column = std::vector<double>;
-  int dimension_;
-  bool with_gradient_;
-  std::array<Column, max_dimension> place_, velocity_;
-  std::array<std::array<Column, max_dimension>, max_dimension> gradient_;
-};
-
-}  // namespace
 
 bool shows_fields(const OutputSpec& output) { return !fields_beside_density(output).empty(); }
 
 int field_numbers(const OutputSpec& output, int dimension) {
   int numbers = 0;
   for (const GridFieldKind* kind : fields_beside_density(output)) numbers += kind->components(dimension) > 1 ? 3 : 1;
-  return numbers;
+  return numbers + static_cast<int>(particle_fields_on_grid(output).size());
 }
 
 std::vector<DensityDerivatives> derivatives_of(const OutputSpec& output, int dimension) {
@@ -112,7 +59,11 @@ std::vector<FieldOnGrid> fields_on_grid(const OutputSpec& output, const Lattice&
   const double seconds = static_cast<double>(count) * seconds_of_value * velocity.cost() * (with_gradient ? 4 : 1);
   const auto evaluate = [&](FlowOnBlock& flow, std::size_t number) {
     const std::size_t first = number * block, length = std::min(block, count - first);
-    flow.evaluate(velocity, t, lattice, box, first, length);
+    flow.evaluate(velocity, t, length, [&](std::size_t k, std::size_t j) {
+      std::size_t before = 1;
+      for (std::size_t axis = 0; axis < k; ++axis) before *= box.points[axis];
+      return lattice.coordinate(static_cast<int>(k), box.first[k] + (first + j) / before % box.points[k]);
+    });
     for (std::size_t j = 0; j < length; ++j) {
       const FlowThere there = flow.at(j);
       for (const OfFlow& one : of_flow)

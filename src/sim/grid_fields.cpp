@@ -3,6 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "sim/follow/particle_fields.hpp"
 
 namespace gaussdrift {
 
@@ -115,7 +118,11 @@ std::vector<const GridFieldKind*> fields_beside_density(const OutputSpec& output
 template <>
 std::vector<gaussdrift::GridFieldKind>& gaussdrift::base::catalogue<gaussdrift::GridFieldKind>() {
   using namespace gaussdrift;
-  static std::vector<GridFieldKind> all{density(),   gradient(),   laplacian(), velocity(),
-                                        vorticity(), divergence(), stretch()};
+  static std::vector<GridFieldKind> all = [] {
+    std::vector<GridFieldKind> kinds{density(),   gradient(),   laplacian(), velocity(),
+                                     vorticity(), divergence(), stretch()};
+    for (GridFieldKind& kind : particle_field_kinds()) kinds.push_back(std::move(kind));
+    return kinds;
+  }();
   return all;
 }

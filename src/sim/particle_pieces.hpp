@@ -17,8 +17,9 @@ std::size_t pieces_of_particles(std::size_t count, double most);
 
 /// Hands out the particles of all ranks in the order of their ids, cut into pieces of nearly equal numbers, neighbours to
 /// one rank: receive(piece) on the rank that has it. A rank holds one piece at a time. velocity: [j][dimension], of the
-/// particles of this rank. All ranks call it; what a receiver throws ends all of them.
-void hand_out_particles(const Particles& particles, const std::vector<double>& velocity, std::size_t pieces,
-                        base::Communicator& ranks, const std::function<void(const ParticlePiece&)>& receive);
+/// particles of this rank, and so are the fields. All ranks call it; what a receiver throws ends all of them.
+void hand_out_particles(const Particles& particles, const std::vector<double>& velocity,
+                        const std::vector<FieldOnGrid>& fields, std::size_t pieces, base::Communicator& ranks,
+                        const std::function<void(const ParticlePiece&)>& receive);
 
 }  // namespace gaussdrift

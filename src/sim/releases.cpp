@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -189,6 +190,13 @@ Releases::Releases(const Case& spec, const Scene& scene, int threads) : rounding
     puff.id = next;
     next += static_cast<std::int64_t>(puff.count);
   }
+  ids_end_ = next;
+}
+
+double Releases::began(std::int64_t id) const {
+  const auto after = std::upper_bound(puffs_.begin(), puffs_.end(), id,
+                                      [](std::int64_t wanted, const Puff& puff) { return wanted < puff.id; });
+  return after == puffs_.begin() ? 0 : std::prev(after)->time;
 }
 
 void Releases::add_source(const Case& spec, const Scene& scene, std::size_t number, int threads) {

@@ -39,6 +39,11 @@ class Releases {
   /// still ascend. True if some were due, here or elsewhere. All ranks call it with the same times.
   bool release(Particles& particles, double time, const std::function<bool(const Vector& place)>& is_here);
 
+  /// The time at which the particle of this id began; 0 for those of the lattice.
+  double began(std::int64_t id) const;
+  /// Ids of released particles are below it, also of those that are yet to come. Without any: what the lattice has.
+  std::int64_t ids_end() const { return ids_end_; }
+
   /// The sum of the weights released so far, on all ranks.
   double released() const { return sum_.value(); }
 
@@ -68,6 +73,7 @@ class Releases {
   std::vector<Puff> puffs_;                     // by time
   std::vector<std::string> warnings_;
   double rounding_ = 0;  // of times
+  std::int64_t ids_end_ = 0;
   std::uint64_t done_ = 0;
   base::ExactSum sum_;
 };

@@ -17,6 +17,7 @@
 #include "sim/borders/outside.hpp"
 #include "sim/density_pieces.hpp"
 #include "sim/fields_on_grid.hpp"
+#include "sim/follow/particle_fields.hpp"
 #include "sim/grid_fields.hpp"
 #include "sim/particle_pieces.hpp"
 #include "sim/piece_comparison.hpp"
@@ -374,12 +375,16 @@ void Simulation::Parts::show_frame(double time) {
   if (velocity_wanted)
     frame.particle_pieces = pieces_of_particles(place_.particle_count(), case_.output.piece_particles);
   if (frame.particle_pieces > 1) hand_out_pieces(frame, velocity);
-  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() && somebody_needs_particles(frame);
+  const bool elsewhere =
+      ranks_.size() > 1 && !place_.one_tile() && (somebody_needs_particles(frame) || shows_where_particles_began());
   std::pair<Particles, std::vector<double>> all;
   if (elsewhere) all = gathered(particles_, velocity, ranks_);
   frame.particles = elsewhere ? &all.first : &particles_;
   frame.velocity = !velocity_wanted ? nullptr : elsewhere ? &all.second : &velocity;
   frame.density = &density;
+  std::vector<FieldOnGrid> of_particles;
+  on_first([&] { of_particles = add_particle_fields(frame, density); });
+  if (!of_particles.empty()) frame.particle_fields = &of_particles;
   std::vector<double> exact;
   const auto compare = [&] {
     if (reference_) summary_.stages.run("reference", [&] { compare_with_reference(density, frame, exact); });
@@ -421,7 +426,9 @@ bool Simulation::Parts::somebody_needs_particles(const Frame& frame) const {
 }
 
 void Simulation::Parts::hand_out_pieces(const Frame& frame, const std::vector<double>& velocity) {
-  hand_out_particles(particles_, velocity, frame.particle_pieces, ranks_, [&](const ParticlePiece& piece) {
+  std::vector<FieldOnGrid> fields;
+  ranks_.agree_on([&] { fields = particle_fields(case_.output, there(particles_, case_.time.elapsed(frame.time))); });
+  hand_out_particles(particles_, velocity, fields, frame.particle_pieces, ranks_, [&](const ParticlePiece& piece) {
     for (const auto& observer : observers) {
       base::seam();
       summary_.stages.run(observer->name(), [&] { observer->particle_piece(frame, piece); });

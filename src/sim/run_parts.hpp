@@ -1,5 +1,5 @@
-// The parts of a run: all that its three files share. simulation.cpp carries, run_outputs.cpp shows, run_state.cpp keeps
-// and takes up.
+// The parts of a run: all that its files share. simulation.cpp carries, run_outputs.cpp shows, run_follow.cpp
+// follows particles, run_state.cpp keeps and takes up.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +18,8 @@
 #include "reference/reference.hpp"
 #include "sim/carrier.hpp"
 #include "sim/comparison.hpp"
+#include "sim/follow/particle_fields.hpp"
+#include "sim/follow/tracks.hpp"
 #include "sim/placement.hpp"
 #include "sim/releases.hpp"
 #include "sim/scene.hpp"
@@ -108,6 +110,13 @@ class Simulation::Parts {
   ReferenceReport compare_thinned(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
   void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
 
+  // run_follow.cpp: tracks, and fields of the particles.
+  void look_at_tracks(bool landed);
+  void check_particle_fields() const;
+  bool shows_where_particles_began() const;
+  std::vector<FieldOnGrid> add_particle_fields(const Frame& frame, DensityGrid& density) const;
+  ParticlesThere there(const Particles& particles, double time) const;
+
   // run_state.cpp: what the run has come to, for another process that goes on.
   void pass_outputs(base::StateBytes& bytes);
   std::vector<std::string> outputs();
@@ -132,6 +141,7 @@ class Simulation::Parts {
   Scene scene_;
   Carrier carrier_;
   Releases releases_;
+  Tracks tracks_;
   std::vector<double> landings_;
   LatticePieces pieces_;  // of the evaluation lattice
   Particles particles_;

@@ -25,7 +25,8 @@ bool all_finite(const Particles& particles) {
     return std::all_of(numbers.begin(), numbers.end(), [](double number) { return std::isfinite(number); });
   };
   return std::all_of(particles.position.begin(), particles.position.end(), finite) && finite(particles.alpha) &&
-         std::all_of(particles.path.begin(), particles.path.end(), finite) && finite(particles.volume);
+         std::all_of(particles.path.begin(), particles.path.end(), finite) &&
+         std::all_of(particles.kept.begin(), particles.kept.end(), finite) && finite(particles.volume);
 }
 
 void pass(base::StateBytes& bytes, RunState& parts) {
@@ -119,6 +120,8 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes, std::uint64_t format
   if (bytes.reading()) check_leg();
   carrier_.pass_state(bytes, particles_, format > 2 ? landed_on() : std::vector<double>());
   if (releases_.possible()) releases_.pass_state(bytes);
+  if (carrier_.memory().wanted()) carrier_.memory().pass_gone(bytes);
+  if (tracks_.wanted()) tracks_.pass_state(bytes);
   bytes(summary_.transform_choice, summary_.transform_achievable);
   if (format == 1)
     pass_outputs(bytes);
@@ -200,10 +203,11 @@ std::size_t Simulation::Parts::steps_to_end() const {
 
 // Every rank brings some of them, which stay there until they are placed.
 void Simulation::Parts::take_particles(Particles particles) {
-  const std::size_t integrals = particles_.path.size();
+  const std::size_t integrals = particles_.path.size(), kept = particles_.kept.size();
   ranks_.agree_on([&] {
     if (particles.size() == 0) return;
     if (particles.dimension != particles_.dimension || particles.path.size() != integrals ||
+        particles.kept.size() != kept ||
         (particles_.size() > 0 && particles.volume.empty() != particles_.volume.empty()))
       throw misfit("it has other particles");
     if (!all_finite(particles)) throw misfit("a number of its particles is not finite");
@@ -218,6 +222,7 @@ void Simulation::Parts::take_particles(Particles particles) {
     particles_ = {};
     particles_.dimension = scene_.seeding.dimension;
     particles_.path.resize(integrals);
+    particles_.kept.resize(kept);
   }
   particles_.spread = place_.max(particles_.spread);
 }

@@ -71,8 +71,13 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
       scene_(make_scene(case_, threads_)),
       carrier_(case_, scene_, threads_, ranks_, [this](const Vector& place) { return place_.owner_of(place); }),
       releases_(case_, scene_, threads_),
+      tracks_(case_, scene_, threads_, ranks_),
       landings_(landings(case_)),
       pieces_(scene_.evaluation, case_.evaluate.piece_points) {
+  if (tracks_.wanted()) {
+    carrier_.pause_every(tracks_.steps());
+    carrier_.departures().watch([this](std::int64_t id) { return tracks_.follows(id); });
+  }
   if (ranks_.size() == 1) return;
   if (const std::string why = why_not_shared(*scene_.velocity); !why.empty())
     throw InputError(
@@ -112,6 +117,8 @@ void Simulation::Parts::make_ready() {
   Particles sample = place_.sample(particles_, sampled_particles);
   releases_.add_places(sample, sampled_particles);
   carrier_.begin(particles_, sample);
+  if (tracks_.wanted()) tracks_.check_ids(particles_, releases_.ids_end());
+  check_particle_fields();
   velocity_at_particles(0, false);
   check_density_seconds();
   plan_reference();
@@ -154,6 +161,9 @@ void Simulation::Parts::release(double time) {
 bool Simulation::Parts::carry() {
   bool wanted = true;
   const bool arrived = carrier_.carry(particles_, leg_, steps_before_, summary_.stages, [&](const Carrier::Leg& leg) {
+    if (tracks_.wanted()) tracks_.leave(carrier_.departures().left_lately(), carrier_.departures().reasons());
+    if (tracks_.steps() > 0 && leg.now < leg.to && (steps_before_ + leg.steps) % tracks_.steps() == 0)
+      look_at_tracks(false);
     if (!go_on) return true;
     double stepping = summary_.stages.of("transport");
     for (const auto& effect : carrier_.effects()) stepping += summary_.stages.of("effect " + effect->name());
@@ -169,6 +179,7 @@ bool Simulation::Parts::carry() {
                     .outputs_total = case_.output.times.size()});
     return wanted;
   });
+  if (tracks_.wanted()) tracks_.bring_together();
   return arrived && wanted;
 }
 
@@ -179,11 +190,13 @@ RunSummary Simulation::Parts::run() {
   watch_ = base::Stopwatch();
   if (begins) begin();
   stage_ = Stage::ended;  // if something is thrown
+  if (begins) look_at_tracks(true);
   bool wanted = true, shown = true;
   while (wanted && landed_ < landings_.size()) {
     wanted = carry();
     if (leg_.now < leg_.to) break;
     release(leg_.to);
+    look_at_tracks(true);
     if (is_output(leg_.to)) shown = show_or_abandon(leg_.to);
     if (!shown) break;
     if (++landed_ == landings_.size()) break;

@@ -27,7 +27,7 @@ fs::path piece_file(std::size_t number) { return fmt::format("particles_{:04}.ra
 json columns_of(const Particles& particles) {
   json names = json::array();
   for_each_column(particles, [&](std::string_view name, std::size_t number, const auto&) {
-    const bool numbered = name == "position" || name == "path";
+    const bool numbered = name == "position" || name == "path" || name == "kept";
     names.push_back(numbered ? fmt::format("{}_{}", name, number) : std::string(name));
   });
   return names;

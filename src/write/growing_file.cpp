@@ -1,5 +1,6 @@
 #include "write/growing_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <vector>
@@ -10,12 +11,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string beginning_of(const PartFile& file, long size) {
-  std::string text(static_cast<std::size_t>(size), '\0');
-  if (std::fseek(file.stream(), 0, SEEK_SET) != 0 ||
-      std::fread(text.data(), 1, text.size(), file.stream()) != text.size())
-    throw std::system_error(errno ? errno : EIO, std::generic_category());
-  return text;
+[[noreturn]] void fail() { throw std::system_error(errno ? errno : EIO, std::generic_category()); }
+
+// Of a file that may be large.
+void copy_beginning(std::FILE* from, long size, PartFile& to) {
+  constexpr long most = 1 << 20;
+  std::string text;
+  if (std::fseek(from, 0, SEEK_SET) != 0) fail();
+  for (long at = 0; at < size; at += most) {
+    text.resize(static_cast<std::size_t>(std::min(most, size - at)));
+    errno = 0;
+    if (std::fread(text.data(), 1, text.size(), from) != text.size()) fail();
+    to.write_at(at, text);
+  }
 }
 
 }  // namespace
@@ -34,6 +42,23 @@ void GrowingFile::begin(std::string_view body) {
   }
 }
 
+void GrowingFile::take_up(long size) {
+  try {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> old(std::fopen(file_.c_str(), "rb"), std::fclose);
+    if (!old) fail();
+    Twin next{std::make_unique<PartFile>(file_), size};
+    copy_beginning(old.get(), size, *next.file);
+    next.file->write_at(size, end_);
+    next.file->flush();
+    next.file->take_name(file_);
+    seen_ = std::move(next);
+    hidden_ = {};
+    last_.clear();
+  } catch (const std::system_error& error) {
+    fail_to_write(file_, error.code().value());
+  }
+}
+
 void GrowingFile::append(std::string_view piece) {
   if (!seen_.file) return begin(piece);
   try {
@@ -41,8 +66,9 @@ void GrowingFile::append(std::string_view piece) {
     hidden_ = {};
     std::string lacking = last_;
     if (!next.file) {
-      next = {std::make_unique<PartFile>(file_), 0};
-      lacking = beginning_of(*seen_.file, seen_.size);
+      next = {std::make_unique<PartFile>(file_), seen_.size};
+      copy_beginning(seen_.file->stream(), seen_.size, *next.file);
+      lacking.clear();
     }
     lacking += piece;
     next.file->write_at(next.size, lacking + end_);

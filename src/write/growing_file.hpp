@@ -24,6 +24,9 @@ class GrowingFile {
 
   /// Replaces whatever has the name by `body` and the end. Throws FileError; the file is as before then.
   void begin(std::string_view body);
+  /// Goes on with the file of that name behind its first `size` bytes; what follows them is dropped. Throws FileError:
+  /// also where there are fewer. The file is as before then.
+  void take_up(long size);
   /// Puts `piece` behind the body. Throws FileError; the file is as before then, and may be appended to again.
   void append(std::string_view piece);
 

@@ -21,6 +21,7 @@ struct Extent {
   double grid_points = 0;
   bool compared_everywhere = false;  // with the exact density
   double field_numbers = 0;          // of output.fields, a grid point
+  double particle_numbers = 0;       // of output.fields, a particle
   double pieces = 1;                 // of the grid
   double particle_pieces = 1;
 };

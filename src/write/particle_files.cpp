@@ -7,33 +7,41 @@ namespace gaussdrift::write {
 namespace {
 
 // Three coordinates, three components of the velocity, weight, id, and two numbers that make each a cell.
-double bytes(const Extent& extent) { return bytes_as_text(10) * extent.particles + 2500 * extent.particle_pieces; }
+double bytes(const Extent& extent) {
+  return bytes_as_text(10 + extent.particle_numbers) * extent.particles + 2500 * extent.particle_pieces;
+}
 
 // The text. Particles of a piece are brought together before.
 double memory(const Extent& extent) {
   const double all = bytes(extent);
-  return extent.particle_pieces > 1 ? (all + 256 * extent.particles) / extent.particle_pieces : all;
+  return extent.particle_pieces > 1
+             ? (all + (256 + 16 * extent.particle_numbers) * extent.particles) / extent.particle_pieces
+             : all;
 }
 
 }  // namespace
 
 FileKind particle_files() {
-  return {.about = {.name = "particles",
-                    .meaning = "the particles with their weights and velocities",
-                    .by_default = true,
-                    .needs_velocity = true},
-          .ending = ".vtp",
-          .text = [](const std::filesystem::path& file,
-                     const Frame& frame) { return particle_text(file, *frame.particles, *frame.velocity, frame.time); },
-          .particle_piece =
-              [](const std::filesystem::path& file, const Frame& frame, const ParticlePiece& piece) {
-                return particle_text(file, *piece.particles, *piece.velocity, frame.time);
-              },
-          .index = [](const Frame&, const std::vector<std::string>& files) { return particle_index_text(files); },
-          .index_ending = ".pvtp",
-          .bytes = bytes,
-          .memory = memory,
-          .view = [](int) { return std::string("Show(particles, view)\n"); }};
+  return {
+      .about = {.name = "particles",
+                .meaning = "the particles with their weights and velocities",
+                .by_default = true,
+                .needs_velocity = true},
+      .ending = ".vtp",
+      .text =
+          [](const std::filesystem::path& file, const Frame& frame) {
+            return particle_text(file, *frame.particles, *frame.velocity, frame.time, frame.particle_fields);
+          },
+      .particle_piece =
+          [](const std::filesystem::path& file, const Frame& frame, const ParticlePiece& piece) {
+            return particle_text(file, *piece.particles, *piece.velocity, frame.time, piece.fields);
+          },
+      .index = [](const Frame& frame,
+                  const std::vector<std::string>& files) { return particle_index_text(files, frame.particle_fields); },
+      .index_ending = ".pvtp",
+      .bytes = bytes,
+      .memory = memory,
+      .view = [](int) { return std::string("Show(particles, view)\n"); }};
 }
 
 }  // namespace gaussdrift::write

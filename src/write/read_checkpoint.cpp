@@ -53,7 +53,11 @@ Particles columns_in(const json& manifest) {
   const auto paths = count_in(manifest, "paths");
   if (paths > columns.size()) throw std::runtime_error("its columns are wrong");
   particles.path.resize(paths);
-  if (columns.size() > static_cast<std::size_t>(particles.dimension) + 2 + paths) particles.volume.resize(1);
+  particles.kept.resize(static_cast<std::size_t>(std::count_if(columns.begin(), columns.end(), [](const json& name) {
+    return name.is_string() && name.get<std::string>().starts_with("kept_");
+  })));
+  const std::size_t known = static_cast<std::size_t>(particles.dimension) + 2 + paths + particles.kept.size();
+  if (columns.size() > known) particles.volume.resize(1);
   if (columns_of(particles) != columns) throw std::runtime_error("its columns are wrong");
   particles.spread = std::strtod(text_in(manifest, "spread").c_str(), nullptr);
   if (!(particles.spread >= 0 && std::isfinite(particles.spread))) refuse_member("spread", "width");

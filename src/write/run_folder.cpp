@@ -20,6 +20,7 @@
 #include "write/output_files.hpp"
 #include "write/provenance.hpp"
 #include "write/series_table.hpp"
+#include "write/track_files.hpp"
 
 namespace gaussdrift::write {
 
@@ -62,7 +63,10 @@ OwnFiles files_of(const Case& spec, std::size_t particle_pieces) {
   std::vector<std::string> kinds, styles;
   for (const OutputFile& file : spec.output.files) kinds.emplace_back(file.name);
   for (const PictureStyle& style : spec.output.images) styles.emplace_back(style.name);
-  return files_of_run(kinds, styles, spec.output.times.size(), {pieces_of_grid(spec).count(), particle_pieces});
+  OwnFiles files =
+      files_of_run(kinds, styles, spec.output.times.size(), {pieces_of_grid(spec).count(), particle_pieces});
+  for (const std::string& name : track_file_names(spec.output)) files.add(name);
+  return files;
 }
 
 /// Of a version that wrote no list, and no pieces.

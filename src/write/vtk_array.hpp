@@ -71,18 +71,21 @@ void add_array(std::string& text, const ArrayHeading& heading, std::size_t count
   end_array(text, heading, nullptr);
 }
 
-/// `count` vectors; at(j) is an std::array<double, 3>. The range is that of their lengths.
+/// `count` vectors or matrices; at(j) is an std::array<double, 3> or <double, 9>. The range is that of their lengths.
 template <class At>
 void add_vectors(std::string& text, ArrayHeading heading, std::size_t count, const At& at) {
-  heading.attributes = " NumberOfComponents=\"3\"";
+  constexpr std::size_t components = std::tuple_size_v<std::decay_t<decltype(at(std::size_t{0}))>>;
+  static_assert(components == 3 || components == 9);
+  heading.attributes = components == 3 ? " NumberOfComponents=\"3\"" : " NumberOfComponents=\"9\"";
   ValueRange range;
   for (std::size_t j = 0; j < count; ++j) {
-    const std::array<double, 3> v = at(j);
-    range.add(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    double square = 0;
+    for (const double component : at(j)) square += component * component;
+    range.add(square);
   }
   if (count > 0) range = {std::sqrt(range.least), std::sqrt(range.most)};
   begin_array(text, heading, "Float64", range);
-  Base64Numbers numbers(text, 3 * count);
+  Base64Numbers numbers(text, components * count);
   for (std::size_t j = 0; j < count; ++j)
     for (const double component : at(j)) numbers.put(component);
   numbers.end();

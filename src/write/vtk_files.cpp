@@ -91,8 +91,12 @@ std::string beginning_of_image(const Lattice& lattice, const LatticeBox& box, do
 constexpr const char* end_of_image =
     "    </PointData>\n    <CellData>\n    </CellData>\n  </Piece>\n  </ImageData>\n</VTKFile>\n";
 
-/// ParaView knows vectors by their three components.
-std::size_t file_components(int components) { return components == 1 ? 1 : 3; }
+/// ParaView knows vectors by their three components, and matrices by their nine.
+std::size_t file_components(int components) { return components == 1 ? 1 : components <= 3 ? 3 : 9; }
+
+std::string components_text(int components) {
+  return components == 1 ? "" : fmt::format(" NumberOfComponents=\"{}\"", file_components(components));
+}
 
 std::size_t numbers_in(const std::vector<FieldOnGrid>& fields, std::size_t points) {
   std::size_t numbers = 0;
@@ -100,15 +104,30 @@ std::size_t numbers_in(const std::vector<FieldOnGrid>& fields, std::size_t point
   return numbers;
 }
 
-void add_fields(std::string& text, const fs::path& file, const std::vector<FieldOnGrid>& fields, std::size_t points) {
+/// Rows of a matrix of d x d numbers, filled up with 0 to three.
+std::array<double, 9> matrix_of(const double* values, std::size_t components) {
+  const std::size_t d = components == 4 ? 2 : 3;
+  std::array<double, 9> matrix{};
+  for (std::size_t i = 0; i < d; ++i)
+    for (std::size_t k = 0; k < d; ++k) matrix[3 * i + k] = values[i * d + k];
+  return matrix;
+}
+
+void add_fields(std::string& text, const fs::path& file, const std::vector<FieldOnGrid>& fields, std::size_t points,
+                std::size_t indent = 6) {
   for (const FieldOnGrid& field : fields) {
     const auto components = static_cast<std::size_t>(field.components);
     check_size(file, field.name, field.values.size(), points * components);
     if (components == 1) {
-      add_array(text, {6, field.name}, points, [&](std::size_t i) { return field.values[i]; });
+      add_array(text, {indent, field.name}, points, [&](std::size_t i) { return field.values[i]; });
       continue;
     }
-    add_vectors(text, {6, field.name}, points, [&](std::size_t i) {
+    if (components > 3) {
+      add_vectors(text, {indent, field.name}, points,
+                  [&](std::size_t i) { return matrix_of(field.values.data() + i * components, components); });
+      continue;
+    }
+    add_vectors(text, {indent, field.name}, points, [&](std::size_t i) {
       std::array<double, 3> vector{};
       for (std::size_t k = 0; k < components; ++k) vector[k] = field.values[i * components + k];
       return vector;
@@ -178,8 +197,7 @@ std::string density_index_text(const Frame& frame, const std::vector<std::string
     for (const char* name : {"rho_exact", "error"})
       text += fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\"/>\n", name);
   for (const auto& [name, components] : frame.piece_fields)
-    text += fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\"{}/>\n", name,
-                        components > 1 ? " NumberOfComponents=\"3\"" : "");
+    text += fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\"{}/>\n", name, components_text(components));
   text += "    </PPointData>\n";
   for (std::size_t number = 0; number < files.size(); ++number)
     text += fmt::format("    <Piece Extent=\"{}\" Source=\"{}\"/>\n", extent_text(frame.pieces->shown(number)),
@@ -192,13 +210,13 @@ void write_density(const fs::path& file, const DensityGrid& density, double time
 }
 
 std::string particle_text(const fs::path& file, const Particles& particles, const std::vector<double>& velocity,
-                          double time) {
+                          double time, const std::vector<FieldOnGrid>* fields) {
   const std::size_t count = particles.size();
   const int dimension = particles.dimension;
   check_size(file, "id", particles.id.size(), count);
   check_size(file, "velocity", velocity.size(), count * static_cast<std::size_t>(dimension));
 
-  std::string text = beginning("PolyData", 10 * count);
+  std::string text = beginning("PolyData", 10 * count + (fields ? numbers_in(*fields, count) : 0));
   text += "  <PolyData>\n";
   add_time(text, time);
   text += fmt::format(
@@ -213,6 +231,7 @@ std::string particle_text(const fs::path& file, const Particles& particles, cons
       u[static_cast<std::size_t>(k)] = velocity[j * static_cast<std::size_t>(dimension) + static_cast<std::size_t>(k)];
     return u;
   });
+  if (fields) add_fields(text, file, *fields, count, 8);
   text += "      </PointData>\n      <CellData>\n      </CellData>\n      <Points>\n";
   add_vectors(text, {8, "Points"}, count, [&](std::size_t j) {
     std::array<double, 3> x{};
@@ -232,7 +251,7 @@ void write_particles(const fs::path& file, const Particles& particles, const std
   write_text(file, particle_text(file, particles, velocity, time));
 }
 
-std::string particle_index_text(const std::vector<std::string>& files) {
+std::string particle_index_text(const std::vector<std::string>& files, const std::vector<FieldOnGrid>* fields) {
   std::string text =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PPolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
@@ -240,7 +259,11 @@ std::string particle_index_text(const std::vector<std::string>& files) {
       "    <PPointData Scalars=\"alpha\" Vectors=\"u\">\n"
       "      <PDataArray type=\"Int64\" Name=\"id\"/>\n"
       "      <PDataArray type=\"Float64\" Name=\"alpha\"/>\n"
-      "      <PDataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"3\"/>\n"
+      "      <PDataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"3\"/>\n";
+  for (const FieldOnGrid& field : fields ? *fields : std::vector<FieldOnGrid>())
+    text += fmt::format("      <PDataArray type=\"Float64\" Name=\"{}\"{}/>\n", field.name,
+                        components_text(field.components));
+  text +=
       "    </PPointData>\n"
       "    <PPoints>\n      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n    </PPoints>\n";
   for (const std::string& file : files) text += fmt::format("    <Piece Source=\"{}\"/>\n", escaped(file));

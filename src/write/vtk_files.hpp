@@ -26,7 +26,8 @@ void write_particles(const std::filesystem::path& file, const Particles& particl
 std::string density_text(const std::filesystem::path& file, const DensityGrid& density, double time,
                          const std::vector<double>* exact = nullptr);
 std::string particle_text(const std::filesystem::path& file, const Particles& particles,
-                          const std::vector<double>& velocity, double time);
+                          const std::vector<double>& velocity, double time,
+                          const std::vector<FieldOnGrid>* fields = nullptr);
 
 /// Image data with the fields alone.
 std::string fields_text(const std::filesystem::path& file, const Lattice& lattice,
@@ -38,7 +39,8 @@ std::string density_piece_text(const std::filesystem::path& file, const Frame& f
 std::string density_index_text(const Frame& frame, const std::vector<std::string>& files);
 
 /// particles/particles_0000.pvtp: the same of particles, each of which is a particle_text().
-std::string particle_index_text(const std::vector<std::string>& files);
+std::string particle_index_text(const std::vector<std::string>& files,
+                                const std::vector<FieldOnGrid>* fields = nullptr);
 
 /// A ParaView collection, whole after every call. Data are named relative to the folder of the .pvd. Throws FileError.
 class Collection {

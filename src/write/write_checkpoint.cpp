@@ -66,6 +66,7 @@ Particles columns_of_all(const Particles& particles, base::Communicator& ranks) 
   Particles columns;
   columns.dimension = particles.dimension;
   columns.path.resize(particles.path.size());
+  columns.kept.resize(particles.kept.size());
   std::int64_t has_volume = !particles.volume.empty();
   ranks.max(std::span(&has_volume, 1));
   if (has_volume) columns.volume.resize(1);
@@ -103,6 +104,7 @@ std::vector<json> write_shared(const fs::path& slot, const Particles& particles,
   Particles none;
   none.dimension = particles.dimension;
   none.path.resize(particles.path.size());
+  none.kept.resize(particles.kept.size());
   hand_out_by_id(
       particles, before, ranks, none, [&](const std::vector<std::size_t>& chosen) { return pack(particles, chosen); },
       [&](std::size_t number, Particles& piece) {

@@ -72,7 +72,7 @@ Pieces handed_out(const Particles& all, std::size_t pieces, int size) {
            if (static_cast<int>(j) % std::max(1, size - 1) == ranks.rank()) own.push_back(j);
          Particles some = none();
          unpack(pack(all, own), some);
-         hand_out_particles(some, velocities_of(some), pieces, ranks, [&](const ParticlePiece& piece) {
+         hand_out_particles(some, velocities_of(some), {}, pieces, ranks, [&](const ParticlePiece& piece) {
            const std::lock_guard lock(mutex);
            EXPECT_FALSE(seen.contains(piece.number));
            seen[piece.number] = {*piece.particles, *piece.velocity, ranks.rank()};
@@ -120,7 +120,7 @@ TEST(ParticlePieces, AreAsFewAsTheLimitAllows) {
 TEST(ParticlePieces, AFailingReceiverEndsAllRanks) {
   const Particles all = scattered(30);
   const auto ends = ends_on_ranks(3, [&](base::Communicator& ranks) {
-    hand_out_particles(all, velocities_of(all), 4, ranks, [&](const ParticlePiece& piece) {
+    hand_out_particles(all, velocities_of(all), {}, 4, ranks, [&](const ParticlePiece& piece) {
       if (piece.number == 2) throw FileError("the disk is full");
     });
   });

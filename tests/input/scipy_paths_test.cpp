@@ -1,16 +1,22 @@
 // Particles in a velocity on a grid go where an independent program takes them: SciPy, tests/reference/scipy-paths.py.
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "case_text.hpp"
 #include "field/gridded/gridded.hpp"
+#include "gaussdrift/simulation.hpp"
 #include "grid_files.hpp"
 #include "sim/stepper.hpp"
+#include "write/track_files.hpp"
 
 #ifdef HAS_NETCDF
 #include "netcdf_files.hpp"
+#include "read/netcdf/netcdf_file.hpp"
 #endif
 
 namespace gaussdrift::input {
@@ -114,6 +120,68 @@ class ScipyPaths : public GridFile {
     return worst;
   }
 
+  /// The same in the tables of tracks of a run. Points have no weight; the density is elsewhere.
+  double worst_in_tracks(const std::string& name) const {
+    double worst = 0;
+    for (const std::string order : {"linear", "cubic"}) {
+      std::ofstream points(folder_ / "points.csv");
+      points << "x,y\n";
+      std::vector<std::array<double, 2>> ends;
+      std::ifstream table(std::string(REFERENCE_DIR) + "/scipy-paths.csv");
+      for (std::string line; std::getline(table, line);) {
+        if (line.rfind(order + ",", 0) != 0) continue;
+        std::istringstream cells(line.substr(order.size() + 1));
+        std::array<std::string, 4> cell;
+        for (std::string& one : cell) std::getline(cells, one, ',');
+        points << cell[0] << "," << cell[1] << "\n";
+        ends.push_back({std::stod(cell[2]), std::stod(cell[3])});
+      }
+      points.close();
+      const std::string text =
+          case_text({.domain = "min = [0, 0]\nmax = [2, 1]",
+                     .velocity = fmt::format("file = \"{}\"\narrays = [\"u\", \"v\"]\ninterpolation = \"{}\"\n"
+                                             "time_interpolation = \"{}\"",
+                                             (folder_ / name).string(), order, order),
+                     .density = shape_of("wendland", "1, 0.5", "0.2"),
+                     .particles = "per_axis = 11",
+                     .time = std::string("end = 3\nstep = ") + (order == "linear" ? "1e-4" : "1e-3"),
+                     .evaluate = "per_axis = 11",
+                     .reference = not_compared,
+                     .output = "times = [3]\nvtk = []\nimages = []\nreport = \"none\"\n[output.tracks]\nsteps = 7000\n"
+                               "points = \"points.csv\"\nfiles = [\"netcdf\"]"});
+      const Case spec = parse_case(text, folder_ / "scene.toml").spec;
+      Simulation simulation(spec, 1);
+      simulation.observe(write::track_writer(folder_.path(), spec));
+      simulation.run();
+      worst = std::max(worst, farthest(folder_ / "tracks.csv", ends));
+#ifdef HAS_NETCDF  // the library reads what is written without it
+      const read::NetcdfFile file(folder_ / "tracks.nc");
+      const std::vector<double> x = file.read_all(*file.find("x")), id = file.read_all(*file.find("trajectory"));
+      EXPECT_EQ(id, (std::vector<double>{-5, -4, -3, -2, -1}));
+      EXPECT_LT(std::abs(x.back() - ends.front()[0]), 1e-8);
+#endif
+    }
+    return worst;
+  }
+
+  /// Of the last row of each track from where it should be.
+  static double farthest(const std::filesystem::path& tracks, const std::vector<std::array<double, 2>>& ends) {
+    double worst = 0;
+    std::size_t arrived = 0;
+    std::ifstream rows(tracks);
+    for (std::string row; std::getline(rows, row);) {
+      std::istringstream cells(row);
+      std::array<std::string, 4> cell;
+      for (std::string& one : cell) std::getline(cells, one, ',');
+      if (cell[1] != "3") continue;
+      const auto& end = ends.at(static_cast<std::size_t>(-std::stoi(cell[0])) - 1);
+      worst = std::max(worst, std::hypot(std::stod(cell[2]) - end[0], std::stod(cell[3]) - end[1]));
+      ++arrived;
+    }
+    EXPECT_EQ(arrived, 5u);
+    return worst;
+  }
+
   const std::vector<double> times_{0.0, 0.5, 1.0, 1.75, 2.0, 3.0};
   std::vector<double> x_, y_;
 };
@@ -121,6 +189,7 @@ class ScipyPaths : public GridFile {
 TEST_F(ScipyPaths, are_those_of_a_series_of_paraview) {
   write_pvd();
   EXPECT_LT(worst("wind.pvd"), 1e-8);
+  EXPECT_LT(worst_in_tracks("wind.pvd"), 1e-8);
 }
 
 #ifdef HAS_NETCDF
@@ -128,6 +197,7 @@ TEST_F(ScipyPaths, are_those_of_netcdf_held_and_read_on_the_way) {
   write_netcdf();
   EXPECT_LT(worst("wind.nc"), 1e-8);
   EXPECT_LT(worst("wind.nc", 1), 1e-8);
+  EXPECT_LT(worst_in_tracks("wind.nc"), 1e-8);
 }
 #endif
 

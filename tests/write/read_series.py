@@ -45,6 +45,11 @@ def show_data(data):
                   numbers(c for i in range(points.GetNumberOfPoints()) for c in points.GetPoint(i)))
         print("vertices", numbers(data.GetCell(c).GetPointId(0) for c in range(data.GetNumberOfVerts())))
         print("single", all(data.GetCell(c).GetNumberOfPoints() == 1 for c in range(data.GetNumberOfVerts())))
+        for i in range(data.GetNumberOfLines()):
+            cell = data.GetCell(data.GetNumberOfVerts() + i)
+            print("line", numbers(cell.GetPointId(p) for p in range(cell.GetNumberOfPoints())))
+        for i in range(data.GetCellData().GetNumberOfArrays()):
+            show_array("cells", data.GetCellData().GetArray(i))
     attributes = data.GetPointData()
     print("scalars", attributes.GetScalars().GetName() if attributes.GetScalars() else None)
     for i in range(attributes.GetNumberOfArrays()):

@@ -1,5 +1,6 @@
 // The files as others read them: with VTK's readers from Python, which is what ParaView's scripts use.
 #include "write/vtk_files.hpp"
+#include "write/python_with_vtk.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,26 +24,6 @@
 
 namespace gaussdrift::write {
 namespace {
-
-/// Debian's Python has VTK; one found earlier in PATH may not.
-std::string python_with_vtk() {
-  for (const std::string python : {"/usr/bin/python3", "python3"})
-    if (std::system((python + " -c 'import vtkmodules.vtkIOXML' 2>/dev/null").c_str()) == 0) return python;
-  return "";
-}
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> buffer{};
-  while (const std::size_t length = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    text.append(buffer.data(), length);
-  return pclose(pipe) == 0 ? text : "failed: " + text;
-}
-
-std::string read_series(const std::string& python, const std::filesystem::path& pvd) {
-  return output_of(python + " " SOURCE_DIR "/tests/write/read_series.py '" + pvd.string() + "' 2>&1");
-}
 
 template <class Value>
 std::string numbers(const std::vector<Value>& values) {

@@ -105,6 +105,22 @@ void refuse_fields(Reader& in, const NamedEffect& effect, const OutputSpec& outp
           "leave it out; the particle files have the whole velocity at the particles");
 }
 
+/// Fields of particles are of those that stay who they are.
+void refuse_particle_fields(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
+  const Entry* fields = in.find("output", "fields");
+  if (!fields) return;
+  const EffectTraits& traits = effect.traits;
+  for (const auto* trait : {&traits.adds_particles, &traits.replaces_particles})
+    if (trait->of(values, spec.domain.dimension))
+      for (const GridField& field : spec.output.fields)
+        if (field.is_of_particles)
+          in.diagnostics.error(
+              fields->value.place,
+              fmt::format("\"{}\" belongs to particles of the start, and with [{}] {}", field.name, table_of(effect),
+                          trait->words),
+              traits.diffuses ? "leave it out; method = \"core-spreading\" goes with it" : "leave it out");
+}
+
 /// Effects that know nothing of the edges of the domain.
 void refuse_edges(Reader& in, const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
   const Entry* edges = in.find("domain", "edges");
@@ -191,6 +207,7 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
       refuse_sources(in, *effect, values, spec);
       refuse_coast(in, *effect, values, spec);
       refuse_backwards(in, *effect, values, spec);
+      refuse_particle_fields(in, *effect, values, spec);
     }
     if (!effect->problems || !is_complete(*effect, values)) continue;
     for (const Complaint& problem : effect->problems(values, spec)) {

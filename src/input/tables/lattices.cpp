@@ -66,4 +66,12 @@ std::optional<Lattice> make_checked_lattice(Reader& in, const std::string& what,
   return lattice;
 }
 
+bool is_in_domain(const Reader& in, const double* place) {
+  for (int k = 0; k < in.facts.dimension; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (!(place[axis] >= in.facts.box.min[axis] && place[axis] <= in.facts.box.max[axis])) return false;
+  }
+  return true;
+}
+
 }  // namespace gaussdrift::input

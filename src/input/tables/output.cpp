@@ -82,7 +82,9 @@ Section output_section() {
         .type = Type::choices,
         .fallback = kept("rho"),
         .choices = base::names_of(grid_fields()),
-        .meaning = "what the density files show on the grid beside the density. "
+        .meaning = "what the density files show on the grid beside the density. Fields of the particles are shown by "
+                   "the files of the particles, and those that are one number by the density files too: at each "
+                   "point that of the particle that began nearest. "
                    "Derivatives of the density are summed together with it, each to `evaluate.tolerance` relative "
                    "to its own largest value"},
        {.name = "report",
@@ -208,6 +210,25 @@ void check_fields_of_images(Reader& in, const OutputSpec& output) {
   }
 }
 
+/// Fields that no file shows.
+void check_files_of_fields(Reader& in, const OutputSpec& output) {
+  const Entry* fields = in.find("output", "fields");
+  if (!fields) return;
+  const bool densities = base::has_one(output.files, &OutputFile::shows_density),
+             particles = base::has_one(output.files, &OutputFile::needs_velocity);
+  for (const GridField& field : output.fields) {
+    if (densities && field.is_on_grid) continue;
+    if (particles && field.is_of_particles) continue;
+    in.diagnostics.warning(
+        fields->value.place,
+        field.is_of_particles
+            ? fmt::format("\"{}\" is shown by the files of the particles, and none are written", field.name)
+            : "output.fields are shown by density files, and none are written",
+        fmt::format("have \"{}\" in output.vtk", field.is_of_particles ? "particles" : "density"));
+    return;  // one is enough to be told
+  }
+}
+
 }  // namespace
 
 void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
@@ -230,10 +251,7 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   if (const auto most = in.number("output", "piece_particles")) output.piece_particles = most->number;
   if (in.facts.dimension) check_images(in, output.images);
   check_fields_of_images(in, output);
-  const Entry* fields = in.find("output", "fields");
-  if (fields && !base::has_one(output.files, &OutputFile::shows_density))
-    in.diagnostics.warning(fields->value.place, "output.fields are shown by density files, and none are written",
-                           "have \"density\" in output.vtk");
+  check_files_of_fields(in, output);
 }
 
 void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time) {

@@ -75,14 +75,6 @@ namespace {
 
 using Kind = Value::Kind;
 
-bool is_in_domain(const Reader& in, const double* place) {
-  for (int k = 0; k < in.facts.dimension; ++k) {
-    const auto axis = static_cast<std::size_t>(k);
-    if (!(place[axis] >= in.facts.box.min[axis] && place[axis] <= in.facts.box.max[axis])) return false;
-  }
-  return true;
-}
-
 constexpr const char* where_sources_are =
     "sources lie in the domain, as the density at the start does; enlarge the domain";
 

@@ -58,6 +58,11 @@ Section output_section();
 void read_output(Reader& in, OutputSpec& output, const TimeSpec& time);
 void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time);
 
+Section tracks_section();
+/// After the effects: some do not go with tracks.
+void read_tracks(Reader& in, Case& spec);
+void write_tracks(Writer& out, const OutputSpec& output);
+
 Section reference_section();
 void read_reference(Reader& in, Case& spec);
 void write_reference(Writer& out, const ReferenceSpec& reference);
@@ -102,6 +107,9 @@ void write_part(Writer& out, const SamplesVelocitySpec& spec);
 
 constexpr double largest_lattice = 2147483648.0;  // 2^31 points: 16 GiB a column
 constexpr double largest_grid = 1099511627776.0;  // 2^40 points: of the evaluation lattice, which is held in pieces
+
+/// Only in a domain that is valid.
+bool is_in_domain(const Reader& in, const double* place);
 
 /// Only for numbers that passed their range; larger ones have been complained about.
 int to_int(const Number& count);

@@ -51,6 +51,9 @@ bool Departures::take(Particles& particles, double time) {
     Count& count = own_[static_cast<std::size_t>(reason[j])];
     ++count.particles;
     count.mass.add(particles.alpha[j]);
+    if (see_) see_(particles, j);
+    if (is_watched_ && is_watched_(particles.id[j]))
+      lately_.push_back({particles.id[j], time, particles.view().at(j), reason[j]});
   }
   if (staying.size() == particles.size()) return false;
   for_each_column(particles, [&](std::string_view, std::size_t, auto& column) {
@@ -81,6 +84,7 @@ void Departures::bring_together(base::Communicator& ranks) {
 }
 
 void Departures::pass_state(base::StateBytes& bytes) {
+  if (bytes.reading()) lately_.clear();  // in steps that were abandoned
   bytes(own_, together_);
   const auto wrong = [](const Count& count) { return count.particles < 0; };
   if (own_.size() != reasons_.size() || together_.size() != reasons_.size() ||

@@ -12,8 +12,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -55,6 +57,22 @@ class Departures {
   /// weights must be those of that time. True if any did.
   bool take(Particles& particles, double time);
 
+  /// From now on those whose id `is_watched` are told by left_lately() as they leave.
+  void watch(std::function<bool(std::int64_t id)> is_watched) { is_watched_ = std::move(is_watched); }
+  /// `see` is called with each particle that leaves, before it is taken out.
+  void on_leaving(std::function<void(const Particles& particles, std::size_t j)> see) { see_ = std::move(see); }
+
+  /// Who has left.
+  struct Leaver {
+    std::int64_t id = 0;
+    double time = 0;
+    Vector place{};
+    int reason = 0;  // of reasons()
+  };
+  /// Those that are watched and have left on this rank since it was asked last.
+  std::vector<Leaver> left_lately() { return std::exchange(lately_, {}); }
+  const std::vector<std::string>& reasons() const { return reasons_; }
+
   /// What has left so far, by reason: on all ranks, as of the last bring_together().
   std::vector<Departed> so_far() const;
 
@@ -71,8 +89,11 @@ class Departures {
   };
   std::vector<std::unique_ptr<WayOut>> ways_;
   std::vector<std::string> reasons_;  // of all ways
-  std::vector<Count> own_;            // of this rank, since they were brought together
-  std::vector<Count> together_;       // of all ranks until then; the same on each
+  std::function<bool(std::int64_t id)> is_watched_;
+  std::function<void(const Particles& particles, std::size_t j)> see_;
+  std::vector<Leaver> lately_;
+  std::vector<Count> own_;       // of this rank, since they were brought together
+  std::vector<Count> together_;  // of all ranks until then; the same on each
 };
 
 }  // namespace gaussdrift

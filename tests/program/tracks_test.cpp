@@ -1,0 +1,59 @@
+// Tracks of a run, as a user meets them: their files, and the same bytes after a stop.
+#include <gtest/gtest.h>
+
+#include "case_text.hpp"
+#include "program/program.hpp"
+#include "program/same_run.hpp"
+
+namespace gaussdrift {
+namespace {
+
+const std::string drifting = case_text(
+    {.domain = "min = [-1, -1]\nmax = [1, 1]\nedges = [\"open\", \"open\"]",
+     .velocity = velocity_of({"0.5-y", "x"}),
+     .density = shape_of("wendland", "0.5, 0", "0.25"),
+     .particles = "per_axis = 60",
+     .time = "end = 4\nstep = 0.0005",
+     .evaluate = "per_axis = 40",
+     .output = "times = [0, 1.5, 3, 4]\nimages = []\nreport = \"none\"\ncheckpoint = 0.02\n"
+               "fields = [\"rho\", \"age\", \"ftle\", \"flow_map_gradient\", \"residence_time\", \"exit_face\"]\n"
+               "[output.tracks]\nevery = 5\nsteps = 200\nfields = [\"velocity\", \"rho\"]\npoints = \"buoys.csv\""});
+
+TEST(TracksOfARun, AreWholeAfterAStop) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "drifting.toml") << drifting;
+  std::ofstream(folder / "buoys.csv") << "y,x\n0.25,-0.5\n-0.75,-0.9\n";
+  const Outcome whole = gaussdrift_in(folder, "run drifting.toml --out whole");
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  Outcome part = gaussdrift_in(folder, "run drifting.toml --out part --stop-after 0.1");
+  int stops = 0;
+  for (; part.exit_code == 7 && stops < 100; ++stops) {
+    EXPECT_FALSE(fs::exists(folder / "part/tracks.vtp"));
+    part = gaussdrift_in(folder, "resume part --stop-after 0.3");
+  }
+  EXPECT_GE(stops, 1);
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  expect_same(folder / "whole", folder / "part");
+
+  const std::string table = read_file(folder / "whole/tracks.csv");
+  EXPECT_NE(table.find("\n-1,0,-0.5,0.25,"), std::string::npos);
+  EXPECT_NE(table.find(",x_max\n"), std::string::npos);
+  const std::string particles = read_file(folder / "whole/particles/particles_0003.vtp");
+  for (const char* array : {"age\"", "ftle\"", "flow_map_gradient\" NumberOfComponents=\"9\"", "exit_face\""})
+    EXPECT_NE(particles.find(std::string("Name=\"") + array), std::string::npos) << array;
+  const std::string density = read_file(folder / "whole/density/density_0003.vti");
+  EXPECT_NE(density.find("Name=\"ftle\""), std::string::npos);
+  EXPECT_EQ(density.find("Name=\"age\""), std::string::npos);
+
+  // Another run in the same folder takes the files of this one away.
+  const Outcome again = gaussdrift_in(folder, "run drifting.toml --out whole --force --set 'output.tracks.files=[]'");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_FALSE(fs::exists(folder / "whole/tracks.vtp"));
+  // What is followed belongs to the past of a run.
+  const Outcome other = gaussdrift_in(folder, "resume whole --set output.tracks.every=7 --until 5");
+  EXPECT_EQ(other.exit_code, 3) << other.err;
+  EXPECT_NE(other.err.find("output.tracks.every"), std::string::npos) << other.err;
+}
+
+}  // namespace
+}  // namespace gaussdrift
