@@ -14,6 +14,7 @@
 
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "message_of.hpp"
 #include "ranks_of_threads.hpp"
 #include "same_particles.hpp"
@@ -118,19 +119,21 @@ TEST(Ftle, InSpace) {
   for (std::size_t j = 0; j < 26; ++j) EXPECT_NEAR(exponents[j], std::log(largest) / 2, 1e-14);
 }
 
-std::vector<std::array<double, 4>> by_scipy() {
+/// Place, exponent by differences, exponent by the variational equations.
+std::vector<std::array<double, 4>> by_scipy(const std::string& flow) {
   std::vector<std::array<double, 4>> rows;
   std::ifstream table(std::string(REFERENCE_DIR) + "/scipy-ftle.csv");
   for (std::string line; std::getline(table, line);) {
-    if (line.empty() || !std::isdigit(static_cast<unsigned char>(line[0]))) continue;
+    if (line.rfind(flow + ",", 0) != 0) continue;
     std::array<double, 4> row{};
-    std::size_t at = 0;
+    std::size_t at = flow.size() + 1;
     for (double& number : row) {
       number = std::stod(line.substr(at));
       at = line.find(',', at) + 1;
     }
     rows.push_back(row);
   }
+  EXPECT_EQ(rows.size(), 7u);
   return rows;
 }
 
@@ -141,8 +144,7 @@ Case gyre(int per_axis) {
 }
 
 TEST(Ftle, OfTheDoubleGyreIsThatOfScipy) {
-  const auto rows = by_scipy();
-  ASSERT_EQ(rows.size(), 7u);
+  const auto rows = by_scipy("gyre");
   std::vector<double> worst;  // against the variational equations
   for (const int per_axis : {41, 81, 161}) {
     const Seen seen = last_of(gyre(per_axis));
@@ -161,6 +163,20 @@ TEST(Ftle, OfTheDoubleGyreIsThatOfScipy) {
   // Differences over 2h are of second order.
   EXPECT_NEAR(std::log2(worst[1] / worst[2]), 2, 0.2) << worst[1] << ", " << worst[2];
   EXPECT_LT(worst[2], 1e-3);
+}
+
+// cases/jet.toml on a lattice as wide as that of SciPy's differences.
+TEST(Ftle, OfTheCaseOfTheJetIsThatOfScipy) {
+  Case spec = read_case(std::string(SOURCE_DIR) + "/cases/jet.toml",
+                        {"particles.per_axis=201", "evaluate.per_axis=201", "time.step=0.01", "output.times=[1, 5]"})
+                  .spec;
+  spec.reference = {}, spec.checks.clear();
+  const Seen seen = last_of(spec);
+  ASSERT_EQ(seen.lattice.points[0], 201u);
+  for (const auto& [x, y, differences, variations] : by_scipy("jet")) {
+    const auto point = static_cast<std::size_t>(std::lround((y + 3) / 0.1) * 201 + std::lround(x / 0.1));
+    EXPECT_NEAR(seen.on_grid.at("ftle").values[point], differences, 1e-8) << x << ", " << y;
+  }
 }
 
 TEST(Ftle, KnowsNeighboursOverPeriodicEdges) {

@@ -140,7 +140,7 @@ class ScipyPaths : public GridFile {
       const std::string text =
           case_text({.domain = "min = [0, 0]\nmax = [2, 1]",
                      .velocity = fmt::format("file = \"{}\"\narrays = [\"u\", \"v\"]\ninterpolation = \"{}\"\n"
-                                             "time_interpolation = \"{}\"",
+                                             "time_interpolation = \"{}\"\noutside = \"clamp\"",
                                              (folder_ / name).string(), order, order),
                      .density = shape_of("wendland", "1, 0.5", "0.2"),
                      .particles = "per_axis = 11",

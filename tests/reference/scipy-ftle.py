@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes scipy-ftle.csv: finite-time Lyapunov exponents of the double gyre, by SciPy.
+"""Writes scipy-ftle.csv: finite-time Lyapunov exponents of the double gyre and of a Bickley jet, by SciPy.
 
 Twice at each place: from the ends of four paths that begin h to each side, as a run has them from its lattice, and from
 the variational equations F' = grad u F. tests/effect/flow_map_test.cpp compares.
@@ -11,13 +11,13 @@ import numpy
 import scipy
 from scipy.integrate import solve_ivp
 
-amplitude, sway, period = 0.1, 0.25, 10.0
 end = 5.0
 exact = dict(method="DOP853", rtol=1e-12, atol=1e-13)
 
 
-def flow(t, x, y):
+def gyre(t, x, y):
     """The velocity and its gradient."""
+    amplitude, sway, period = 0.1, 0.25, 10.0
     a = sway * numpy.sin(2 * numpy.pi * t / period)
     f, slope, bend = a * x * x + (1 - 2 * a) * x, 2 * a * x + 1 - 2 * a, 2 * a
     s, c = numpy.sin(numpy.pi * f), numpy.cos(numpy.pi * f)
@@ -29,7 +29,22 @@ def flow(t, x, y):
     return u, gradient
 
 
-def end_of_path(x, y):
+def jet(t, x, y):
+    """The same for cases/jet.toml: psi = U L tanh(y/L) - U L waves / cosh(y/L)^2."""
+    speed, width, wave = 5.4138, 1.77, 2 * numpy.pi / 20
+    modes = ((0.1, 2 * wave, 0.205 * speed), (0.3, 3 * wave, 0.461 * speed))
+    waves, slope, bend = (sum(a * k**n * part(k * (x - c * t)) for a, k, c in modes)
+                          for n, part in ((0, numpy.cos), (1, lambda z: -numpy.sin(z)), (2, lambda z: -numpy.cos(z))))
+    th, sech2 = numpy.tanh(y / width), numpy.cosh(y / width)**-2
+    scale = speed * width
+    d1, d2 = -2 * th * sech2 / width, (4 * th * th * sech2 - 2 * sech2 * sech2) / width**2  # of sech2
+    u = numpy.array([speed * sech2 - scale * waves * d1, scale * slope * sech2])
+    cross = scale * slope * d1
+    gradient = numpy.array([[-cross, speed * d1 - scale * waves * d2], [scale * bend * sech2, cross]])
+    return u, gradient
+
+
+def end_of_path(flow, x, y):
     path = solve_ivp(lambda t, z: flow(t, z[0], z[1])[0], (0, end), (x, y), **exact)
     assert path.success
     return path.y[:, -1]
@@ -39,12 +54,12 @@ def exponent(gradient):
     return numpy.log(numpy.linalg.svd(gradient, compute_uv=False)[0]) / end
 
 
-def by_differences(x, y, h):
-    along = [(end_of_path(x + dx, y + dy) - end_of_path(x - dx, y - dy)) / (2 * h) for dx, dy in ((h, 0), (0, h))]
+def by_differences(flow, x, y, h):
+    along = [(end_of_path(flow, x + dx, y + dy) - end_of_path(flow, x - dx, y - dy)) / (2 * h) for dx, dy in ((h, 0), (0, h))]
     return exponent(numpy.array(along).T)
 
 
-def by_variations(x, y):
+def by_variations(flow, x, y):
     def rates(t, z):
         u, gradient = flow(t, z[0], z[1])
         return numpy.concatenate([u, (gradient @ z[2:].reshape(2, 2)).ravel()])
@@ -54,9 +69,11 @@ def by_variations(x, y):
     return exponent(path.y[2:, -1].reshape(2, 2))
 
 
-h = 0.05
-lines = [f"# by SciPy {scipy.__version__}, tests/reference/scipy-ftle.py: the double gyre from t = 0 to {end:g}, h = {h:g}",
-         "x,y,differences,variations"]
-for x, y in ((0.2, 0.3), (0.5, 0.5), (0.95, 0.4), (1.05, 0.6), (1.0, 0.15), (1.4, 0.8), (1.75, 0.5)):
-    lines.append(f"{x},{y},{by_differences(x, y, h):.15g},{by_variations(x, y):.15g}")
+lines = [f"# by SciPy {scipy.__version__}, tests/reference/scipy-ftle.py: from t = 0 to {end:g}; h = 0.05 in the gyre, 0.1 in the jet",
+         "flow,x,y,differences,variations"]
+for flow, h, places in (
+        (gyre, 0.05, ((0.2, 0.3), (0.5, 0.5), (0.95, 0.4), (1.05, 0.6), (1.0, 0.15), (1.4, 0.8), (1.75, 0.5))),
+        (jet, 0.1, ((2.0, 0.0), (5.0, 1.2), (9.1, -1.5), (12.0, 2.0), (15.5, -0.6), (0.0, 1.7), (19.9, -2.2)))):
+    for x, y in places:
+        lines.append(f"{flow.__name__},{x},{y},{by_differences(flow, x, y, h):.15g},{by_variations(flow, x, y):.15g}")
 pathlib.Path(__file__).with_name("scipy-ftle.csv").write_text("\n".join(lines) + "\n")
