@@ -34,7 +34,8 @@ void Simulation::Parts::look_at_tracks(bool landed) {
 }
 
 ParticlesThere Simulation::Parts::there(const Particles& particles, double time) const {
-  return {particles, case_.domain, scene_.seeding, time, case_.time, [this](std::int64_t id) { return releases_.began(id); },
+  return {particles, case_.domain, scene_.seeding,
+          time,      case_.time,   [this](std::int64_t id) { return releases_.began(id); },
           threads_};
 }
 
@@ -46,13 +47,24 @@ bool Simulation::Parts::shows_where_particles_began() const {
 // Of the particles of a frame; density files get those that belong to the places where particles began.
 std::vector<FieldOnGrid> Simulation::Parts::add_particle_fields(const Frame& frame, DensityGrid& density) const {
   if (particle_fields_of(case_.output).empty()) return {};
-  const ParticlesThere here = there(*frame.particles, case_.time.elapsed(frame.time));
+  const ParticlesThere here = there(*frame.particles, frame.elapsed);
   std::vector<FieldOnGrid> fields = particle_fields(case_.output, here);
   if (shows_where_particles_began())
     for (FieldOnGrid& field :
          where_particles_began(case_.output, fields, carrier_.memory().gone(), here, scene_.evaluation))
       density.fields.push_back(std::move(field));
   return fields;
+}
+
+void Simulation::Parts::hand_out_pieces(const Frame& frame, const std::vector<double>& velocity) {
+  std::vector<FieldOnGrid> fields;
+  ranks_.agree_on([&] { fields = particle_fields(case_.output, there(particles_, frame.elapsed)); });
+  hand_out_particles(particles_, velocity, fields, frame.particle_pieces, ranks_, [&](const ParticlePiece& piece) {
+    for (const auto& observer : observers) {
+      base::seam();
+      summary_.stages.run(observer->name(), [&] { observer->particle_piece(frame, piece); });
+    }
+  });
 }
 
 void Simulation::Parts::check_particle_fields() const {

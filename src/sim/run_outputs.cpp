@@ -425,17 +425,6 @@ bool Simulation::Parts::somebody_needs_particles(const Frame& frame) const {
   return needed != 0;
 }
 
-void Simulation::Parts::hand_out_pieces(const Frame& frame, const std::vector<double>& velocity) {
-  std::vector<FieldOnGrid> fields;
-  ranks_.agree_on([&] { fields = particle_fields(case_.output, there(particles_, case_.time.elapsed(frame.time))); });
-  hand_out_particles(particles_, velocity, fields, frame.particle_pieces, ranks_, [&](const ParticlePiece& piece) {
-    for (const auto& observer : observers) {
-      base::seam();
-      summary_.stages.run(observer->name(), [&] { observer->particle_piece(frame, piece); });
-    }
-  });
-}
-
 // On the whole grid, or on a sample of it. The density is on rank 0, and so is what comes out.
 void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame& frame, std::vector<double>& exact) {
   ReferenceReport traced;

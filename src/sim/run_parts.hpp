@@ -95,7 +95,6 @@ class Simulation::Parts {
   void forget_output();
   void show_frame(double time);
   bool somebody_needs_particles(const Frame& frame) const;
-  void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
   Counted counted() const {
     return {case_.domain.counts_inside() || carrier_.departures().possible(), releases_.possible(),
             case_.domain.coast == AtCoast::stop};
@@ -114,6 +113,7 @@ class Simulation::Parts {
   void look_at_tracks(bool landed);
   void check_particle_fields() const;
   bool shows_where_particles_began() const;
+  void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
   std::vector<FieldOnGrid> add_particle_fields(const Frame& frame, DensityGrid& density) const;
   ParticlesThere there(const Particles& particles, double time) const;
 

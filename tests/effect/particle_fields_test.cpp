@@ -165,6 +165,23 @@ TEST(Ftle, OfTheDoubleGyreIsThatOfScipy) {
   EXPECT_LT(worst[2], 1e-3);
 }
 
+// Backwards it is of the flow map back, and times are those of the clock.
+TEST(Ftle, OfARunBackwardsIsThatOfTheWayBack) {
+  const Seen seen = last_of(scene_of(
+      with(full, {"velocity.u=[\"0.8*x*t\", \"-0.8*y*t\"]", "particles.per_axis=9", "time={start=2,end=1,step=0.01}",
+                  "output.times=[1]", fields("\"ftle\", \"exit_time\", \"age\"")})));
+  EXPECT_EQ(seen.time, 1);
+  for (std::size_t j = 0; j < 81; ++j) {
+    // The integral of 0.8 t from 1 to 2 is 1.2: y grows by exp(1.2) on the way back, x falls.
+    EXPECT_NEAR(seen.of("ftle")[j], 1.2, 1e-9);
+    EXPECT_EQ(seen.of("age")[j], 1);
+    const double y0 = std::abs(-1 + 0.25 * static_cast<double>(seen.particles.id[j] / 9));
+    const double left = std::sqrt(4 - std::log(1 / y0) / 0.4);  // exp(0.4 (4 - t^2)) y0 = 1
+    if (y0 > 0.9 || y0 == 0 || std::log(1 / y0) > 1.2) continue;
+    EXPECT_NEAR(seen.of("exit_time")[j], left, 1e-4);
+  }
+}
+
 // cases/jet.toml on a lattice as wide as that of SciPy's differences.
 TEST(Ftle, OfTheCaseOfTheJetIsThatOfScipy) {
   Case spec = read_case(std::string(SOURCE_DIR) + "/cases/jet.toml",

@@ -201,6 +201,22 @@ TEST_F(Tracks, EndWhereParticlesLeaveAndBeginWhereTheyAreReleased) {
   EXPECT_EQ(told.track(5).back().end, "");
 }
 
+TEST_F(Tracks, OfARunBackwardsTellTheClockAndTheFlow) {
+  const Told told = told_by(scene_of({"velocity.u=[\"t\", \"0\"]", "time={start=2,end=1.5,step=0.1}",
+                                      "output.times=[1.5]", "output.tracks.every=10", "output.tracks.steps=2",
+                                      "output.tracks.fields=[\"velocity\"]", points("0.5,0\n")}));
+  for (const std::int64_t id : told.ids()) {
+    const auto rows = told.track(id);
+    ASSERT_EQ(rows.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double t = std::max(1.5, 2 - 0.2 * static_cast<double>(i));
+      EXPECT_NEAR(rows[i].time, t, 1e-15);
+      EXPECT_NEAR(rows[i].place[0], rows[0].place[0] + (t * t - 4) / 2, 1e-14);
+      EXPECT_NEAR(rows[i].values[0], t, 1e-15);
+    }
+  }
+}
+
 TEST_F(Tracks, StayInPeriodicDomains) {
   const Case spec = scene_of({edges("\"periodic\", \"periodic\""), "velocity.u=[\"2\", \"0\"]", "particles.per_axis=41",
                               "time={end=1,step=0.01}", "output.times=[1]", "density={expression=\"1\"}",

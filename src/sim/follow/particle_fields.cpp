@@ -36,12 +36,13 @@ GridFieldKind age() {
 }
 
 GridFieldKind residence_time() {
-  return {.about = {.name = "residence_time",
-                    .meaning = "of the particles: how long they have been inside the domain",
-                    .is_of_particles = true},
-          .of_particles = {.values = [](const ParticlesThere& there) { return remembered(there, Kept::residence); },
-                           .of_gone = [](const double* kept, const TimeSpec&) { return kept_of(kept, Kept::residence); },
-                           .is_remembered = true}};
+  return {
+      .about = {.name = "residence_time",
+                .meaning = "of the particles: how long they have been inside the domain",
+                .is_of_particles = true},
+      .of_particles = {.values = [](const ParticlesThere& there) { return remembered(there, Kept::residence); },
+                       .of_gone = [](const double* kept, const TimeSpec&) { return kept_of(kept, Kept::residence); },
+                       .is_remembered = true}};
 }
 
 GridFieldKind exit_time() {
@@ -66,13 +67,14 @@ GridFieldKind exit_time() {
 }
 
 GridFieldKind exit_face() {
-  return {.about = {.name = "exit_face",
-                    .meaning = "of the particles: the face through which they left the domain first. 0 is none yet, 1 "
-                               "and 2 are the lower and the upper one of x, 3 and 4 of y, 5 and 6 of z",
-                    .is_of_particles = true},
-          .of_particles = {.values = [](const ParticlesThere& there) { return remembered(there, Kept::exit_face); },
-                           .of_gone = [](const double* kept, const TimeSpec&) { return kept_of(kept, Kept::exit_face); },
-                           .is_remembered = true}};
+  return {
+      .about = {.name = "exit_face",
+                .meaning = "of the particles: the face through which they left the domain first. 0 is none yet, 1 "
+                           "and 2 are the lower and the upper one of x, 3 and 4 of y, 5 and 6 of z",
+                .is_of_particles = true},
+      .of_particles = {.values = [](const ParticlesThere& there) { return remembered(there, Kept::exit_face); },
+                       .of_gone = [](const double* kept, const TimeSpec&) { return kept_of(kept, Kept::exit_face); },
+                       .is_remembered = true}};
 }
 
 std::vector<double> gradients_of(const ParticlesThere& there) {

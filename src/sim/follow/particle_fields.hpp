@@ -19,9 +19,9 @@ namespace gaussdrift {
 struct ParticlesThere {
   const Particles& particles;  // ids ascend
   const Domain& domain;
-  const Lattice& lattice;  // on which they began
-  double time = 0;        // elapsed
-  const TimeSpec& clock;  // of the case
+  const Lattice& lattice;                        // on which they began
+  double time = 0;                               // elapsed
+  const TimeSpec& clock;                         // of the case
   std::function<double(std::int64_t id)> began;  // the time at which a particle began
   int threads = 1;
 };
