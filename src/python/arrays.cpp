@@ -1,8 +1,7 @@
 // Which arrays are taken as they are, and which are copied once.
 #include "python/arrays.hpp"
 
-#include <stdexcept>
-#include <string>
+#include <cstdint>
 
 namespace gaussdrift::python {
 

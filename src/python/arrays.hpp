@@ -5,6 +5,9 @@
 #include <pybind11/numpy.h>
 
 #include <Eigen/Core>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace gaussdrift::python {
 
@@ -31,6 +34,23 @@ class Rows {
   Eigen::Index stride_ = 0;  // numbers from point to point
   int dimension_ = 1;
 };
+
+/// act.operator()<d>() for the dimension of these points. Throws std::invalid_argument where it is above `most`.
+template <int most, class Act>
+auto in_dimension(const Rows& points, const char* name, const Act& act) {
+  switch (points.dimension()) {
+    case 1:
+      return act.template operator()<1>();
+    case 2:
+      return act.template operator()<2>();
+    case 3:
+      return act.template operator()<3>();
+    case 4:
+      if constexpr (most == 4) return act.template operator()<4>();
+  }
+  throw std::invalid_argument(std::string(name) + " must have 1 to " + std::to_string(most) +
+                              " coordinates, a point a row; they have " + std::to_string(points.dimension()));
+}
 
 /// Weights: N numbers, or N x c for c columns.
 class Weights {

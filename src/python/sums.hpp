@@ -5,6 +5,7 @@
 
 #include <array>
 #include <fgtd/fgtd.hpp>
+#include <memory>
 #include <mutex>
 #include <shared_mutex>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "python/arrays.hpp"
+#include "python/named.hpp"
 #include "python/without_lock.hpp"
 
 namespace gaussdrift::python {
@@ -83,11 +85,15 @@ class SumsOf : public Sums {
     }));
   }
   void set_weights(const pybind11::object& weights) override {
-    const Weights columns(weights, "weights");
-    without_lock([&] {
-      const std::unique_lock lock(mutex_);
-      plan_.set_weights(columns.matrix());
-    });
+    if constexpr (requires(Plan plan, Eigen::MatrixXd matrix) { plan.set_weights(matrix); }) {
+      const Weights columns(weights, "weights");
+      without_lock([&] {
+        const std::unique_lock lock(mutex_);
+        plan_.set_weights(columns.matrix());
+      });
+    } else {
+      throw std::invalid_argument("what is fitted has the weights that it needs");
+    }
   }
   pybind11::dict choice() const override {
     const std::shared_lock lock(mutex_);
@@ -99,6 +105,15 @@ class SumsOf : public Sums {
   mutable std::shared_mutex mutex_;
 };
 
+/// The plan that make() returns, which runs without Python's lock.
+template <int d, class Make>
+std::unique_ptr<Sums> sums_of(const Make& make) {
+  return without_lock([&]() -> std::unique_ptr<Sums> {
+    auto plan = make();
+    return std::make_unique<SumsOf<d, decltype(plan)>>(std::move(plan));
+  });
+}
+
 /// Options of the same name in fgtd and rbf.
 template <class Options>
 void read_expected(Options& options, std::size_t targets, std::vector<std::vector<double>> grid) {
@@ -106,9 +121,9 @@ void read_expected(Options& options, std::size_t targets, std::vector<std::vecto
   if (!grid.empty()) options.expected_grid = fgtd::TensorGrid{std::move(grid)};
 }
 
-/// The class in Python, without a constructor.
+/// The class in Python, without a constructor. Each module has its own.
 inline pybind11::class_<Sums> bind_sums(pybind11::module_& module) {
-  return pybind11::class_<Sums>(module, "Sums")
+  return pybind11::class_<Sums>(module, "Sums", pybind11::module_local())
       .def_property_readonly("dimension", &Sums::dimension)
       .def("at", &Sums::at)
       .def("on_grid", &Sums::on_grid)

@@ -1,6 +1,5 @@
 // fgtd._core: what the Python package fgtd takes from the library. Its pages are in __init__.py.
 #include <fgtd/fgtd.hpp>
-#include <memory>
 #include <sstream>
 
 #include "python/errors.hpp"
@@ -34,23 +33,6 @@ namespace gaussdrift::python {
 
 namespace {
 
-template <int d>
-std::unique_ptr<Sums> make(const Rows& sources, const Weights& weights, double sigma, const fgtd::Options& options) {
-  return without_lock([&] {
-    return std::make_unique<SumsOf<d, fgtd::Plan<d>>>(
-        fgtd::Plan<d>(sources.columns<d>(), weights.matrix(), sigma, options));
-  });
-}
-
-fgtd::Method method_named(const std::string& name) {
-  std::string known;
-  for (const fgtd::Method method : fgtd::methods()) {
-    if (to_string(method) == name) return method;
-    known += (known.empty() ? "" : ", ") + to_string(method);
-  }
-  throw std::invalid_argument("there is no method \"" + name + "\". There are: " + known);
-}
-
 std::unique_ptr<Sums> plan(const py::object& sources, const py::object& weights, double sigma, double tolerance,
                            int derivatives, const std::string& method, int threads, std::size_t memory_limit,
                            double most_seconds, std::size_t expected_targets,
@@ -60,23 +42,14 @@ std::unique_ptr<Sums> plan(const py::object& sources, const py::object& weights,
   fgtd::Options options;
   options.tolerance = tolerance;
   options.derivative_order = derivatives;
-  options.method = method_named(method);
+  options.method = one_named("method", fgtd::methods(), method);
   options.threads = threads;
   options.memory_limit = memory_limit;
   options.most_seconds = most_seconds;
   read_expected(options, expected_targets, std::move(expected_grid));
-  switch (rows.dimension()) {
-    case 1:
-      return make<1>(rows, columns, sigma, options);
-    case 2:
-      return make<2>(rows, columns, sigma, options);
-    case 3:
-      return make<3>(rows, columns, sigma, options);
-    case 4:
-      return make<4>(rows, columns, sigma, options);
-  }
-  throw std::invalid_argument("sources must have 1 to 4 coordinates, a point a row; they have " +
-                              std::to_string(rows.dimension()));
+  return in_dimension<4>(rows, "sources", [&]<int d>() {
+    return sums_of<d>([&] { return fgtd::Plan<d>(rows.columns<d>(), columns.matrix(), sigma, options); });
+  });
 }
 
 }  // namespace
