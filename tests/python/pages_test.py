@@ -21,8 +21,15 @@ def public_names(package):
 
 
 package = importlib.import_module(sys.argv[1])
-without = [name for name, thing in public_names(package) if ">>>" not in (inspect.getdoc(thing) or "")]
-result = doctest.testmod(package, optionflags=doctest.NORMALIZE_WHITESPACE)
-print(f"{sys.argv[1]}: {result.attempted} lines of examples, {result.failed} of them fail; "
+without, attempted, failed = [], 0, 0
+finder, runner = doctest.DocTestFinder(recurse=False), doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
+for name, thing in [("", package), *public_names(package)]:
+    tests = finder.find(thing, f"{sys.argv[1]}.{name}", module=False, globs={})
+    if not any(test.examples for test in tests):
+        without.append(name)
+    for test in tests:
+        result = runner.run(test)
+        attempted, failed = attempted + result.attempted, failed + result.failed
+print(f"{sys.argv[1]}: {attempted} lines of examples, {failed} of them fail; "
       f"without an example: {', '.join(without) or 'none'}")
-sys.exit(bool(result.failed or without or not result.attempted))
+sys.exit(bool(failed or without or not attempted))

@@ -21,7 +21,7 @@ from typing import Any, Union
 
 import numpy as np
 
-from fgtd import Grid, _Evaluated, _columns_of
+from fgtd._plan import Grid, _columns_of, _Evaluated
 
 from . import _core
 
