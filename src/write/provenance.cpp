@@ -9,10 +9,13 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "gaussdrift/error.hpp"
+#include "write/wide_hash.hpp"
 
 namespace gaussdrift::write {
 
@@ -54,16 +57,38 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-std::string hash_of_file(const std::filesystem::path& file) {
+std::string read_hash_of_file(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  Hash hash;
+  WideHash hash;
   std::vector<char> piece(1 << 16);
   while (in) {
     in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     hash.add({piece.data(), static_cast<std::size_t>(in.gcount())});
   }
   if (!in.eof()) throw FileError(fmt::format("{} cannot be read", file.string()));
-  return hash.text();
+  return fmt::format("xxh64:{:016x}", hash.value());
+}
+
+/// Each file is read once by a process, and again if it has changed.
+std::string hash_of_file(const std::filesystem::path& file) {
+  struct Known {
+    std::uintmax_t size;
+    std::filesystem::file_time_type changed;
+    std::string hash;
+  };
+  static std::mutex mutex;
+  static std::map<std::filesystem::path, Known> known;
+  std::error_code error, more;
+  const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  const auto changed = std::filesystem::last_write_time(path, more);
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (const auto at = known.find(path);
+      !error && !more && at != known.end() && at->second.size == size && at->second.changed == changed)
+    return at->second.hash;
+  std::string hash = read_hash_of_file(path);
+  if (!error && !more) known[path] = {size, changed, hash};
+  return hash;
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ struct DataFile {
   std::filesystem::path file;  // as it is read
 };
 
-/// The text of provenance.json: version, compiler and flags, processor, threads, command line, time, hashes (FNV-1a, 64
-/// bits) of the case as it was written and of every data file. "resolved_case" is the hash of all that the result
+/// The text of provenance.json: version, compiler and flags, processor, threads, command line, time, hashes of the case
+/// as it was written (FNV-1a, 64 bits) and of every data file (XXH64). "resolved_case" is the hash of all that the result
 /// depends on: the resolved case, and the bytes of its data. The time is that of SOURCE_DATE_EPOCH, where that is set.
 /// Throws FileError (data that cannot be read), InputError (SOURCE_DATE_EPOCH is no time).
 std::string provenance_json(const Case& spec, const std::string& resolved, const std::vector<DataFile>& data,
@@ -29,7 +29,8 @@ std::string made_by();
 
 /// "fnv1a64:..." of a text.
 std::string hash_of(const std::string& text);
-/// The same of a text and of the bytes of data. Throws FileError.
+/// The same of a text and of the bytes of data. A file is read once by a process, unless its size or time changes.
+/// Throws FileError.
 std::string hash_of(const std::string& text, const std::vector<DataFile>& data);
 
 }  // namespace gaussdrift::write

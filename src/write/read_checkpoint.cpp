@@ -145,7 +145,8 @@ std::vector<Found> manifests_in(const fs::path& folder, const std::string& past,
     try {
       json manifest = read_manifest(slot);
       if (text_in(manifest, "case") != past)
-        throw std::runtime_error("it belongs to a case with other settings or data");
+        throw std::runtime_error(
+            "it belongs to a case with other settings or data, or to a version that hashed data files otherwise");
       const auto serial = count_in(manifest, "serial");
       found.push_back({serial, number, std::move(manifest)});
     } catch (const std::bad_alloc&) {
