@@ -67,7 +67,8 @@ ReadResult read_case(const std::filesystem::path& file, const std::vector<std::s
   if (!std::filesystem::exists(file, error))
     throw FileError(fmt::format("the case file {} cannot be read: there is no such file", file.string()));
   const std::string kind = file.extension().string();
-  if (kind == ".vti" || kind == ".vtr" || kind == ".pvd" || kind == ".pvti" || kind == ".vtk" || read::is_netcdf(file))
+  if (kind == ".vti" || kind == ".vtr" || kind == ".vts" || kind == ".pvd" || kind == ".pvti" || kind == ".vtk" ||
+      read::is_netcdf(file))
     throw InputError(
         fmt::format("{0} is data on a grid, not a case; a case reads it by file = \"{0}\" in [velocity] or "
                     "[density] (gaussdrift new gridded_wind writes one)",

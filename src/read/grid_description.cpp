@@ -182,6 +182,19 @@ std::vector<const Element*> coordinates_of(const FileBytes& file, const Element&
   return coordinates;
 }
 
+/// The one array of <Points>.
+const Element* places_of(const FileBytes& file, const Element& piece) {
+  const Element* home = piece.child("Points");
+  if (!home || home->children.size() != 1)
+    throw GridFileError(fmt::format("{}: this <{}> needs <Points> with one array", line_of(file, piece), piece.name));
+  const Element& places = home->children.front();
+  const auto components = attribute<long long, 1>(file, places, "NumberOfComponents", "a whole number");
+  if (!components || (*components)[0] != 3)
+    throw GridFileError(
+        fmt::format("{}: points have 3 components, not {}", line_of(file, places), components ? (*components)[0] : 1));
+  return &places;
+}
+
 void read_image_attributes(const FileBytes& file, const Element& grid, GridDescription& result) {
   if (const auto origin = attribute<double, 3>(file, grid, "Origin", "three numbers")) result.origin = *origin;
   if (const auto spacing = attribute<double, 3>(file, grid, "Spacing", "three numbers")) result.spacing = *spacing;
@@ -242,7 +255,7 @@ bool GridDescription::overlaps() const {
   return found;
 }
 
-GridDescription describe_grid(const FileBytes& file, const Element& grid, bool image) {
+GridDescription describe_grid(const FileBytes& file, const Element& grid, GridKind kind) {
   GridDescription result;
   result.extent = extent_of(file, grid, "WholeExtent");
   std::vector<const Element*> pieces;
@@ -266,11 +279,16 @@ GridDescription describe_grid(const FileBytes& file, const Element& grid, bool i
       throw GridFileError(fmt::format("{}: this piece has other arrays than the first one, or in another order",
                                       line_of(file, *pieces[k])));
     result.pieces[k].arrays = std::move(arrays.elements);
-    if (!image) result.pieces[k].coordinates = coordinates_of(file, *pieces[k]);
+    if (kind == GridKind::rectilinear) result.pieces[k].coordinates = coordinates_of(file, *pieces[k]);
+    if (kind == GridKind::curved) result.pieces[k].arrays.push_back(places_of(file, *pieces[k]));
   }
   result.arrays = first.list;
   for (const Element* array : first.elements) result.fill_values.push_back(fills_of(file, *array));
-  if (image) read_image_attributes(file, grid, result);
+  if (kind == GridKind::curved) {
+    result.arrays.push_back({"the places of points", 3, false});
+    result.fill_values.emplace_back();
+  }
+  if (kind == GridKind::image) read_image_attributes(file, grid, result);
   if (const Element* fields = grid.child("FieldData"))
     for (const Element& field : fields->children) result.fields.push_back(&field);
   return result;

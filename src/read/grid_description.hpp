@@ -1,4 +1,4 @@
-// What a .vti or .vtr says of itself: every attribute is read whole, all pieces have the same arrays, and they do not
+// What a .vti, .vtr or .vts says of itself: every attribute is read whole, all pieces have the same arrays, and they do not
 // overlap.
 #pragma once
 
@@ -49,7 +49,11 @@ struct GridDescription {
   bool overlaps() const;
 };
 
-/// `image`: of image data, which has its coordinates in attributes. Points at `grid`. Throws GridFileError.
-GridDescription describe_grid(const FileBytes& file, const Element& grid, bool image);
+/// Where coordinates are: in attributes, in an array an axis, or in an array of points.
+enum class GridKind { image, rectilinear, curved };
+
+/// Points at `grid`. The places of the points of a curvilinear grid are the last one of its arrays, with 3 components.
+/// Throws GridFileError.
+GridDescription describe_grid(const FileBytes& file, const Element& grid, GridKind kind);
 
 }  // namespace gaussdrift::read

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "read/file_bytes.hpp"
 #include "read/matrix.hpp"
@@ -20,17 +21,21 @@ namespace {
 
 std::string name_of(const std::filesystem::path& file) { return file.filename().string(); }
 
+constexpr const char* resampling =
+    "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
+
 StoredGrid open_grid(const std::filesystem::path& file) {
   check_readable(file);
   if (const std::string kind = file.extension().string();
-      kind != ".vti" && kind != ".vtr" && kind != ".pvti" && kind != ".vtk") {
+      kind != ".vti" && kind != ".vtr" && kind != ".vts" && kind != ".pvti" && kind != ".vtk") {
     const std::string way = way_to_read(file);
     throw GridFileError(
         kind == ".pvd" ? fmt::format("{} is a series of files; one file is needed here", name_of(file))
         : kind.empty() ? fmt::format("{} has no ending", name_of(file))
                        : fmt::format("{} has the ending \"{}\"", name_of(file), kind),
-        fmt::format("{}known files: .vti and .pvti (image data), .vtr (rectilinear grid), .vtk (both, legacy), .pvd (a "
-                    "series of these); for a velocity or density of a case also .nc (NetCDF)",
+        fmt::format("{}known files: .vti and .pvti (image data), .vtr (rectilinear grid), .vts (structured grid), "
+                    ".vtk (legacy, the first two), .pvd (a series of these); for a velocity or density of a case also "
+                    ".nc (NetCDF)",
                     way.empty() ? "" : way + "; "));
   }
   return StoredGrid(file);
@@ -206,19 +211,21 @@ std::string way_to_read(const std::filesystem::path& file) {
   const auto is = [&](std::initializer_list<const char*> names) {
     return std::any_of(names.begin(), names.end(), [&](const char* name) { return kind == name; });
   };
-  if (is({"grib", "grb", "grib2", "h5", "hdf", "hdf5"}))
-    return "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
+  if (is({"grib", "grb", "grib2", "h5", "hdf", "hdf5"})) return resampling;
   if (is({"png", "jpg", "jpeg", "tif", "tiff", "bmp", "gif"}))
     return "ParaView opens the picture as image data: save it as .vti, with the coordinates that its pixels should "
            "have";
-  if (is({"vts", "vtu", "vtp", "vtm", "pvtr", "pvts", "pvtu", "xmf", "xdmf", "foam", "case", "vtkhdf"}))
-    return "ParaView opens the file: apply its filter Resample To Image and save the data as .vti";
+  if (is({"vtu", "vtp", "vtm", "pvtr", "pvts", "pvtu", "xmf", "xdmf", "foam", "case", "vtkhdf"})) return resampling;
   if (is({"csv", "txt", "dat"})) return "scattered points of a velocity are read from a table by gaussians = \"...\"";
   return "";
 }
 
 GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array,
                            std::optional<std::size_t> component) {
+  if (file.extension() == ".vts")
+    throw GridFileError(
+        fmt::format("{} is a curvilinear grid, which is read only as a velocity or density of a case", name_of(file)),
+        resampling);
   StoredGrid grid = open_grid(file);
   const std::vector<ArrayInfo> arrays = chosen(grid, file, {.arrays = {array}, .most_components = 3});
   grid.load(arrays);
@@ -271,6 +278,42 @@ std::pair<std::vector<double>, std::vector<std::uint8_t>> in_order(const StoredG
     if (!hides.empty()) hides[p] = mask[source];
   }
   return {std::move(values), std::move(hides)};
+}
+
+}  // namespace
+
+namespace {
+
+/// The places of a curvilinear grid; nothing of other grids.
+std::shared_ptr<const CurvedGrid> curved_grid(const StoredGrid& grid, const std::filesystem::path& file, bool cells,
+                                              const GridRequest& request) {
+  const std::vector<double>& all = grid.places();
+  if (all.empty()) return nullptr;
+  if (cells)
+    throw GridFileError(fmt::format("{} has its values on the cells of a curvilinear grid", name_of(file)),
+                        "ParaView's filter Cell Data to Point Data brings them to its points");
+  if (request.missing == Missing::land)
+    throw GridFileError(fmt::format("{} is curvilinear, and land is known on other grids only", name_of(file)),
+                        fmt::format("missing = \"zero\" makes a coast of it; or {}", resampling));
+  const auto d = static_cast<std::size_t>(request.dimension);
+  std::vector<double> places;
+  places.reserve(all.size() / 3 * d);
+  for (std::size_t i = 0; i < all.size(); i += 3) {
+    if (d == 2 && std::abs(all[i + 2] - all[2]) > 2 * grid.rounding_of_places())
+      throw GridFileError(fmt::format("the points of {} are no plane: z is {} at point 1 and {} at point {}",
+                                      name_of(file), all[2], all[i + 2], i / 3 + 1),
+                          "a 2D grid lies in a plane of x and y");
+    places.insert(places.end(), all.begin() + static_cast<std::ptrdiff_t>(i),
+                  all.begin() + static_cast<std::ptrdiff_t>(i + d));
+  }
+  try {
+    return std::make_shared<const CurvedGrid>(request.dimension, grid.points(), std::move(places),
+                                              grid.rounding_of_places());
+  } catch (const std::invalid_argument& error) {
+    throw GridFileError(fmt::format("of the grid of {} {}", name_of(file), error.what()),
+                        "every place must lie in one cell: leave those cells out, or put the points in order; a polar "
+                        "grid begins at a radius above 0");
+  }
 }
 
 }  // namespace
@@ -389,8 +432,11 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
       result->components = components;
       result->axis = layout.axis;
       result->rounding = layout.rounding;
+      result->curved = curved_grid(grid, entry.file, cells, request);
     }
-    if (components != result->components || !same_grid(*result, layout))
+    const auto curved = result->times.empty() ? result->curved : curved_grid(grid, entry.file, cells, request);
+    if (components != result->components || !same_grid(*result, layout) || !curved != !result->curved ||
+        (curved && !curved->same_places(*result->curved)))
       throw GridFileError(
           fmt::format("the grid of {} differs from that of {}", name_of(entry.file), name_of(entries.front().file)),
           "all times of a series share one grid");

@@ -1,4 +1,5 @@
-// Data on grids from files of ParaView, .vti (image data), .vtr (rectilinear grid), .pvd (a series of them), and of NetCDF.
+// Data on grids from files of ParaView, .vti (image data), .vtr (rectilinear grid),
+// .vts (curvilinear grid), .pvd (a series of them), and of NetCDF.
 // stored_grid.hpp and netcdf/ read the files; here their contents become numbers on ascending axes.
 #pragma once
 
@@ -49,7 +50,7 @@ struct GridRequest {
   double most_held = most_bytes_held;
 };
 
-/// Reads .vti, .vtr, .pvd, or NetCDF (.nc), of which the name may be a pattern: wind_*.nc.
+/// Reads .vti, .vtr, .vts, .pvd, or NetCDF (.nc), of which the name may be a pattern: wind_*.nc.
 /// A grid one layer thick along z is 2D. Axes that descend are turned round. Data of cells stand at the middles of the
 /// cells, and in the outer half of the outermost cells their value holds. At most 2 GiB of numbers are read.
 /// Throws GridFileError: no such file or array, not VTK's XML, wrong number of components or dimensions, numbers that

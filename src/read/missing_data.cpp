@@ -67,6 +67,10 @@ std::string place(const GridData& data, std::size_t point) {
     x.push_back(data.axis[k][point % data.axis[k].size()]);
     point /= data.axis[k].size();
   }
+  if (data.curved) {
+    const Vector in_space = data.curved->place({x[0], x[1], x.size() > 2 ? x[2] : 0});
+    std::copy_n(in_space.begin(), x.size(), x.begin());
+  }
   return fmt::format("({:.6g})", fmt::join(x, ", "));
 }
 

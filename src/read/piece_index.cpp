@@ -128,7 +128,7 @@ PieceIndex read_piece_index(const std::filesystem::path& file) {
         fmt::format("{} is not a file of the kind that its name says: .pvti has <VTKFile "
                     "type=\"PImageData\"> and a <PImageData> inside",
                     bytes.name()));
-  const GridDescription about = describe_grid(bytes, *grid, true);
+  const GridDescription about = describe_grid(bytes, *grid, GridKind::image);
   PieceIndex index;
   index.lattice = lattice_of(bytes, *grid, about);
   for (const Element& child : grid->children) {

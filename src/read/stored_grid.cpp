@@ -40,13 +40,17 @@ struct StoredGrid::Parts {
   std::array<std::vector<double>, 3> axis;
   std::array<double, 3> rounding{};
   double time = 0;
-  bool overlapping = false;                         // the pieces
+  bool overlapping = false;  // the pieces
+  bool curved = false;
+  std::vector<double> places;  // of points, where the grid is curved
+  double rounding_of_places = 0;
   std::array<std::vector<std::uint8_t>, 2> hidden;  // points, cells
   std::optional<WholeGrid> whole;                   // files that are read at once
 
   void describe(const std::filesystem::path& path) {
     const bool image = path.extension() == ".vti";
-    const std::string kind = image ? "ImageData" : "RectilinearGrid";
+    curved = path.extension() == ".vts";
+    const std::string kind = image ? "ImageData" : curved ? "StructuredGrid" : "RectilinearGrid";
     xml = read_xml(file);
     const std::string* type = xml.root.attribute("type");
     const Element* grid = xml.root.child(kind);
@@ -56,7 +60,10 @@ struct StoredGrid::Parts {
                       "and a <{}> inside",
                       file.name(), path.extension().string(), kind, kind));
     form = binary_form(file, xml);
-    description = describe_grid(file, *grid, image);
+    description = describe_grid(file, *grid,
+                                image    ? GridKind::image
+                                : curved ? GridKind::curved
+                                         : GridKind::rectilinear);
   }
 
   /// Where an array stands in the description.
@@ -122,7 +129,26 @@ struct StoredGrid::Parts {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
+  /// Places of points are read as an array of them, the last one of the description.
+  void read_places() {
+    const std::size_t last = description.arrays.size() - 1;
+    places = whole_array(last);
+    double largest = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!std::isfinite(places[i]))
+        throw GridFileError(
+            fmt::format("the {} coordinate of point {} of {} is {}", "xyz"[i % 3], i / 3 + 1, file.name(), places[i]));
+      largest = std::max(largest, std::abs(places[i]));
+    }
+    for (const Piece& piece : description.pieces)
+      if (is_single_precision(*piece.arrays[last]))
+        rounding_of_places = 4 * double(std::numeric_limits<float>::epsilon()) * largest;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < points[k]; ++i) axis[k].push_back(static_cast<double>(i));
+  }
+
   void read_axes() {
+    if (curved) return read_places();
     const GridDescription& about = description;
     for (std::size_t k = 0; k < 3; ++k) {
       const int first = about.extent[2 * k];
@@ -242,6 +268,7 @@ StoredGrid::StoredGrid(const std::filesystem::path& file) : parts_(std::make_uni
         "leave points out");
   for (const ArrayInfo& array : about.arrays)
     if (!is_mask(array.name)) parts_->arrays.push_back(array);
+  if (parts_->curved) parts_->arrays.pop_back();  // the places
 }
 
 StoredGrid::~StoredGrid() = default;
@@ -250,6 +277,8 @@ const std::array<std::size_t, 3>& StoredGrid::points() const { return parts_->po
 const std::vector<ArrayInfo>& StoredGrid::arrays() const { return parts_->arrays; }
 const std::vector<ArrayValues>& StoredGrid::values() const { return parts_->values; }
 const std::vector<double>& StoredGrid::axis(std::size_t k) const { return parts_->axis[k]; }
+const std::vector<double>& StoredGrid::places() const { return parts_->places; }
+double StoredGrid::rounding_of_places() const { return parts_->rounding_of_places; }
 double StoredGrid::rounding(std::size_t k) const { return parts_->rounding[k]; }
 const std::vector<std::uint8_t>& StoredGrid::hidden(bool cells) const { return parts_->hidden[cells]; }
 double StoredGrid::time() const { return parts_->time; }
@@ -262,6 +291,7 @@ void StoredGrid::load(const std::vector<ArrayInfo>& wanted) {
   for (const std::size_t length : parts.points) points *= static_cast<double>(length);
   double numbers = 0;
   for (const ArrayInfo& array : wanted) numbers += points * static_cast<double>(array.components);
+  if (parts.curved) numbers += 3 * points;
   if (numbers > most_numbers)
     throw GridFileError(
         fmt::format("{} has {:.3g} numbers; at most {:.3g} are read", parts.file.name(), numbers, most_numbers),
@@ -288,7 +318,8 @@ void StoredGrid::load(const std::vector<ArrayInfo>& wanted) {
     const bool is_wanted = std::any_of(wanted.begin(), wanted.end(), [&](const ArrayInfo& one) {
       return one.name == array.name && one.on_cells == array.on_cells;
     });
-    if (!is_wanted && !is_mask(array.name)) continue;
+    const bool is_places = parts.curved && i + 1 == about.arrays.size();
+    if (!is_wanted && !is_mask(array.name) && !is_places) continue;
     if (array.on_cells && !cells_are_covered) check_covered(true), cells_are_covered = true;
     read.push_back(i);
   }

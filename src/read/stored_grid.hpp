@@ -41,6 +41,9 @@ class StoredGrid {
   const std::vector<ArrayValues>& values() const;
   /// Coordinates as they stand in the file, ascending or descending.
   const std::vector<double>& axis(std::size_t k) const;
+  /// Of a curvilinear grid the places of its points, [point][3]; then axis() counts indices. Else empty.
+  const std::vector<double>& places() const;
+  double rounding_of_places() const;
   /// By how much the coordinates may be wrong: the rounding of the type, or of the text, that they were written in.
   double rounding(std::size_t k) const;
   /// Points (or cells) that the file hides: 1 for those. Empty where there is no mask.

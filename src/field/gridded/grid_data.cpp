@@ -36,6 +36,38 @@ struct GridInterpolator::Moment {
 
 namespace {
 
+/// Places as the axes of the data count them: of a curvilinear grid the fractional indices, -1 outside of it.
+struct OnAxes {
+  OnAxes(const GridData& data, const PointsView& x) : view(x), grid(data.curved.get()) {
+    if (!grid) return;
+    for (int k = 0; k < x.dimension; ++k) {
+      index[k].resize(x.count);
+      view.axis[k] = index[k].data();
+    }
+    for (std::size_t i = 0; i < x.count; ++i) {
+      Vector place{};
+      double sum = 0;
+      for (int k = 0; k < x.dimension; ++k) sum += place[k] = x.axis[k][i];
+      const auto found = grid->find(place);
+      for (int k = 0; k < x.dimension; ++k) index[k][i] = found ? (*found)[k] : std::isnan(sum) ? sum : -1;
+    }
+  }
+
+  /// Derivatives of the indices by x; nothing where the axes are those of space.
+  const CurvedGrid::Matrix* turn(std::size_t i, bool inside) {
+    if (!grid || !inside) return nullptr;
+    Vector at{};
+    for (int k = 0; k < view.dimension; ++k) at[k] = index[k][i];
+    slopes = grid->slopes(at);
+    return &slopes;
+  }
+
+  PointsView view;
+  const CurvedGrid* grid;
+  std::array<std::vector<double>, max_dimension> index;
+  CurvedGrid::Matrix slopes{};
+};
+
 std::vector<std::array<double, 3>> parabolas(const std::vector<double>& axis) {
   std::vector<std::array<double, 3>> derivatives(axis.size());
   for (std::size_t point = 0; point < axis.size(); ++point) {
@@ -89,6 +121,8 @@ GridInterpolator::GridInterpolator(std::shared_ptr<const GridData> data, Interpo
     : data_(std::move(data)), interpolation_(interpolation), outside_(outside), in_time_(in_time) {
   if (data_->times.empty() || (!data_->levels && data_->values.size() != data_->times.size()))
     throw std::invalid_argument("grid data without times");
+  if (data_->curved && (interpolation_ != Interpolation::linear || outside_ == Outside::clamp))
+    throw std::invalid_argument("data on a curvilinear grid are interpolated linearly and not clamped");
   for (const auto& values : data_->values)
     if (values.size() != data_->points() * data_->components)
       throw std::invalid_argument("grid data with missing values");
@@ -281,8 +315,10 @@ void GridInterpolator::add_plane_vector(const Moment& moment, const PointsView& 
   }
 }
 
-void GridInterpolator::add(double t, const PointsView& x, std::size_t count, double* const* sums) const {
+void GridInterpolator::add(double t, const PointsView& places, std::size_t count, double* const* sums) const {
   const Moment moment = at(t);
+  const OnAxes on_axes(*data_, places);
+  const PointsView& x = on_axes.view;
   if (x.dimension == 2 && count == 2 && interpolation_ == Interpolation::linear)
     return add_plane_vector(moment, x, sums);
   each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
@@ -306,28 +342,49 @@ double GridInterpolator::slope(const Moment& moment, const std::array<Stencil, m
                        [&](const double* values) { return gather(*data_, weights, stencils, values + component); });
 }
 
-void GridInterpolator::add_divergence(double t, const PointsView& x, double* sums) const {
+double GridInterpolator::slope_in_space(const Moment& moment, const std::array<Stencil, max_dimension>& stencils,
+                                        int axis, int component, const CurvedGrid::Matrix* turn) const {
+  if (!turn) return slope(moment, stencils, axis, component);
+  double sum = 0;
+  for (int m = 0; m < data_->dimension; ++m) sum += slope(moment, stencils, m, component) * (*turn)[m][axis];
+  return sum;
+}
+
+void GridInterpolator::add_divergence(double t, const PointsView& places, double* sums) const {
   const Moment moment = at(t);
+  OnAxes on_axes(*data_, places);
+  const PointsView& x = on_axes.view;
   each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
     if (lost) sums[i] = std::numeric_limits<double>::quiet_NaN();
     if (!inside) return;
-    for (int k = 0; k < x.dimension; ++k) sums[i] += slope(moment, stencils, k, k);
+    const CurvedGrid::Matrix* turn = on_axes.turn(i, inside);
+    for (int k = 0; k < x.dimension; ++k) sums[i] += slope_in_space(moment, stencils, k, k, turn);
   });
 }
 
-void GridInterpolator::add_gradient(double t, const PointsView& x,
+void GridInterpolator::add_gradient(double t, const PointsView& places,
                                     const std::array<std::array<double*, max_dimension>, max_dimension>& slopes) const {
   const Moment moment = at(t);
+  OnAxes on_axes(*data_, places);
+  const PointsView& x = on_axes.view;
   each_place(x, [&](std::size_t i, bool inside, bool lost, const auto& stencils) {
+    const CurvedGrid::Matrix* turn = on_axes.turn(i, inside);
     for (int k = 0; k < x.dimension; ++k)
       for (int l = 0; l < x.dimension; ++l) {
         if (lost) slopes[k][l][i] = std::numeric_limits<double>::quiet_NaN();
-        if (inside) slopes[k][l][i] += slope(moment, stencils, l, k);
+        if (inside) slopes[k][l][i] += slope_in_space(moment, stencils, l, k, turn);
       }
   });
 }
 
 std::string GridInterpolator::why_lost(const Vector& x) const {
+  if (data_->curved) {
+    if (outside_ != Outside::error || data_->curved->find(x)) return "";
+    return fmt::format(
+        "[{}] is outside of the cells of {}: say what stands there with outside = \"zero\", take data of a larger "
+        "region, shorten time.end, or move the density",
+        fmt::join(x.begin(), x.begin() + data_->dimension, ", "), data_->name);
+  }
   for (int k = 0; k < data_->dimension; ++k)
     if (stencil(k, x[k]).lost) {
       const double least = data_->axis[k].front(), most = data_->axis[k].back();
@@ -361,7 +418,9 @@ std::string GridInterpolator::describe() const {
     times = fmt::format(" at {} times{}", data_->times.size(),
                         in_time_ == Interpolation::cubic ? " (cubic between them)" : "");
   const auto also = [](const std::string& text) { return text.empty() ? "" : ", " + text; };
-  return fmt::format("{} on {} points{}, {}, outside: {}{}{}", data_->name, fmt::join(sizes, " x "), times,
+  const std::string curved =
+      data_->curved ? fmt::format(" of a curvilinear grid (places found to {:.1e})", data_->curved->residual()) : "";
+  return fmt::format("{} on {} points{}{}, {}, outside: {}{}{}", data_->name, fmt::join(sizes, " x "), curved, times,
                      interpolation_names[static_cast<std::size_t>(interpolation_)],
                      outside_names[static_cast<std::size_t>(outside_)], also(data_->clock), also(data_->filled));
 }

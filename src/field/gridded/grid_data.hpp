@@ -1,5 +1,5 @@
-// Numbers on a rectilinear grid at one or several times, and their interpolation. Plain data, whoever read
-// it.
+// Numbers on a rectilinear or curvilinear grid at one or several times, and their interpolation. Plain data, whoever
+// read it.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "field/gridded/curved_grid.hpp"
 #include "field/gridded/grid_levels.hpp"
 #include "gaussdrift/points.hpp"
 
@@ -32,6 +33,7 @@ struct GridData {
   int dimension = 2;                                    // 2 or 3
   std::array<std::vector<double>, max_dimension> axis;  // coordinates, ascending, at least 2 on each axis
   std::array<double, max_dimension> rounding{};         // by how much coordinates may be wrong
+  std::shared_ptr<const CurvedGrid> curved{};           // of a curvilinear grid, whose axes count indices from 0
   std::vector<double> times;                            // ascending; one: the same at all times
   std::size_t components = 1;
   std::vector<std::vector<double>>
@@ -65,7 +67,8 @@ constexpr std::array<std::string_view, 3> outside_names{"error", "clamp", "zero"
 
 class GridInterpolator {
  public:
-  /// Throws std::invalid_argument if the sizes of the data do not fit each other.
+  /// Throws std::invalid_argument if the sizes of the data do not fit each other, or if cubic or clamped values of a
+  /// curvilinear grid are asked for.
   GridInterpolator(std::shared_ptr<const GridData> data, Interpolation interpolation, Outside outside,
                    Interpolation in_time = Interpolation::linear);
 
@@ -106,6 +109,9 @@ class GridInterpolator {
   void each_place(const PointsView& x, const Use& use) const;
   // The derivative along `axis` of a component, from the stencils of a place.
   double slope(const Moment& moment, const std::array<Stencil, max_dimension>& stencils, int axis, int component) const;
+  // The same along x, y or z of a curvilinear grid; `turn` is nothing on others.
+  double slope_in_space(const Moment& moment, const std::array<Stencil, max_dimension>& stencils, int axis,
+                        int component, const CurvedGrid::Matrix* turn) const;
 
   std::shared_ptr<const GridData> data_;
   Interpolation interpolation_;

@@ -16,7 +16,8 @@ Section density_section() {
   keys.push_back(
       {.name = "file",
        .meaning =
-           "a file of ParaView with the density on a grid (.vti, .pvti, .vtr, legacy .vtk), or of NetCDF (.nc). Or a "
+           "a file of ParaView with the density on a grid (.vti, .pvti, .vtr, .vts, legacy .vtk), or of NetCDF (.nc). "
+           "Or a "
            "picture (.png), from 0 for black to 1 for white, or rows of numbers (.csv), the uppermost first: they fill "
            "the domain. The path is relative to the case file"});
   const std::vector<Key> of_file =

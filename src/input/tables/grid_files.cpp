@@ -108,6 +108,22 @@ void check_covers_domain(Reader& in, const GridData& data, const Place& place) {
   }
 }
 
+/// What data on a curvilinear grid cannot do.
+void check_curved(Reader& in, std::string_view table_name, const GridFileSpec& spec, bool is_density,
+                  const Place& place) {
+  if (spec.interpolation == "cubic")
+    in.diagnostics.error(place,
+                         fmt::format("{} is on a curvilinear grid, and interpolation = \"cubic\"", spec.data->name),
+                         "interpolation = \"linear\", or resample the data to a grid along the axes");
+  if (spec.outside == "clamp")
+    in.diagnostics.error(place, fmt::format("{} is on a curvilinear grid, and outside = \"clamp\"", spec.data->name),
+                         "outside = \"zero\" or \"error\", or resample the data to a grid along the axes");
+  if (is_density && spec.outside == "error")
+    in.diagnostics.error(place,
+                         fmt::format("{} is on a curvilinear grid, which need not cover the domain", spec.data->name),
+                         fmt::format("outside = \"zero\" in [[{}]]", table_name));
+}
+
 /// "array", or "arrays" where several have one component each.
 std::vector<std::string> array_names(Reader& in, std::string_view table_name, int most_components) {
   const Entry* single = in.find(table_name, "array");
@@ -232,7 +248,10 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
     for (const DataWarning& warning : spec.data->warnings)
       in.diagnostics.warning(value.place, warning.message, warning.remedy);
     in.facts.grid_files.push_back({value.place, spec.data});
-    if (spec.outside == "error" && most_components == 1) check_covers_domain(in, *spec.data, value.place);
+    if (spec.data->curved)
+      check_curved(in, table_name, spec, most_components == 1, value.place);
+    else if (spec.outside == "error" && most_components == 1)
+      check_covers_domain(in, *spec.data, value.place);
   } catch (const read::GridFileError& error) {
     const std::string was = where_data_file_was(in.folder, value.text);
     in.diagnostics.error(value.place, error.what(), was.empty() ? error.remedy() : was);

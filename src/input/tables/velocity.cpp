@@ -97,9 +97,10 @@ Section velocity_section() {
   add_parameters(keys, "field", named_fields());
   keys.push_back(
       {.name = "file",
-       .meaning = "a file of ParaView with the velocity on a grid (.vti, .pvti, .vtr, legacy .vtk, or .pvd for several "
-                  "times), or of NetCDF (.nc), whose name may stand for several files: wind_*.nc. The path is relative "
-                  "to the case file"});
+       .meaning =
+           "a file of ParaView with the velocity on a grid (.vti, .pvti, .vtr, .vts, legacy .vtk, or .pvd for several "
+           "times), or of NetCDF (.nc), whose name may stand for several files: wind_*.nc. The path is relative "
+           "to the case file"});
   std::vector<Key> of_file = grid_file_keys(
       "error",
       "what to do where the file has no value. `land`: there is no fluid, and `domain.coast` says what happens to "
