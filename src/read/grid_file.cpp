@@ -292,9 +292,6 @@ std::shared_ptr<const CurvedGrid> curved_grid(const StoredGrid& grid, const std:
   if (cells)
     throw GridFileError(fmt::format("{} has its values on the cells of a curvilinear grid", name_of(file)),
                         "ParaView's filter Cell Data to Point Data brings them to its points");
-  if (request.missing == Missing::land)
-    throw GridFileError(fmt::format("{} is curvilinear, and land is known on other grids only", name_of(file)),
-                        fmt::format("missing = \"zero\" makes a coast of it; or {}", resampling));
   const auto d = static_cast<std::size_t>(request.dimension);
   std::vector<double> places;
   places.reserve(all.size() / 3 * d);
@@ -451,6 +448,10 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
   const bool keep = request.missing == Missing::keep;
   settle_missing(*result, hidden, keep ? Marks{} : recognise_marks(*result, fills, request.decays), request.missing,
                  names);
+  if (result->curved && result->land)
+    throw GridFileError(
+        fmt::format("{} is curvilinear with {}, and land is known on other grids only", name_of(file), result->filled),
+        fmt::format("missing = \"zero\" makes a coast of it; or {}", resampling));
   if (request.clock) set_clock(*result, *request.clock, name_of(file));
   return result;
 }
