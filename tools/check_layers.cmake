@@ -3,7 +3,7 @@
 #   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
 #     -> (particle, read, blockmatrix) -> (field, farfield) -> (expression, rbf) -> fgtd -> core -> base
 #   cli -> mpi -> base, and mpi alone includes <mpi.h>
-#   python -> (fgtd, farfield, rbf), gaussdrift: the headers of include/, and src/base
+#   python -> accuracy, and the headers of include/
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
 # What each module may include besides itself. "case" is include/gaussdrift/case.hpp, plain data that anybody above may read.
@@ -31,7 +31,7 @@ set(may_report base read sim render write case)
 set(may_study base expression fgtd field particle effect reference time sim accuracy write render input case)
 set(may_reproduce base fgtd farfield rbf blockmatrix field particle time sim write render input case)
 set(may_sum base expression fgtd farfield rbf input)
-set(may_python base fgtd farfield rbf)
+set(may_python base fgtd farfield rbf accuracy gaussdrift case reference sim input particle)
 set(may_cli base mpi core effect expression reference accuracy report reproduce study sum sim write render read input time case fgtd rbf)
 
 # The headers of include/gaussdrift/ belong to modules as those of src/ do.
