@@ -90,6 +90,9 @@ struct FileClock {
   std::optional<double> start_number{};  ///< the same as a time of the data
   std::string unit;                      ///< of the time of the scene: "h"; empty: see unit_number
   std::optional<double> unit_number{};   ///< how much of the data's time is 1 in the scene
+
+  /// The same clock.
+  bool operator==(const FileClock&) const = default;
 };
 /// file = "...": data on a grid (docs/cases.md), already read.
 struct GridFileSpec {
@@ -105,6 +108,14 @@ struct GridFileSpec {
   std::string gaps;                      ///< what happens where a snapshot is missing: warn | error | bridge
   std::string duplicates;                ///< which of two snapshots for one time counts: error | first | last
   std::shared_ptr<const GridData> data;  ///< the numbers
+
+  /// The same words of a case: the numbers may have been read twice.
+  bool operator==(const GridFileSpec& other) const {
+    return file == other.file && arrays == other.arrays && interpolation == other.interpolation &&
+           time_interpolation == other.time_interpolation && outside == other.outside && missing == other.missing &&
+           missing_value == other.missing_value && clock == other.clock && level == other.level && gaps == other.gaps &&
+           duplicates == other.duplicates;
+  }
 };
 /// A velocity on a grid.
 struct FileVelocitySpec : GridFileSpec {};
@@ -364,11 +375,13 @@ struct EffectSpec {
   std::string name;                                          ///< of an effect of the catalogue
   Arguments numbers{};                                       ///< numbers and points by key, defaults included
   std::vector<std::pair<std::string, std::string>> texts{};  ///< choices and expressions by key, defaults included
+  std::optional<GridFileSpec> file{};                        ///< the values of the effect's field, on a grid
 
   /// True if the key has a value.
   bool has(std::string_view key) const {
     const auto is_it = [key](const auto& entry) { return entry.first == key; };
-    return std::any_of(numbers.begin(), numbers.end(), is_it) || std::any_of(texts.begin(), texts.end(), is_it);
+    return std::any_of(numbers.begin(), numbers.end(), is_it) || std::any_of(texts.begin(), texts.end(), is_it) ||
+           (file && key == "file");
   }
   /// The numbers of a key, one a dimension. Throws std::out_of_range if the key has none.
   const std::vector<double>& point(std::string_view key) const {

@@ -25,7 +25,7 @@ struct Particles {
   std::vector<double> volume;                  ///< v_j = h^d at the start, growing with div u
   /// What particles remember of their paths for outputs that ask for it, one array a quantity; 0 where they begin.
   std::vector<std::vector<double>> kept{};
-  double spread = 0;  ///< what the square of every Gaussian width of the blobs has grown by
+  double spread = 0;  ///< what the square of every Gaussian width has grown by; of ellipses, along the longest axis
 
   /// Number of particles.
   std::size_t size() const { return alpha.size(); }

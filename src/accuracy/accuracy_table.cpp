@@ -30,9 +30,7 @@ nlohmann::ordered_json accuracy_table(const Case& spec, double run_seconds, cons
                          "the run",
                          once, rows)}};
   const Scene scene = make_scene(spec, threads);
-  const Cutoff blob = last.particles.spread > 0
-                          ? spread_cutoff(scene.cutoff, last.particles.dimension, last.particles.spread)
-                          : scene.cutoff;
+  const Cutoff blob = blob_of(scene, last.particles);
   Particles images;
   const Particles& sources = summed_particles(spec.domain, last.particles, reach_of_blob(blob, {}), images);
   const base::EnoughTimes enough{.long_enough = most / rows, .most = 6};

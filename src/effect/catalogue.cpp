@@ -52,7 +52,7 @@ bool applies(const NamedParameter& parameter, const EffectSpec& effect) {
 }
 
 EffectSpec complete_effect(const NamedEffect& effect, const EffectSpec& given) {
-  EffectSpec result{.name = std::string(effect.about.name)};
+  EffectSpec result{.name = std::string(effect.about.name), .file = given.file};
   for (const NamedParameter& parameter : effect.about.parameters) {
     const std::string_view key = parameter.name;
     if (given.has(key)) {
@@ -79,6 +79,13 @@ double spreading(const EffectsSpec& named) {
   for (const auto& [effect, spec] : effects_of(named))
     if (effect->spreading) rate += effect->spreading(spec);
   return rate;
+}
+
+std::optional<Tensor> spreading_shape(const EffectsSpec& named, int dimension) {
+  for (const auto& [effect, spec] : effects_of(named))
+    if (effect->spreading_shape)
+      if (auto shape = effect->spreading_shape(spec, dimension)) return shape;
+  return std::nullopt;
 }
 
 std::string beyond_budgets(const EffectsSpec& named, int dimension) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "field/velocity/velocity.hpp"
 #include "gaussdrift/case.hpp"
 #include "gaussdrift/lattice.hpp"
+#include "particle/cutoff.hpp"
 
 namespace gaussdrift {
 
@@ -52,6 +54,12 @@ struct EffectTraits {
   Trait moves_weight = {};
   /// It needs steps that are known beforehand. The words follow its table in a message: "method = ...", or "at all".
   Trait needs_fixed_steps = {};
+  /// Blobs become wider during the run: "core spreading widens the blobs".
+  Trait widens_blobs = {};
+  /// They do so more along some axes than along others: "blobs become ellipses".
+  Trait makes_ellipses = {};
+  /// Particles move at random: "the random walk parts neighbours".
+  Trait scatters = {};
   /// The density spreads.
   bool diffuses = false;
   /// What carries the density changes, the density does not.
@@ -82,6 +90,7 @@ struct EffectScene {
   double spreading;            // the square of every width grows at this rate
   const ScalarField* decay;    // the field of the key NamedEffect::decay_rate; null without
   const ScalarField* carried;  // and of NamedEffect::carried
+  const ScalarField* field;    // and of NamedEffect::field, or the values of its file
   /// Carries particles from their lattice nodes to the places that they would have reached by now.
   std::function<void(Particles& particles)> follow;
   base::Communicator& ranks;  // that share the particles
@@ -105,12 +114,17 @@ struct NamedEffect {
   std::string_view carried = {};
   /// What that is called: "charge".
   std::string_view carried_name = {};
+  /// The key with an expression for which data on a grid may stand, `file`, and what these are: "the coefficient".
+  std::string_view field = {};
+  std::string_view field_name = {};
   /// Words of other programs that ask for it, and what is possible in their place.
   std::vector<std::pair<std::string_view, std::string_view>> elsewhere = {};
   /// What is wrong with it in a case whose domain, particles and times have been read.
   std::vector<Complaint> (*problems)(const EffectSpec& effect, const Case& spec) = nullptr;
   /// The rate at which the square of every width grows.
   double (*spreading)(const EffectSpec& effect) = nullptr;
+  /// How that is along other directions than the fastest, see spread_cutoff(); null: all are alike.
+  std::optional<Tensor> (*spreading_shape)(const EffectSpec& effect, int dimension) = nullptr;
   /// Work of a particle in a step besides stages, in evaluations of a velocity (sim/work.hpp, Work).
   double (*work)(const EffectSpec& effect, const Case& spec) = nullptr;
   EffectMemory (*memory)(const EffectSpec& effect, int dimension) = nullptr;
@@ -147,6 +161,9 @@ bool flat_patches_ripple(const EffectsSpec& named);
 
 /// The rate at which the square of every width grows, by all effects together.
 double spreading(const EffectsSpec& named);
+
+/// How blobs are longer along some directions; empty: all effects leave them round.
+std::optional<Tensor> spreading_shape(const EffectsSpec& named, int dimension);
 
 /// Why the errors of a case with these effects are not predicted: the causes that a budget knows are those of transport
 /// and of weights that decay along their paths. Empty: they are.

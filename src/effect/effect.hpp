@@ -5,13 +5,14 @@
 // One run calls, in this order:
 //   look_at          once, with a sample of the particles
 //   begin            once the particles stand; again whenever another effect has replaced them
-//   for every step   exchange (half a step), the step itself with the path integrals, settle, land, rearrange, exchange
-//                    (half a step)
+//   for every step   exchange (half a step), scatter (half a step), the step itself with the path integrals, scatter,
+//                    settle, land, rearrange, exchange (half a step)
 //   land             at output times: afterwards weights and widths are those of that time
 // Without any effect that acts_between_steps(), settle and land alone are called, at output times.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -30,8 +31,15 @@ namespace gaussdrift {
 struct Changes {
   bool position = false;
   bool weight = false;
-  bool width = false;      // of the blobs
-  bool particles = false;  // adds or replaces particles
+  bool width = false;       // of the blobs
+  bool particles = false;   // adds or replaces particles
+  bool neighbours = false;  // those that start side by side do not stay so, by chance
+};
+
+/// A part of a step in which particles move at random. Numbers are drawn for it alone.
+struct Scattering {
+  std::uint64_t number = 0;     // no other part of the run has it
+  double time = 0, length = 0;  // of which, and how long it is
 };
 
 /// The rank that has the tile in which this place lies.
@@ -68,6 +76,11 @@ class Effect {
   virtual bool acts_between_steps() const { return false; }
   /// Changes weights over a length of time, at fixed positions.
   virtual void exchange(Particles& /*particles*/, double /*time*/, double /*length*/) {}
+  /// True if it moves particles at random. Then it has to act between any two steps as well.
+  virtual bool scatters() const { return false; }
+  /// Moves the particles by chance, on both sides of the step itself. What a particle draws follows from its id and from
+  /// the number, and from nothing else.
+  virtual void scatter(Particles& /*particles*/, const Scattering& /*part*/) {}
   /// May replace the particles; true if it did.
   virtual bool rearrange(Particles& /*particles*/, double /*time*/) { return false; }
 

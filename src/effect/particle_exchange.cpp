@@ -14,6 +14,7 @@
 
 #include "base/exact_sum.hpp"
 #include "effect/catalogue.hpp"
+#include "effect/diffusivity.hpp"
 #include "effect/meeting_rank.hpp"
 #include "effect/scattered_sums.hpp"
 #include "gaussdrift/error.hpp"
@@ -73,6 +74,8 @@ void ParticleExchange::refuse_so_many() const {
 }
 
 std::string ParticleExchange::describe() const {
+  if (options_.field)
+    return fmt::format("diffusion div(D grad rho), D = {}, by particle exchange", options_.field->describe());
   return fmt::format("diffusion D Laplacian rho, D = {:g}, by particle exchange", options_.coefficient);
 }
 
@@ -123,13 +126,19 @@ std::size_t ParticleExchange::count_of_all(const Particles& particles) const {
   return static_cast<std::size_t>(count);
 }
 
-void ParticleExchange::begin(Particles& particles, double /*time*/) {
+void ParticleExchange::begin(Particles& particles, double time) {
   ranks_.agree_on([&] { particles.volume.assign(particles.size(), nodes_.cell()); });
   find_nodes(particles);
   if (started_ == 0) started_ = count_of_all(particles);
   grow_halo(particles);
-  const double rate = nodes_.dimension() == 2 ? largest_rate<2>(particles) : largest_rate<3>(particles);
-  stable_step_ = 2 / rate;
+  double rate = 0;
+  const auto look_at = [&](double when) {
+    rate =
+        std::max(rate, nodes_.dimension() == 2 ? largest_rate<2>(particles, when) : largest_rate<3>(particles, when));
+  };
+  look_at(time);
+  if (options_.field && !options_.field->is_steady()) look_at((time + options_.end) / 2), look_at(options_.end);
+  stable_step_ = rate > 0 ? 2 / rate : std::numeric_limits<double>::infinity();
 }
 
 void ParticleExchange::settle(Particles& particles, const double* integral, double time) {
@@ -309,18 +318,33 @@ void ParticleExchange::add(const std::set<std::int64_t>& missing, Particles& par
   for (std::size_t j = 0; j < particles.size(); ++j) surrounded_[j] = surrounded.count(particles.id[j]) > 0;
 }
 
-// (K f)_i = sum_j eta_eps(X_i - X_j) f_j. The exchange alpha' = L alpha, L = D/eps^2 (diag(V) K - diag(K V)), is
-// similar to D/eps^2 (V^1/2 K V^1/2 - diag(K V)) with K positive definite, so its eigenvalues are at least -D/eps^2
-// max_i (K V)_i; they are at most 0 because its columns add up to 0 and only its diagonal is negative.
+// (K f)_i = sum_j eta_eps(X_i - X_j) f_j, and g is the diagonal matrix of the roots of D. The exchange alpha' = L alpha,
+// L = 1/eps^2 (g V K g - diag(g K g V)), is similar to 1/eps^2 (g V^1/2 K V^1/2 g - diag(g K g V)) with K positive
+// definite, so its eigenvalues are at least -1/eps^2 max_i g_i (K g V)_i; they are at most 0 because its
+// columns add up to 0 and only its diagonal is negative.
 template <int d>
-double ParticleExchange::largest_rate(const Particles& particles) const {
+double ParticleExchange::largest_rate(const Particles& particles, double time) const {
   ScatteredSums<d> sums("diffusion by particle exchange", particles, nodes_.lattice(), core_radius_, options_.tiles,
                         sum_options(1e-6, options_.threads), ranks_);
+  const Eigen::ArrayXd g = roots(particles, time);
   return options_.coefficient / (core_radius_ * core_radius_) * peak_of_eta(d, core_radius_) *
-         largest(sums.of(column(particles.volume)).col(0));
+         largest(g * sums.of((g * column(particles.volume).array()).matrix()).col(0).array());
 }
 
-double ParticleExchange::largest(const Eigen::VectorXd& numbers) const {
+// The roots of D at the particles: what two of them exchange goes with the root of the product of both. A constant D is
+// a factor of its own.
+Eigen::ArrayXd ParticleExchange::roots(const Particles& particles, double time) const {
+  Eigen::ArrayXd values = Eigen::ArrayXd::Ones(static_cast<Eigen::Index>(particles.size()));
+  if (!options_.field) return values;
+  values.setZero();
+  ranks_.agree_on([&] {
+    options_.field->add(time, particles.view(), values.data());
+    check_diffusivity(particles.view(), values.data(), particles.id.data(), time);
+  });
+  return values.sqrt();
+}
+
+double ParticleExchange::largest(const Eigen::ArrayXd& numbers) const {
   double most = numbers.size() > 0 ? numbers.maxCoeff() : -std::numeric_limits<double>::infinity();
   ranks_.max(std::span(&most, 1));
   return most;
@@ -341,25 +365,25 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   // The error of the sums is far below that of the halo.
   ScatteredSums<d> sums(fmt::format("diffusion by particle exchange at t = {:.6g}", time), particles, nodes_.lattice(),
                         eps, options_.tiles, sum_options(1e-3 * options_.tolerance, options_.threads), ranks_);
-  const auto volume = column(particles.volume);
+  const Eigen::ArrayXd g = roots(particles, time), volume = g * column(particles.volume).array();
   Eigen::VectorXd alpha = column(particles.alpha);
   Eigen::MatrixXd weights(alpha.size(), 2);
   weights.col(0) = volume;
-  weights.col(1) = alpha;
+  weights.col(1) = g * alpha.array();
   const Eigen::MatrixXd both = sums.of(weights);
-  const Eigen::ArrayXd kv = both.col(0).array();
-  const double rate = factor * largest(both.col(0));
+  const Eigen::ArrayXd kv = g * both.col(0).array();
+  const double rate = factor * largest(kv);
   ranks_.agree_on([&] {
     if (length * rate > 2 * (1 + 1e-6))  // 1e-6: the tolerance of largest_rate()
       throw NumericalError(
           fmt::format("diffusion by particle exchange is unstable at t = {:.6g}, because particles have come close "
-                      "together. Use time.step <= {:.3g}, or let {} renew the particles often.",
-                      time, 2 / rate, restorers_table()));
+                      "together{}. Use time.step <= {:.3g}, or let {} renew the particles often.",
+                      time, options_.field ? " or where the coefficient is larger" : "", 2 / rate, restorers_table()));
   });
-  // L applied to weights w whose sum K w is known. What one particle gives another receives; the tolerance of the sums
+  // L applied to weights w whose sum K g w is known. What one particle gives another receives; the tolerance of the sums
   // breaks that, and what is too much or too little is spread over all exchanges, so that the mass stays.
   const auto exchanged = [&](const Eigen::VectorXd& w, const Eigen::ArrayXd& kw) {
-    const Eigen::ArrayXd gained = volume.array() * kw, given = w.array() * kv;
+    const Eigen::ArrayXd gained = volume * kw, given = w.array() * kv;
     Eigen::ArrayXd change = gained - given;
     const Eigen::ArrayXd size = gained.abs() + given.abs();
     const auto [too_much, all] = sums_of(change, size);
@@ -368,7 +392,7 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   };
   // Heun's method; L does not change as long as positions stand: alpha + t L alpha + t^2/2 L^2 alpha.
   const Eigen::VectorXd first = exchanged(alpha, both.col(1).array());
-  const Eigen::VectorXd second = exchanged(first, sums.of(first).col(0).array());
+  const Eigen::VectorXd second = exchanged(first, sums.of((g * first.array()).matrix()).col(0).array());
   alpha += length * first + length * length / 2 * second;
   Eigen::Map<Eigen::VectorXd>(particles.alpha.data(), alpha.size()) = alpha;
 }

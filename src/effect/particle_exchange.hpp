@@ -1,5 +1,5 @@
-// Diffusion by particle strength exchange, d_t rho + div(rho u) = D Laplacian rho: the Laplacian is an integral over
-// neighbours, and its sum over the particles is a Gauss transform at the particles themselves. Weights change, blobs
+// Diffusion by particle strength exchange, d_t rho + div(rho u) = div(D grad rho): what is on the right is an integral
+// over neighbours, and its sum over the particles is a Gauss transform at the particles themselves. Weights change, blobs
 // keep their width, and particles without weight surround those with weight as far as diffusion reaches in a step.
 // docs/method.md, section 8.2.
 #pragma once
@@ -17,6 +17,7 @@
 #include "base/communicator.hpp"
 #include "effect/effect.hpp"
 #include "effect/nodes.hpp"
+#include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
 #include "particle/tiles.hpp"
 
@@ -25,7 +26,9 @@ namespace gaussdrift {
 class ParticleExchange : public Effect, private PathIntegral {
  public:
   struct Options {
-    double coefficient = 0;   // D > 0
+    double coefficient = 0;              // D > 0; 1 where a field has it
+    const ScalarField* field = nullptr;  // D as a number of place and time; null: constant. It must outlive the effect
+    double end = 0;                      // until when a field counts
     double tolerance = 1e-6;  // particles with more than this part of the largest density are surrounded by others
     int threads = 0;          // 0: all
     std::size_t most_particles = std::size_t{1} << 24;  // with the halo, some 250 bytes each; beyond, an error
@@ -48,7 +51,7 @@ class ParticleExchange : public Effect, private PathIntegral {
   std::string describe() const override;
   Changes changes() const override { return {.weight = true, .particles = true}; }
   std::string conserves() const override { return "mass; the centroid to the tolerance of the sum"; }
-  /// Heun's method exchanges the weights. It is stable up to this step: 2 / (D / eps^2 max_i (K V)_i).
+  /// Heun's method exchanges the weights. It is stable up to this step: 2 / (1 / eps^2 max_i g_i (K g V)_i), g^2 = D.
   double stable_step() const override { return stable_step_; }
 
   void begin(Particles& particles, double time) override;
@@ -87,8 +90,9 @@ class ParticleExchange : public Effect, private PathIntegral {
   template <int d>
   void exchange_in_dimension(Particles& particles, double time, double length);
   template <int d>
-  double largest_rate(const Particles& particles) const;
-  double largest(const Eigen::VectorXd& numbers) const;
+  double largest_rate(const Particles& particles, double time) const;
+  Eigen::ArrayXd roots(const Particles& particles, double time) const;
+  double largest(const Eigen::ArrayXd& numbers) const;
   std::pair<double, double> sums_of(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) const;
 
   base::Communicator alone_;

@@ -62,6 +62,8 @@ std::vector<std::filesystem::path> data_files(const Case& spec) {
   for (const auto& part : spec.velocity) std::visit([&](const auto& one) { add_file(one, files); }, part);
   for (const auto& part : spec.density) std::visit([&](const auto& one) { add_file(one, files); }, part);
   for (const auto& part : spec.sources) std::visit([&](const auto& one) { add_file(one, files); }, part.what);
+  for (const EffectSpec& effect : spec.effects.list)
+    if (effect.file) add_file(*effect.file, files);
   return files;
 }
 
@@ -72,6 +74,8 @@ Case with_bare_names(Case spec) {
   for (auto& part : spec.velocity) std::visit(shorten, part);
   for (auto& part : spec.density) std::visit(shorten, part);
   for (auto& part : spec.sources) std::visit(shorten, part.what);
+  for (EffectSpec& effect : spec.effects.list)
+    if (effect.file) shorten(*effect.file);
   return spec;
 }
 

@@ -16,11 +16,15 @@ struct Meeting {
 Trait interacting(const EffectTraits& traits) { return {.words = traits.particles_interact ? "move each other" : ""}; }
 Trait moved_by_weights(const EffectTraits& traits) { return traits.moved_by_weights; }
 Trait carrying_more(const EffectTraits& traits) { return traits.carries_more; }
+Trait replacing(const EffectTraits& traits) { return traits.replaces_particles; }
 
 constexpr Meeting meetings[] = {
     {moved_by_weights, &EffectTraits::grows_weights, "{1}, and {0}"},
     {interacting, &EffectTraits::adds_particles, "{1}, and they cannot be carried from the start"},
     {carrying_more, &EffectTraits::replaces_particles, "{1}, which have weights but no {0}"},
+    {interacting, &EffectTraits::makes_ellipses, "{1}, and only of round ones it is known how they {0}"},
+    {replacing, &EffectTraits::makes_ellipses, "{1}, and {0}, whose weights would take up the spread of round blobs"},
+    {replacing, &EffectTraits::scatters, "{1}, and {0}, on nodes that take from their neighbours what lies in order"},
 };
 
 EffectRule rule_of(const NamedEffect& one, const NamedEffect& two, const Trait& trait, const Trait& other,
@@ -71,8 +75,9 @@ std::vector<EffectRule> effect_rules() {
           rules.push_back(
               rule_of(one, two, trait, other, fmt::format(fmt::runtime(meeting.reason), trait.words, other.words)));
       }
-      if (const Trait& blind = one.traits.blind_to_widths; !blind.words.empty() && two.traits.diffuses)
-        rules.push_back(rule_of(one, two, blind, {.words = "diffuses"}, std::string(blind.words)));
+      const Trait &blind = one.traits.blind_to_widths, &widens = two.traits.widens_blobs;
+      if (!blind.words.empty() && !widens.words.empty())
+        rules.push_back(rule_of(one, two, blind, widens, std::string(blind.words)));
     }
   return rules;
 }

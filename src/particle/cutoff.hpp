@@ -13,11 +13,19 @@
 
 namespace gaussdrift {
 
-/// coefficient * D^derivative exp(-|x|^2 / width^2).
+/// A symmetric matrix of the dimension's size; what is beyond it is 0.
+using Tensor = std::array<std::array<double, max_dimension>, max_dimension>;
+
+/// coefficient * D^derivative exp(-|x|^2 / width^2), as long as it is round. An ellipse is
+/// coefficient * D^derivative exp(-x^T (width^2 I + longer)^-1 x), with no negative eigenvalue of `longer` and one that
+/// is 0: width is its shortest radius.
 struct CutoffTerm {
   double width = 1;
   std::array<int, max_dimension> derivative{};
   double coefficient = 1;
+  Tensor longer{};
+
+  bool is_round() const { return longer == Tensor{}; }
 };
 
 /// zeta_eps as a sum of terms.
@@ -63,6 +71,10 @@ double reach(const Cutoff& cutoff, double part);
 /// The cutoff convolved with the Gaussian of variance spread/2 an axis. The square of every width grows by `spread`.
 /// Its integral and the coefficients of the derivatives stay (method.md, equation 11).
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread);
+
+/// The same with spread * shape in place of a spread that is the same along all axes: the largest eigenvalue of the shape
+/// is 1, and the smallest is at least 0.
+Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread, const Tensor& shape);
 
 }  // namespace gaussdrift
 

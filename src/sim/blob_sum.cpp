@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "base/printed.hpp"
 #include "base/weight_within.hpp"
@@ -37,18 +39,27 @@ BlobSum<d>::BlobSum(const Particles& particles, const Cutoff& cutoff, const Dens
 template <int d>
 std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cutoff& cutoff,
                                                                         const std::vector<DensityDerivatives>& wanted) {
-  std::map<double, WidthGroup> groups;
+  std::map<std::pair<double, Tensor>, WidthGroup> groups;
   for (const CutoffTerm& term : cutoff) {
-    WidthGroup& group = groups[term.width];
-    group.sigma = 1 / (term.width * term.width);
+    WidthGroup& group = groups[{term.width, term.longer}];
+    group.sigma = term.is_round() ? 1 / (term.width * term.width) : 1;
+    if (!term.is_round() && !group.round) group.round = round_coordinates(term);
     group.combinations.resize(1 + wanted.size());
     group.scale.resize(1 + wanted.size());
-    const auto add = [&](std::size_t quantity, const std::array<int, max_dimension>& further) {
+    const auto add_one = [&](std::size_t quantity, const std::array<int, max_dimension>& derivative,
+                             double coefficient) {
       fgtd::Derivative<d> alpha{};
-      for (std::size_t k = 0; k < d; ++k) alpha[k] = term.derivative[k] + further[k];
-      group.combinations[quantity].push_back({alpha, term.coefficient});
+      for (std::size_t k = 0; k < d; ++k) alpha[k] = derivative[k];
+      group.combinations[quantity].push_back({alpha, coefficient});
       group.derivative_order = std::max(group.derivative_order, std::accumulate(alpha.begin(), alpha.end(), 0));
-      group.scale[quantity] += std::abs(term.coefficient) * fgtd::derivative_scale<d>(alpha, group.sigma);
+      group.scale[quantity] += std::abs(coefficient) * fgtd::derivative_scale<d>(alpha, group.sigma);
+    };
+    const auto add = [&](std::size_t quantity, const std::array<int, max_dimension>& further) {
+      std::array<int, max_dimension> derivative = term.derivative;
+      for (std::size_t k = 0; k < d; ++k) derivative[k] += further[k];
+      if (!group.round) return add_one(quantity, derivative, term.coefficient);
+      for (const CutoffTerm& part : derivative_along(derivative, *group.round))
+        add_one(quantity, part.derivative, term.coefficient * part.coefficient);
     };
     add(0, {});
     for (std::size_t q = 0; q < wanted.size(); ++q)
@@ -60,11 +71,53 @@ std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cu
 }
 
 template <int d>
+fgtd::Points<d> BlobSum<d>::WidthGroup::in_its_coordinates(const fgtd::Points<d>& points) const {
+  if (!round) return points;
+  fgtd::Points<d> there(d, points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    Vector x{};
+    for (int k = 0; k < d; ++k) x[static_cast<std::size_t>(k)] = points(k, i);
+    const Vector y = round->of(x);
+    for (int k = 0; k < d; ++k) there(k, i) = y[static_cast<std::size_t>(k)];
+  }
+  return there;
+}
+
+template <int d>
+std::optional<fgtd::TensorGrid> BlobSum<d>::WidthGroup::in_its_coordinates(const fgtd::TensorGrid& grid) const {
+  if (!round) return grid;
+  if (!round->keeps_axes()) return std::nullopt;
+  fgtd::TensorGrid there = grid;
+  for (std::size_t k = 0; k < d; ++k)
+    for (double& node : there.axes[k]) node *= round->map[k][k];
+  return there;
+}
+
+template <int d>
+double BlobSum<d>::WidthGroup::steepest_at(std::size_t axis) const {
+  double square = sigma;  // of the factor of x_k^2 in the exponent
+  if (round) {
+    square = 0;
+    for (std::size_t m = 0; m < d; ++m) square += round->map[m][axis] * round->map[m][axis];
+  }
+  return 1 / std::sqrt(2 * square);
+}
+
+template <int d>
 OfQuantities BlobSum<d>::error_of_unit_tolerance(const Particles& particles) const {
   OfQuantities errors(options_.quantities(), 0.0);
   for (const WidthGroup& group : groups_) {
     const double reach = std::sqrt((2 * std::log(1 / options_.tolerance) + 40) / group.sigma);
-    const double weight = largest_weight_within(particles.view(), particles.alpha.data(), reach);
+    PointsView places = particles.view();
+    std::array<Eigen::VectorXd, d> columns;
+    if (group.round) {
+      const fgtd::Points<d> there = group.in_its_coordinates(points_of<d>(particles));
+      for (std::size_t k = 0; k < d; ++k) {
+        columns[k] = there.row(static_cast<Eigen::Index>(k)).transpose();
+        places.axis[k] = columns[k].data();
+      }
+    }
+    const double weight = largest_weight_within(places, particles.alpha.data(), reach);
     for (std::size_t q = 0; q < errors.size(); ++q) errors[q] += group.scale[q] * weight;
   }
   return errors;
@@ -114,14 +167,56 @@ double BlobSum<d>::bound_by_hand(std::size_t quantity) const {
   return bound * weights_.cwiseAbs().sum();
 }
 
+// The grid where its points count as one in the coordinates of a group, and else its points.
+template <int d>
+class BlobSum<d>::Targets {
+ public:
+  Targets(const WidthGroup& group, const fgtd::TensorGrid& grid) : grid_(group.in_its_coordinates(grid)) {
+    if (!grid_) points_ = group.in_its_coordinates(points_of_grid(grid));
+  }
+
+  void expect(fgtd::Options& options) const {
+    if (grid_)
+      options.expected_grid = grid_;
+    else
+      options.expected_targets = static_cast<std::size_t>(points_.cols());
+  }
+  Eigen::MatrixXd values(const fgtd::Plan<d>& plan, const std::vector<fgtd::Combination<d>>& combinations) const {
+    return grid_ ? plan.evaluate_combinations(*grid_, combinations) : plan.evaluate_combinations(points_, combinations);
+  }
+
+ private:
+  static fgtd::Points<d> points_of_grid(const fgtd::TensorGrid& grid) {
+    fgtd::Points<d> points(d, static_cast<Eigen::Index>(grid.size()));
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      std::size_t rest = i;
+      for (std::size_t k = 0; k < d; ++k) {
+        points(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = grid.axes[k][rest % grid.axes[k].size()];
+        rest /= grid.axes[k].size();
+      }
+    }
+    return points;
+  }
+
+  std::optional<fgtd::TensorGrid> grid_;
+  fgtd::Points<d> points_;
+};
+
+template <int d>
+fgtd::Plan<d> BlobSum<d>::plan_of(const WidthGroup& group, const fgtd::Options& options) const {
+  if (!group.round) return {sources_, weights_, group.sigma, options};
+  return {group.in_its_coordinates(sources_), weights_, group.sigma, options};
+}
+
 template <int d>
 DensityWork BlobSum<d>::predict(const fgtd::TensorGrid& grid) const {
   DensityWork work;
   for (const WidthGroup& group : groups_) {
-    fgtd::Options options = options_for(group, grid);
+    fgtd::Options options = options_for(group);
+    Targets(group, grid).expect(options);
     options.most_seconds = 0;  // any work is more, so the plan tells how much and does nothing
     try {
-      fgtd::Plan<d>(sources_, weights_, group.sigma, options);
+      plan_of(group, options);
     } catch (const fgtd::TimeLimitError& limit) {
       work.seconds += limit.seconds;
       work.method = to_string(limit.method);
@@ -136,8 +231,11 @@ Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityRepor
   Eigen::MatrixXd values =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(grid.size()), static_cast<Eigen::Index>(options_.quantities()));
   for (const WidthGroup& group : groups_) {
-    const fgtd::Plan<d> plan(sources_, weights_, group.sigma, options_for(group, grid));
-    values += plan.evaluate_combinations(grid, group.combinations);
+    const Targets targets(group, grid);
+    fgtd::Options options = options_for(group);
+    targets.expect(options);
+    const fgtd::Plan<d> plan = plan_of(group, options);
+    values += targets.values(plan, group.combinations);
     if (!report.choice.empty()) report.choice += '\n';
     report.choice += base::printed(plan.choice());
   }
@@ -152,8 +250,7 @@ Eigen::MatrixXd BlobSum<d>::direct(const fgtd::Points<d>& targets) const {
     options.method = fgtd::Method::direct;
     options.derivative_order = group.derivative_order;
     options.threads = options_.threads;
-    values +=
-        fgtd::Plan<d>(sources_, weights_, group.sigma, options).evaluate_combinations(targets, group.combinations);
+    values += plan_of(group, options).evaluate_combinations(group.in_its_coordinates(targets), group.combinations);
   }
   return values;
 }
@@ -169,7 +266,7 @@ OfQuantities BlobSum<d>::largest_near(const fgtd::Points<d>& points) const {
   for (int k = 0; k < d; ++k)
     for (const int side : {-1, 1}) {
       fgtd::Points<d> beside = points;
-      beside.row(k).array() += side / std::sqrt(2 * groups_.front().sigma);  // where exp(-sigma r^2) is steepest
+      beside.row(k).array() += side * groups_.front().steepest_at(static_cast<std::size_t>(k));
       OfQuantities there = largest_at(beside);
       there[0] = 0;  // the density's own bound is what it is without derivatives
       raise(largest, there);
@@ -178,14 +275,13 @@ OfQuantities BlobSum<d>::largest_near(const fgtd::Points<d>& points) const {
 }
 
 template <int d>
-fgtd::Options BlobSum<d>::options_for(const WidthGroup& group, const fgtd::TensorGrid& grid) const {
+fgtd::Options BlobSum<d>::options_for(const WidthGroup& group) const {
   fgtd::Options options;
   options.tolerance = tolerance_;
   options.derivative_order = group.derivative_order;
   options.method = method_by_name(options_.method);
   if (by_hand()) options.hermite = {options_.hermite->r, options_.hermite->p, options_.hermite->n};
   options.threads = options_.threads;
-  options.expected_grid = grid;
   return options;
 }
 

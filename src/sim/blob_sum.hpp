@@ -5,12 +5,14 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "gaussdrift/lattice_pieces.hpp"
 #include "gaussdrift/particles.hpp"
 #include "particle/cutoff.hpp"
+#include "particle/round_coordinates.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
@@ -51,18 +53,28 @@ class BlobSum {
   const fgtd::Points<d>& sources() const { return sources_; }
 
  private:
-  // All terms of one Gaussian width: one prepared transform, evaluated with derivatives.
+  // All terms of one Gaussian width: one prepared transform, evaluated with derivatives. That of ellipses is one in
+  // coordinates in which they are round.
   struct WidthGroup {
     double sigma = 0;                                // 1 / width^2
+    std::optional<RoundCoordinates> round = {};      // of ellipses
     std::vector<fgtd::Combination<d>> combinations;  // of each quantity
     int derivative_order = 0;
     OfQuantities scale;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight
+
+    fgtd::Points<d> in_its_coordinates(const fgtd::Points<d>& points) const;
+    // The grid, as long as it is one there.
+    std::optional<fgtd::TensorGrid> in_its_coordinates(const fgtd::TensorGrid& grid) const;
+    // Where a Gaussian is steepest on the way along an axis.
+    double steepest_at(std::size_t axis) const;
   };
   static std::vector<WidthGroup> group_by_width(const Cutoff& cutoff, const std::vector<DensityDerivatives>& wanted);
   bool by_hand() const { return options_.method == to_string(fgtd::Method::hermite) && options_.hermite; }
   // Bound (3.5) of the error of the sum with parameters by hand.
   double bound_by_hand(std::size_t quantity) const;
-  fgtd::Options options_for(const WidthGroup& group, const fgtd::TensorGrid& grid) const;
+  class Targets;
+  fgtd::Plan<d> plan_of(const WidthGroup& group, const fgtd::Options& options) const;
+  fgtd::Options options_for(const WidthGroup& group) const;
 
   const DensityOptions& options_;
   fgtd::Points<d> sources_;

@@ -309,7 +309,10 @@ void Carrier::advance(Particles& particles, const time::Interval& interval, std:
     const double half = interval.length(i) / 2;
     if (i == 0) exchange(particles, interval.start(i), half, stages);
     if (needs_beginnings()) began_ = particles.position;
+    const std::uint64_t part = 2 * static_cast<std::uint64_t>(steps_before + i);
+    scatter(particles, {part, interval.start(i), half}, stages);
     take_steps(particles, interval, i, 1, steps_before, stages);
+    scatter(particles, {part + 1, interval.start(i) + half, half}, stages);
     arrive(particles, interval.start(i), interval.start(i + 1), stages);
     if (!between_steps_) continue;
     taken_.add(interval, i);
@@ -392,6 +395,20 @@ void Carrier::exchange(Particles& particles, double time, double length, StageTi
       stages.run(stage_of(*effect), [&] { call(*effect, [&] { effect->exchange(particles, time, length); }); });
 }
 
+void Carrier::scatter(Particles& particles, const Scattering& part, StageTimes& stages) const {
+  for (const auto& effect : effects_) {
+    if (!effect->scatters()) continue;
+    stages.run(stage_of(*effect), [&] {
+      const bool kept_off = coast_ && coast_->rule() == AtCoast::slide;
+      const auto before = kept_off ? particles.position : decltype(particles.position){};
+      call(*effect, [&] {
+        effect->scatter(particles, part);
+        if (kept_off) coast_->keep_off(before, particles, part.time, part.time + part.length, threads_);
+      });
+    });
+  }
+}
+
 // Particles that stand on their nodes, with nothing integrated yet, take all steps since the others stood on theirs.
 void Carrier::follow(Particles& particles) const {
   particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
@@ -427,6 +444,11 @@ void Carrier::land(Particles& particles, double time, StageTimes& stages) {
 void Carrier::bring_up(Particles& particles, double time, StageTimes& stages) const {
   for (const auto& effect : effects_)
     stages.run(stage_of(*effect), [&] { call(*effect, [&] { effect->land(particles, time); }); });
+}
+
+bool Carrier::keeps_neighbours() const {
+  return std::none_of(effects_.begin(), effects_.end(),
+                      [](const auto& effect) { return effect->changes().particles || effect->changes().neighbours; });
 }
 
 bool Carrier::replaces_particles() const {

@@ -98,6 +98,9 @@ class Carrier {
   /// True if an effect may put other particles in place of those that were seeded.
   bool replaces_particles() const;
 
+  /// True if particles that start side by side stay so, but for what the flow does.
+  bool keeps_neighbours() const;
+
   /// What may leave the run, and has.
   const Departures& departures() const { return departures_; }
   Departures& departures() { return departures_; }
@@ -145,6 +148,7 @@ class Carrier {
   void take_own_steps(Particles& particles, const time::Interval& interval, std::size_t first, std::size_t count,
                       std::size_t steps_before, StageTimes& stages) const;
   void exchange(Particles& particles, double time, double length, StageTimes& stages) const;
+  void scatter(Particles& particles, const Scattering& part, StageTimes& stages) const;
   void rearrange(Particles& particles, double time, StageTimes& stages);
   void follow(Particles& particles) const;
   void settle(Particles& particles, double time, StageTimes& stages);

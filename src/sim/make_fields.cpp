@@ -137,17 +137,31 @@ std::unique_ptr<InitialDensity> make_density(const Case& spec, const ShapeDensit
   return folded(make_part(shape, spec, 1), spec);
 }
 
-std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& text) {
-  auto field = std::make_unique<WrittenScalar>(text, spec.domain.dimension, spec.params);
+namespace {
+
+std::unique_ptr<ScalarField> folded(std::unique_ptr<ScalarField> field, const Case& spec) {
   const Folding folding = folding_of(spec.domain);
   if (!folding.folds()) return field;
   return std::make_unique<FoldedScalar>(std::move(field), folding);
 }
 
-std::unique_ptr<ScalarField> make_rate(const Case& spec, const std::string& text) {
-  auto field = make_scalar(spec, text);
+std::unique_ptr<ScalarField> on_the_clock(std::unique_ptr<ScalarField> field, const Case& spec) {
   if (spec.time.is_plain()) return field;
   return std::make_unique<ClockedRate>(std::move(field), clock_of(spec.time));
+}
+
+}  // namespace
+
+std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& text) {
+  return folded(std::make_unique<WrittenScalar>(text, spec.domain.dimension, spec.params), spec);
+}
+
+std::unique_ptr<ScalarField> make_rate(const Case& spec, const std::string& text) {
+  return on_the_clock(make_scalar(spec, text), spec);
+}
+
+std::unique_ptr<ScalarField> make_rate(const Case& spec, const GridFileSpec& file) {
+  return on_the_clock(folded(std::make_unique<GriddedScalar>(interpolator(file)), spec), spec);
 }
 
 }  // namespace gaussdrift

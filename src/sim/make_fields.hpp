@@ -33,8 +33,8 @@ std::unique_ptr<InitialDensity> make_density(const Case& spec, const ShapeDensit
 
 /// An expression of place and time that the case gives, at times of the clock.
 std::unique_ptr<ScalarField> make_scalar(const Case& spec, const std::string& text);
-
 /// The same as a rate at which something grows, in elapsed time.
 std::unique_ptr<ScalarField> make_rate(const Case& spec, const std::string& text);
+std::unique_ptr<ScalarField> make_rate(const Case& spec, const GridFileSpec& file);  ///< from data
 
 }  // namespace gaussdrift

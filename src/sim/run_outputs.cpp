@@ -126,9 +126,7 @@ DensityOptions Simulation::Parts::density_options() const {
   return options;
 }
 
-Cutoff Simulation::Parts::blob() const {
-  return particles_.spread > 0 ? spread_cutoff(scene_.cutoff, particles_.dimension, particles_.spread) : scene_.cutoff;
-}
+Cutoff Simulation::Parts::blob() const { return blob_of(scene_, particles_); }
 
 // Particles to the ranks that carry them from `from` to the next landing, and sum the density at `from`.
 void Simulation::Parts::place(double from) {
@@ -370,7 +368,7 @@ void Simulation::Parts::show_frame(double time) {
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
   std::vector<double> velocity = velocity_at_particles(time, velocity_wanted);
 
-  if (!carrier_.replaces_particles())
+  if (carrier_.keeps_neighbours())
     frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_, folding_of(case_.domain));
   if (velocity_wanted)
     frame.particle_pieces = pieces_of_particles(place_.particle_count(), case_.output.piece_particles);

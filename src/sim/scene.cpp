@@ -16,6 +16,12 @@ namespace gaussdrift {
 
 namespace {
 
+/// What depends on the time of the clock as rates do. Nothing that has one is turned round.
+std::unique_ptr<ScalarField> coefficient_of(const NamedEffect& effect, const EffectSpec& values, const Case& spec) {
+  if (values.file) return make_rate(spec, *values.file);
+  return effect.field.empty() || !values.has(effect.field) ? nullptr : make_rate(spec, values.text(effect.field));
+}
+
 void make_effect_fields(const Case& spec, Scene& scene) {
   std::vector<std::unique_ptr<ScalarField>> decays;
   for (const auto& [effect, values] : effects_of(spec.effects)) {
@@ -31,6 +37,7 @@ void make_effect_fields(const Case& spec, Scene& scene) {
     };
     if (auto decay = decay_of()) decays.push_back(std::move(decay));
     scene.effect_fields.push_back({values.name, decay_of(), field_of(effect->carried),
+                                   coefficient_of(*effect, values, spec),
                                    fmt::format("effects.{}.{}", values.name, effect->carried)});
   }
   if (decays.size() == 1) scene.decay_rate = std::move(decays.front());
@@ -38,6 +45,12 @@ void make_effect_fields(const Case& spec, Scene& scene) {
 }
 
 }  // namespace
+
+Cutoff blob_of(const Scene& scene, const Particles& particles) {
+  if (!(particles.spread > 0)) return scene.cutoff;
+  if (!scene.spreading_shape) return spread_cutoff(scene.cutoff, particles.dimension, particles.spread);
+  return spread_cutoff(scene.cutoff, particles.dimension, particles.spread, *scene.spreading_shape);
+}
 
 Lattice evaluation_lattice(const Case& spec) {
   const Domain& domain = spec.domain;
@@ -60,6 +73,7 @@ Scene make_scene(const Case& spec, int threads) {
   scene.core_radius = spec.particles.overlap * scene.seeding.spacing;
   scene.cutoff =
       make_cutoff(spec.particles.cutoff, domain.dimension, scene.core_radius, spec.particles.cutoff_arguments);
+  scene.spreading_shape = spreading_shape(spec.effects, domain.dimension);
   return scene;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct EffectFields {
   std::string effect;
   std::unique_ptr<ScalarField> decay;
   std::unique_ptr<ScalarField> carried;
+  std::unique_ptr<ScalarField> field;
   std::string carried_key;  // "effects.charge.density"
 };
 
@@ -36,13 +38,17 @@ struct Scene {
   double threshold = 0;       // particles.threshold
   bool starts_empty = false;  // there are sources and no density at the start
   Cutoff cutoff;
-  std::unique_ptr<Coast> coast;      // null: the data have no land
-  std::vector<std::string> misfits;  // what is wrong with the velocity at the edges of the domain, for people
+  std::optional<Tensor> spreading_shape;  // of blobs that become ellipses; empty: they stay round
+  std::unique_ptr<Coast> coast;           // null: the data have no land
+  std::vector<std::string> misfits;       // what is wrong with the velocity at the edges of the domain, for people
 };
 
 /// The length over which gradients of the velocity are taken as differences: a thousandth of the smallest length that
 /// the density resolves.
 inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius; }
+
+/// What these particles carry: the cutoff at the start, as wide as it has become.
+Cutoff blob_of(const Scene& scene, const Particles& particles);
 
 /// The grid on which a case sums its density.
 Lattice evaluation_lattice(const Case& spec);

@@ -43,6 +43,7 @@ void summarise_effects(const Effects& effects, const Scene& scene, RunSummary& s
     if (changes.position) row.changes.emplace_back("position");
     if (changes.weight) row.changes.emplace_back("weight");
     if (changes.width) row.changes.emplace_back("width");
+    if (changes.neighbours) row.changes.emplace_back("neighbours");
     if (changes.particles) row.changes.emplace_back("particles");
     summary.effects.push_back(std::move(row));
   }

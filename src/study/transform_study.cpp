@@ -52,8 +52,7 @@ class TransformStudy {
         seconds_(seconds),
         particles_(particles_at_end(bare, threads)),
         scene_(make_scene(bare, threads)),
-        blob_(particles_.spread > 0 ? spread_cutoff(scene_.cutoff, particles_.dimension, particles_.spread)
-                                    : scene_.cutoff) {
+        blob_(blob_of(scene_, particles_)) {
     Particles images;
     const Particles& sources = summed_particles(bare.domain, particles_, reach_of_blob(blob_, {}), images);
     if (&sources == &images) particles_ = std::move(images);

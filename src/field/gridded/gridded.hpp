@@ -1,10 +1,11 @@
-// Fields from data on a grid: a velocity, a density.
+// Fields from data on a grid: a velocity, a density, a number of place and time.
 #pragma once
 
 #include <utility>
 
 #include "field/density/density.hpp"
 #include "field/gridded/grid_data.hpp"
+#include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
 
 namespace gaussdrift {
@@ -48,6 +49,19 @@ class GriddedDensity : public InitialDensity {
  private:
   GridInterpolator grid_;
   double time_;
+};
+
+class GriddedScalar : public ScalarField {
+ public:
+  explicit GriddedScalar(GridInterpolator grid) : grid_(std::move(grid)) {}
+  void add(double t, const PointsView& x, double* values) const override { grid_.add(t, x, 1, &values); }
+  bool is_steady() const override { return grid_.is_steady(); }
+  bool is_smooth() const override { return false; }
+  double cost() const override { return 5; }
+  std::string describe() const override { return grid_.describe(); }
+
+ private:
+  GridInterpolator grid_;
 };
 
 }  // namespace gaussdrift

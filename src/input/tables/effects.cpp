@@ -13,6 +13,16 @@ namespace gaussdrift::input {
 Section effect_section(const NamedEffect& effect) {
   Section section{Table{.name = table_of(effect), .required = false, .meaning = std::string(effect.about.meaning)}, {}};
   for (const NamedParameter& parameter : effect.about.parameters) section.keys.push_back(key_of(parameter));
+  if (effect.field.empty()) return section;
+  section.keys.push_back(
+      {.name = "file",
+       .meaning = fmt::format("in place of `{}`, a file with {} on a grid. It may be any that `density.file` may be. "
+                              "The path is relative to the case file",
+                              effect.field, effect.field_name)});
+  for (Key& key : grid_file_keys("clamp",
+                                 "what to do where the file has no value. The choices are those of "
+                                 "`velocity.missing`"))
+    section.keys.push_back(std::move(key));
   return section;
 }
 
@@ -24,6 +34,14 @@ bool is_complete(const NamedEffect& effect, const EffectSpec& values) {
   return std::all_of(effect.about.parameters.begin(), effect.about.parameters.end(),
                      [&](const NamedParameter& parameter) {
                        return parameter.optional || values.has(parameter.name) || !applies(parameter, values);
+                     });
+}
+
+/// Some key has been complained about, so that it has no value.
+bool has_unread_keys(Reader& in, const NamedEffect& effect, const EffectSpec& values) {
+  return std::any_of(effect.about.parameters.begin(), effect.about.parameters.end(),
+                     [&](const NamedParameter& parameter) {
+                       return in.find(table_of(effect), parameter.name) && !values.has(parameter.name);
                      });
 }
 
@@ -60,6 +78,18 @@ void read_value(Reader& in, const NamedParameter& parameter, const Key& key, con
   }
 }
 
+/// Data in place of the field of the effect, and keys that go with data alone.
+void read_file(Reader& in, const NamedEffect& effect, EffectSpec& given) {
+  const std::string home = table_of(effect);
+  if (const Entry* entry = in.find(home, "file")) {
+    given.file = grid_file<GridFileSpec>(in, home, entry->value, 1, 1);
+    return;
+  }
+  for (const Key& key : effect_section(effect).keys)
+    if (const Entry* entry = key.with == "file" ? in.find(home, key.name) : nullptr)
+      in.diagnostics.error(entry->place, fmt::format("\"{}\" goes with file", key.name));
+}
+
 /// What its keys say, with defaults.
 EffectSpec effect_values(Reader& in, const NamedEffect& effect) {
   const std::string home = table_of(effect);
@@ -75,6 +105,7 @@ EffectSpec effect_values(Reader& in, const NamedEffect& effect) {
       in.diagnostics.error(entry->value.place, fmt::format("\"{}\" goes with {} = \"{}\"", parameter.name,
                                                            parameter.with, parameter.value));
   }
+  if (!effect.field.empty()) read_file(in, effect, given);
   return complete_effect(effect, given);
 }
 
@@ -133,7 +164,8 @@ void refuse_edges(Reader& in, const NamedEffect& effect, const EffectSpec& value
     in.diagnostics.error(
         edges->value.place,
         fmt::format("domain.edges does not go with [{}]: {}, on a lattice that has no edges", table_of(effect), reason),
-        traits.diffuses ? "method = \"core-spreading\" goes with edges" : "leave out one of them");
+        traits.diffuses ? "method = \"core-spreading\" goes with edges, and so does \"random-walk\""
+                        : "leave out one of them");
     return;
   }
   if (traits.particles_interact && (spec.domain.has(Edge::periodic) || spec.domain.has(Edge::closed)))
@@ -154,13 +186,14 @@ void refuse_sources(Reader& in, const NamedEffect& effect, const EffectSpec& val
   if (traits.adds_particles.of(values, dimension)) reason = traits.adds_particles.words;
   if (traits.replaces_particles.of(values, dimension)) reason = traits.replaces_particles.words;
   if (!reason.empty()) reason += ", on the lattice on which released particles do not stand";
-  if (reason.empty() && traits.diffuses)
-    reason = "all blobs have the same width, and what is released later has to be narrower than the others";
+  if (reason.empty() && traits.widens_blobs.of(values, dimension))
+    reason = fmt::format("{}, all blobs have the same width, and what is released later has to be narrower",
+                         traits.widens_blobs.words);
   if (reason.empty() && traits.particles_interact)
     reason = "how far apart particles must be to move each other is chosen for those of the start";
   if (!reason.empty())
     in.diagnostics.error(source->place, fmt::format("[[source]] does not go with [{}]: {}", table_of(effect), reason),
-                         "leave out one of them");
+                         traits.diffuses ? "method = \"random-walk\" goes with sources" : "leave out one of them");
 }
 
 /// Effects that a run backwards in time cannot undo.
@@ -184,7 +217,9 @@ void refuse_coast(Reader& in, const NamedEffect& effect, const EffectSpec& value
       in.diagnostics.error(coast->value.place,
                            fmt::format("domain.coast does not go with [{}]: {}, on a lattice that knows no land",
                                        table_of(effect), trait->words),
-                           traits.diffuses ? "method = \"core-spreading\" goes with a coast" : "leave out one of them");
+                           traits.diffuses
+                               ? "method = \"core-spreading\" goes with a coast, and so does \"random-walk\""
+                               : "leave out one of them");
       return;
     }
 }
@@ -209,7 +244,7 @@ void refuse_effects(Reader& in, const std::vector<std::pair<const NamedEffect*, 
       refuse_backwards(in, *effect, values, spec);
       refuse_particle_fields(in, *effect, values, spec);
     }
-    if (!effect->problems || !is_complete(*effect, values)) continue;
+    if (!effect->problems || !is_complete(*effect, values) || has_unread_keys(in, *effect, values)) continue;
     for (const Complaint& problem : effect->problems(values, spec)) {
       const Entry* entry = in.find(table_of(*effect), problem.key);
       if (entry)
@@ -263,6 +298,7 @@ void write_effects(Writer& out, const EffectsSpec& list) {
     out.table(table_of(*effect));
     for (const NamedParameter& parameter : effect->about.parameters)
       if (values.has(parameter.name)) out.entry(parameter.name, written_value(parameter, values));
+    if (values.file) write_grid_file(out, *values.file);
   }
 }
 

@@ -1,4 +1,4 @@
-// Data on grids that [velocity] and [density] name.
+// Data on grids that [velocity], [density] and effects name.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -261,6 +261,7 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
 
 template FileVelocitySpec grid_file(Reader&, std::string_view, const Value&, int, int);
 template FileDensitySpec grid_file(Reader&, std::string_view, const Value&, int, int);
+template GridFileSpec grid_file(Reader&, std::string_view, const Value&, int, int);
 
 /// Data at several times must cover the run.
 void check_times_of_files(Reader& in, const TimeSpec& time) {
@@ -310,5 +311,6 @@ void write_grid_file(Writer& out, const FileSpec& spec) {
 
 template void write_grid_file(Writer&, const FileVelocitySpec&);
 template void write_grid_file(Writer&, const FileDensitySpec&);
+template void write_grid_file(Writer&, const GridFileSpec&);
 
 }  // namespace gaussdrift::input

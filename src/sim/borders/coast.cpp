@@ -102,8 +102,10 @@ Vector Coast::met(const Vector& a, const Vector& b, double from, double to) cons
   return coast->water;
 }
 
-void Coast::meet(const std::array<std::vector<double>, max_dimension>& began, Particles& particles, double from,
-                 double to, int threads) const {
+// place(a, b) is where a particle is that was to go from a to b.
+template <class Place>
+void Coast::place_each(const std::array<std::vector<double>, max_dimension>& began, Particles& particles, int threads,
+                       const Place& place) const {
   constexpr std::size_t block = 1024;
   constexpr double seconds = 5e-8;  // of a particle, roughly
   const std::size_t blocks = (particles.size() + block - 1) / block;
@@ -112,10 +114,21 @@ void Coast::meet(const std::array<std::vector<double>, max_dimension>& began, Pa
       Vector a{}, b{};
       for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k)
         a[k] = began[k][j], b[k] = particles.position[k][j];
-      const Vector x = met(a, b, from, to);
+      const Vector x = place(a, b);
       for (std::size_t k = 0; k < static_cast<std::size_t>(dimension_); ++k) particles.position[k][j] = x[k];
     }
   });
+}
+
+void Coast::meet(const std::array<std::vector<double>, max_dimension>& began, Particles& particles, double from,
+                 double to, int threads) const {
+  place_each(began, particles, threads, [&](const Vector& a, const Vector& b) { return met(a, b, from, to); });
+}
+
+void Coast::keep_off(const std::array<std::vector<double>, max_dimension>& before, Particles& particles, double from,
+                     double to, int threads) const {
+  place_each(before, particles, threads,
+             [&](const Vector& a, const Vector& b) { return crossing(from, a, to, b) ? a : b; });
 }
 
 void CoastTakes::mark(const Particles& particles, double time, std::vector<int>& reason) const {

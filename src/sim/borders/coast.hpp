@@ -36,7 +36,15 @@ class Coast {
   void meet(const std::array<std::vector<double>, max_dimension>& began, Particles& particles, double from, double to,
             int threads) const;
 
+  /// Takes back moves by chance that come to land from water. As likely as one way is the other, so that nothing gathers
+  /// at the coast. The same for any number of threads.
+  void keep_off(const std::array<std::vector<double>, max_dimension>& before, Particles& particles, double from,
+                double to, int threads) const;
+
  private:
+  template <class Place>
+  void place_each(const std::array<std::vector<double>, max_dimension>& began, Particles& particles, int threads,
+                  const Place& place) const;
   Land::Shore shore(double t, const Vector& x) const;  // of the land that is most there; in unfolded space
   Vector met(const Vector& a, const Vector& b, double from, double to) const;
   std::optional<Vector> out_of_land(double t, Vector x) const;
