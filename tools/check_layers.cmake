@@ -65,7 +65,7 @@ set(public_field density/density density/radial_density density/shapes density/s
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read calendar grid_file missing_data netcdf/netcdf_file written_run)
 set(public_particle columns cutoff fgtd_points images pieces_by_id placing round_coordinates seeding subset tiles)
-set(public_effect catalogue drift effect path_integral)
+set(public_effect catalogue drift effect path_integral tracer_reactions)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample)
 set(public_sim carrier checks comparison borders/departures borders/edges fields_on_grid follow/particle_fields follow/time_units grid_fields grid_pieces landings make_fields borders/outside releases run_state scene sharing stable_step stepper tiled_density transform work)
 set(public_write atomic_file checkpoint folder_lock output_files provenance result_folder run_folder series_table summary track_files folder_facts vtk_files)

@@ -7,6 +7,7 @@
 
 #include "accuracy/causes.hpp"
 #include "effect/catalogue.hpp"
+#include "effect/tracer_reactions.hpp"
 #include "field/gridded/grid_data.hpp"
 
 namespace gaussdrift::accuracy {
@@ -15,6 +16,7 @@ std::string budget_not_covered(const Case& spec) {
   if (const std::string reason = beyond_budgets(spec.effects, spec.domain.dimension); !reason.empty()) return reason;
   if (spec.domain.has_edges()) return "what the edges of the domain do to errors is not known to it";
   if (!spec.sources.empty()) return "what sources release is not known to it";
+  if (tracers_react(spec)) return "how named densities change into each other is not known to it";
   if (spec.domain.coast != AtCoast::refuse) return "what a coast does to errors is not known to it";
   for (const VelocitySpec& part : spec.velocity)
     if (const auto* file = std::get_if<FileVelocitySpec>(&part); file && file->data->levels)

@@ -15,6 +15,7 @@
 #include "base/has_one.hpp"
 #include "base/size_text.hpp"
 #include "effect/catalogue.hpp"
+#include "effect/tracer_reactions.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
@@ -88,6 +89,8 @@ EffectMemory memory_of_effects(const Case& spec) {
     effects.integrals += one.integrals, effects.columns += one.columns;
     effects.kept += one.kept, effects.step += one.step;
   }
+  effects.columns += static_cast<double>(spec.tracers.size());
+  if (tracers_react(spec)) effects.integrals += static_cast<double>(spec.tracers.size());
   return effects;
 }
 

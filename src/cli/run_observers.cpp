@@ -12,6 +12,24 @@ namespace gaussdrift::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Of the density, and of each that has a name.
+void observe_pictures(Simulation& simulation, const Case& spec, const fs::path& folder,
+                      std::vector<std::string>& later) {
+  std::vector<std::string> tracers{""};
+  for (const TracerSpec& tracer : spec.tracers) tracers.push_back(tracer.name);
+  for (const std::string& tracer : tracers)
+    simulation.observe(
+        render::picture_series(folder, spec.output.images, spec.title.empty() ? spec.name : spec.title,
+                               {.warn = [&](const std::string& line) { later.push_back(line); },
+                                .date = spec.time.date,
+                                .tracer = tracer,
+                                .run_writes_densities = base::has_one(spec.output.files, &OutputFile::shows_density)}));
+}
+
+}  // namespace
+
 void add_observers(Simulation& simulation, const Case& spec, const fs::path& folder, std::vector<std::string>& later) {
   simulation.observe(write::series_table(folder, spec.domain.dimension,
                                          spec.reference.kind != ReferenceSpec::Kind::none, spec.time.date));
@@ -22,11 +40,7 @@ void add_observers(Simulation& simulation, const Case& spec, const fs::path& fol
     if (const std::string reason = render::unavailable_reason(); !reason.empty())
       note("warning: no pictures are drawn: {}\n", reason);
     else
-      simulation.observe(render::picture_series(
-          folder, images, spec.title.empty() ? spec.name : spec.title,
-          {.warn = [&](const std::string& line) { later.push_back(line); },
-           .date = spec.time.date,
-           .run_writes_densities = base::has_one(spec.output.files, &OutputFile::shows_density)}));
+      observe_pictures(simulation, spec, folder, later);
   }
 }
 

@@ -42,6 +42,16 @@ struct Scattering {
   double time = 0, length = 0;  // of which, and how long it is
 };
 
+/// Weights are the sums of those of the tracers, where there are some.
+inline void add_up_tracers(Particles& particles) {
+  if (particles.tracers.empty()) return;
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    double sum = 0;
+    for (const auto& tracer : particles.tracers) sum += tracer[j];
+    particles.alpha[j] = sum;
+  }
+}
+
 /// The rank that has the tile in which this place lies.
 using RankAt = std::function<int(const Vector& place)>;
 
@@ -69,7 +79,8 @@ class Effect {
   virtual const Drift* drift() const { return nullptr; }
   /// The quantity to integrate along the paths; null: none.
   virtual const PathIntegral* path_integral() const { return nullptr; }
-  /// Applies integral[j], gathered since the last call; the caller sets it back to 0 afterwards.
+  /// Applies integral[j], gathered since the last call: the first of its rows of Particles::path, all of which the caller
+  /// sets back to 0 afterwards.
   virtual void settle(Particles& /*particles*/, const double* /*integral*/, double /*time*/) {}
 
   /// True if it has to see the particles between any two steps.

@@ -23,7 +23,7 @@
 
 namespace gaussdrift {
 
-class ParticleExchange : public Effect, private PathIntegral {
+class ParticleExchange : public Effect, private PlainIntegral {
  public:
   struct Options {
     double coefficient = 0;              // D > 0; 1 where a field has it

@@ -17,7 +17,7 @@
 namespace gaussdrift {
 namespace {
 
-class Reaction : public Effect, private PathIntegral {
+class Reaction : public Effect, private PlainIntegral {
  public:
   /// The rate u0 must outlive the effect.
   explicit Reaction(const ScalarField& rate) : rate_(rate) {}
@@ -55,6 +55,10 @@ void Reaction::settle(Particles& particles, const double* integral, double time)
     }
     particles.alpha[j] = after;
   }
+  for (auto& tracer : particles.tracers)
+    for (std::size_t j = 0; j < tracer.size(); ++j)
+      if (tracer[j] != 0) tracer[j] *= std::exp(-integral[j]);
+  add_up_tracers(particles);
 }
 
 constexpr std::string_view what_enters =

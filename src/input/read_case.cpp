@@ -26,7 +26,7 @@ Case read_tables(Reader& in) {
   read_params(in, spec.params);
   read_domain(in, spec.domain);
   read_velocity(in, spec.velocity);
-  read_density(in, spec.density);
+  read_density(in, spec);
   read_particles(in, spec.particles, spec.domain);
   read_time(in, spec.time);
   check_times_of_files(in, spec.time);
@@ -35,6 +35,7 @@ Case read_tables(Reader& in) {
   read_output(in, spec.output, spec.time);
   read_effects(in, spec);
   read_tracks(in, spec);
+  check_tracers(in, spec);
   read_reference(in, spec);
   read_accuracy(in, spec);
   read_checks(in, spec);

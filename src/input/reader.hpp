@@ -120,6 +120,8 @@ class Reader {
   std::vector<std::size_t> choices(std::string_view table_name, std::string_view name);
   /// An expression of position, perhaps time; compiled here to find its errors. A plain number is one too.
   std::string field_expression(const Value& value, const std::string& label, bool with_time);
+  /// The same of tracers too, by their names.
+  std::string tracer_expression(const Value& value, const std::string& label, const std::vector<std::string>& tracers);
   /// The same of time alone.
   std::string time_expression(const Value& value, const std::string& label);
 

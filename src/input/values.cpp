@@ -270,6 +270,15 @@ std::string Reader::field_expression(const Value& value, const std::string& labe
   });
 }
 
+std::string Reader::tracer_expression(const Value& value, const std::string& label,
+                                      const std::vector<std::string>& tracers) {
+  std::vector<std::string> variables = tracers;
+  variables.insert(variables.end(), {"x", "y"});
+  if (facts.dimension != 2) variables.emplace_back("z");
+  variables.emplace_back("t");
+  return expression_of(value, label, variables, [](const std::string&) { return ""; });
+}
+
 std::string Reader::time_expression(const Value& value, const std::string& label) {
   return expression_of(value, label, {"t"}, [&](const std::string& token) {
     const bool place = token == "x" || token == "y" || token == "z";

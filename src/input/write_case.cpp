@@ -12,7 +12,7 @@ std::string case_text(const Case& spec, const std::filesystem::path& folder) {
   write_params(out, spec);
   write_domain(out, spec.domain);
   write_velocity(out, spec.velocity);
-  write_density(out, spec.density);
+  write_density(out, spec);
   write_sources(out, spec);
   write_particles(out, spec.particles);
   write_time(out, spec.time);

@@ -36,6 +36,7 @@ Particles empty_like(const Particles& particles) {
   none.dimension = particles.dimension;
   none.path.resize(particles.path.size());
   none.kept.resize(particles.kept.size());
+  none.tracers.resize(particles.tracers.size());
   none.spread = particles.spread;
   return none;
 }

@@ -58,6 +58,11 @@ double seeding_seconds(const Lattice& lattice, const std::vector<Carried>& carri
   return 50e-9 * static_cast<double>(lattice.size() * carried.size());
 }
 
+std::size_t tracers_of(const std::vector<Carried>& carried) {
+  return static_cast<std::size_t>(
+      std::count_if(carried.begin(), carried.end(), [](const Carried& one) { return one.is_tracer; }));
+}
+
 // The particles of one line; lines are joined in their order.
 struct Part {
   Particles particles;
@@ -70,6 +75,7 @@ Part seed_line(const Lattice& lattice, std::size_t number, const std::vector<Car
   Part part;
   part.particles.dimension = lattice.dimension;
   part.report.carried.resize(carried.size());
+  part.particles.tracers.resize(tracers_of(carried));
   for (std::size_t i = 0; i < line.size(); ++i) {
     bool something = false, enough = false;
     for (std::size_t q = 0; q < carried.size(); ++q) {
@@ -86,6 +92,10 @@ Part seed_line(const Lattice& lattice, std::size_t number, const std::vector<Car
     if (!enough) continue;
     for (int a = 0; a < lattice.dimension; ++a) part.particles.position[a].push_back(line.x[a][i]);
     part.particles.alpha.push_back(line.weights.front()[i]);
+    double sum = 0;
+    for (std::size_t q = 0, k = 0; q < carried.size(); ++q)
+      if (carried[q].is_tracer) part.particles.tracers[k++].push_back(line.weights[q][i]), sum += line.weights[q][i];
+    if (!part.particles.tracers.empty()) part.particles.alpha.back() = sum;
     part.particles.id.push_back(static_cast<std::int64_t>(line.first + i));
   }
   return part;
@@ -160,6 +170,7 @@ Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, doub
   ranks.max(std::span(least));
   Particles all;
   all.dimension = lattice.dimension;
+  all.tracers.resize(tracers_of(carried));
   std::vector<double> columns;  // of the reports, line by line: points left out, then all and left_out of each kind
   // Some lines at a time, so that little stands twice in memory.
   const std::size_t batch = std::max<std::size_t>(64, 1'000'000 / lattice.points[0]);
@@ -174,6 +185,7 @@ Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, doub
       for (Part& part : parts) {
         for (int a = 0; a < lattice.dimension; ++a) append(all.position[a], part.particles.position[a]);
         append(all.alpha, part.particles.alpha);
+        for (std::size_t k = 0; k < all.tracers.size(); ++k) append(all.tracers[k], part.particles.tracers[k]);
         append(all.id, part.particles.id);
         columns.push_back(static_cast<double>(part.report.left_out));
         for (const LeftOut& kind : part.report.carried) {
@@ -185,6 +197,7 @@ Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, doub
     }
     for (int a = 0; a < lattice.dimension; ++a) all.position[a].shrink_to_fit();
     all.alpha.shrink_to_fit();
+    for (auto& tracer : all.tracers) tracer.shrink_to_fit();
     all.id.shrink_to_fit();
   });
   if (report) *report = sum_of_lines(columns, carried.size(), lines, ranks);

@@ -19,9 +19,11 @@ using DensityFunction = std::function<void(const PointsView& x, double* values)>
 struct Carried {
   std::string name;
   DensityFunction density;
+  bool is_tracer = false;  // its weights are kept, as a column of Particles::tracers
 };
 
-/// The weight of a lattice point is h^d times a density there; `carried.front()` gives alpha_j. A point has a particle
+/// The weight of a lattice point is h^d times a density there; `carried.front()` gives alpha_j, but where there are tracers
+/// alpha_j is the sum of theirs. A point has a particle
 /// if one of its weights is not 0 and not below `threshold` times the largest weight of that kind [Sch06, 5.3.4].
 /// Throws NumericalError naming the place where a density is not finite.
 Particles seed(const Lattice& lattice, const std::vector<Carried>& carried, double threshold, int threads,

@@ -54,7 +54,7 @@ void KeptDensities::keep(bool error, std::size_t output, double time, const Dens
 DensityGrid KeptDensities::get(bool error, std::size_t output, double time) {
   const auto widened = [](const Kept& kept) { return DensityGrid{kept.lattice, {kept.rho.begin(), kept.rho.end()}}; };
   if (const auto there = kept_.find({error, output}); there != kept_.end()) return widened(there->second);
-  if (const auto kept = read_file(error, output, time)) return widened(*kept);
+  if (const auto kept = tracer_.empty() ? read_file(error, output, time) : std::nullopt) return widened(*kept);
   return widened(kept_of(read_back(error, output, time)));
 }
 
@@ -120,7 +120,7 @@ fs::path KeptDensities::density_file(std::size_t output, double time) {
 
 DensityGrid KeptDensities::read_back(bool error, std::size_t output, double time) {
   const fs::path file = density_file(output, time);
-  DensityGrid density = read::read_density(file, error ? "error" : "rho");
+  DensityGrid density = read::read_density(file, error ? "error" : tracer_.empty() ? "rho" : tracer_);
   if (density.lattice.points != lattice.points)
     throw FileError(fmt::format("the grid of {} is not that of the run", file.string()));
   density.lattice = lattice;  // coordinates of files are rounded

@@ -20,8 +20,12 @@ class KeptDensities {
  public:
   /// `folder` of the run. In memory this many bytes are kept at most; what would take more is read back.
   /// `run_writes_densities`: there are files to read back already.
-  KeptDensities(std::filesystem::path folder, std::size_t most_bytes, bool run_writes_densities)
-      : folder_(std::move(folder)), most_bytes_(most_bytes), run_writes_densities_(run_writes_densities) {}
+  /// `tracer`: the array of the files, where it is not the density.
+  KeptDensities(std::filesystem::path folder, std::size_t most_bytes, bool run_writes_densities, std::string tracer)
+      : folder_(std::move(folder)),
+        tracer_(std::move(tracer)),
+        most_bytes_(most_bytes),
+        run_writes_densities_(run_writes_densities) {}
 
   /// All outputs of a run have the same lattice. Throws FileError.
   void keep(bool error, std::size_t output, double time, const DensityGrid& density);
@@ -51,6 +55,7 @@ class KeptDensities {
   std::filesystem::path density_file(std::size_t output, double time);
 
   std::filesystem::path folder_;
+  std::string tracer_;
   std::size_t most_bytes_, bytes_ = 0;
   bool run_writes_densities_;
   std::map<std::pair<bool, std::size_t>, Kept> kept_;

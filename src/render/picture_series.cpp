@@ -59,16 +59,20 @@ class PictureSeries : public Observer {
       : folder_(folder / "images"),
         warn_(std::move(options.warn)),
         date_(std::move(options.date)),
-        kept_(folder, options.most_bytes, options.run_writes_densities) {
-    for (const PictureStyle& about : styles) styles_.push_back({find_style(about.name), {}});
+        tracer_(std::move(options.tracer)),
+        // Of a named density none are written for pictures alone.
+        kept_(folder, options.most_bytes, options.run_writes_densities || !tracer_.empty(), tracer_) {
+    for (const PictureStyle& about : styles)
+      if (tracer_.empty() || !about.shows_error) styles_.push_back({find_style(about.name), {}});
     options_.title = std::move(title);
   }
-  std::string name() const override { return "pictures"; }
+  std::string name() const override { return tracer_.empty() ? "pictures" : "pictures of " + tracer_; }
   bool needs_particles(double /*time*/) const override { return false; }
 
   void frame(const Frame& frame) override {
     times_.resize(static_cast<std::size_t>(frame.index));
     times_.push_back(frame.time);
+    if (!tracer_.empty()) return show_tracer(frame);
     show(frame, *frame.density, {frame.numbers.minimum, frame.numbers.maximum}, false);
     if (!frame.exact ||
         std::none_of(styles_.begin(), styles_.end(), [](const Drawn& drawn) { return drawn.style.about.shows_error; }))
@@ -127,6 +131,17 @@ class PictureSeries : public Observer {
     return error;
   }
 
+  void show_tracer(const Frame& frame) {
+    DensityGrid density{.lattice = frame.density->lattice, .rho = {}};
+    for (const FieldOnGrid& field : frame.density->fields)
+      if (field.name == tracer_)
+        density.rho = field.values;
+      else
+        density.fields.push_back(field);
+    const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
+    show(frame, density, {*low, *high}, false);
+  }
+
   /// By the styles that show the density, or those that show its error.
   void show(const Frame& frame, const DensityGrid& density, std::pair<double, double> extremes, bool error) {
     const auto index = static_cast<std::size_t>(frame.index);
@@ -183,14 +198,16 @@ class PictureSeries : public Observer {
     base::seam();
     options_.time = times_[index];
     if (date_) options_.date = date_(times_[index]);
-    options_.quantity = style.quantity;
+    options_.quantity = tracer_.empty() ? std::string(style.quantity) : tracer_;
     std::tie(options_.range_min, options_.range_max) = range;
-    draw(style, density, options_, folder_ / fmt::format("{}_{:04}.png", style.about.name, index));
+    draw(style, density, options_,
+         folder_ / fmt::format("{}{}{}_{:04}.png", tracer_, tracer_.empty() ? "" : "_", style.about.name, index));
   }
 
   fs::path folder_;
   std::function<void(const std::string&)> warn_;
   std::function<std::string(double t)> date_;
+  std::string tracer_;  // empty: the density
   std::vector<Drawn> styles_;
   PictureOptions options_;
   std::vector<double> times_;  // of all outputs so far, those of earlier processes too

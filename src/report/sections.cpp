@@ -154,6 +154,8 @@ std::string conservation(const json& frames) {
   for (const char* what : counted)
     if (frames.front().contains(what)) heads += std::string("<th>") + what;
   if (frames.front().contains("stopped")) heads += "<th>stopped at the coast";
+  const json tracers = get(frames.front(), "tracers");  // by name, where densities have some
+  for (const auto& [name, at_start] : tracers.items()) heads += "<th>mass of " + escaped(name);
   for (const auto& [reason, so_far] : departed.items()) heads += "<th>left by " + escaped(reason);
   std::string text =
       fmt::format("<table class=numbers><tr><th>t<th>mass<th>change{}<th>centroid<th>minimum<th>maximum", heads);
@@ -181,6 +183,8 @@ std::string conservation(const json& frames) {
     for (const char* what : counted)
       if (frame.contains(what)) edges += "<td class=n>" + number(frame.at(what), "{:.9g}");
     if (frame.contains("stopped")) edges += "<td class=n>" + number(get(get(frame, "stopped"), "mass"), "{:.6g}");
+    for (const auto& [name, at_start] : tracers.items())
+      edges += "<td class=n>" + number(get(get(get(frame, "tracers"), name.c_str()), "mass"), "{:.9g}");
     for (const auto& [reason, at_start] : departed.items())
       edges += "<td class=n>" + number(get(get(get(frame, "left"), reason.c_str()), "mass"), "{:.6g}");
     text += fmt::format("<tr><td class=n>{}<td class=n>{}<td class=n>{}{}<td class=n>{}<td class=n>{}<td class=n>{}",

@@ -34,7 +34,7 @@ double factor_for(double error, int order) {
 
 AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, double time, double step,
                                                   std::vector<std::vector<double>>& results) {
-  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
+  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + rows_of(integrals_);
   const std::size_t blocks = results.size(), block_length = drifts_.empty() ? usual_block : particles.size();
   base::Communicator* const together = drifts_.empty() ? nullptr : &ranks_;  // who talks within a step
   std::vector<Largest> largest(blocks);
@@ -59,8 +59,11 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
         drift_seconds_ +=
             add_flow_and_drifts(velocity_, drifts_, t, particles, points, vectors, options_.threads, &ranks_);
       agree_on(together, [&] {
-        for (std::size_t q = 0; q < integrals_.size(); ++q)
-          integrals_[q]->add_rate(t, points, u + (dimension + q) * length);
+        std::size_t row = dimension;
+        for (const PathIntegral* integral : integrals_) {
+          integral->add_rates(t, particles, begin, points, x + row * length, u + row * length);
+          row += integral->rows();
+        }
       });
     };
     time::step(tableau_, time, step, rate, state.data(), work);
@@ -87,7 +90,7 @@ AdaptiveStepper::Largest AdaptiveStepper::attempt(const Particles& particles, do
 }
 
 double AdaptiveStepper::advance(Particles& particles, double time, double end, std::size_t steps_before) {
-  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
+  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + rows_of(integrals_);
   const double most = options_.largest_step > 0 ? options_.largest_step : end - time;
   if (proposal_ <= 0) proposal_ = std::min(most, end - time);
   // Particles that move each other are one block.

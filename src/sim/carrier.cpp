@@ -61,6 +61,13 @@ std::vector<const Drift*> drifts_of(const Effects& effects, bool backwards,
   return drifts;
 }
 
+/// Adds what weights have changed by, as it is or (sign = -1) what they have lost.
+void count_change(const std::vector<double>& before, const std::vector<double>& after, double sign,
+                  base::ExactSum& sum) {
+  for (std::size_t j = 0; j < before.size(); ++j)
+    if (before[j] != after[j]) sum.add(-sign * before[j]), sum.add(sign * after[j]);
+}
+
 std::string stage_of(const Effect& effect) { return "effect " + effect.name(); }
 
 }  // namespace
@@ -76,9 +83,10 @@ Carrier::Carrier(const Case& spec, const Scene& scene, int threads, base::Commun
       between_steps_(std::any_of(effects_.begin(), effects_.end(),
                                  [](const auto& effect) { return effect->acts_between_steps(); })),
       folding_(folding_of(spec.domain)),
-      departures_(ways_out(spec)),
+      departures_(ways_out(spec), spec.tracers.size()),
       memory_(spec),
       counts_decay_(!spec.sources.empty() && !integrating_.empty()),
+      reacted_(integrating_.empty() ? 0 : spec.tracers.size()),
       coast_(spec.domain.coast != AtCoast::refuse ? scene.coast.get() : nullptr),
       tableau_(time::find_tableau(spec.time.method)),
       case_(spec),
@@ -108,7 +116,7 @@ void Carrier::begin(Particles& particles, const Particles& sample) {
       effect->begin(particles, 0);
     });
   ranks_.agree_on([&] {
-    particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
+    particles.path.assign(rows_of(integrals_of(integrating_)), std::vector<double>(particles.size(), 0.0));
     memory_.begin(particles);
     if (is_adaptive() || case_.time.end <= 0) return;
     flow_ = sample_flow_rates(*scene_.velocity, sample, case_.time.end, difference_length(scene_));
@@ -191,14 +199,19 @@ bool Carrier::carry(Particles& particles, Leg& leg, std::size_t steps_before, St
   if (arrived) land(particles, leg.to, stages);
   if (departures_.possible()) departures_.bring_together(ranks_);
   if (departures_.possible() && memory_.wanted()) memory_.bring_together(ranks_);
-  if (counts_decay_) bring_decay_together();
+  if (counts_decay_) bring_together(decayed_);
+  for (Changed& tracer : reacted_) bring_together(tracer);
   return arrived;
 }
 
-void Carrier::bring_decay_together() {
-  base::sum_over_ranks(ranks_, std::span(&decayed_.own, 1));
-  decayed_.together.add(decayed_.own);
-  decayed_.own = {};
+void Carrier::bring_together(Changed& changed) {
+  base::sum_over_ranks(ranks_, std::span(&changed.own, 1));
+  changed.together.add(changed.own);
+  changed.own = {};
+}
+
+std::optional<double> Carrier::reacted(std::size_t tracer) const {
+  return reacted_.empty() ? std::nullopt : std::optional(reacted_[tracer].together.value());
 }
 
 std::optional<double> Carrier::decayed() const {
@@ -335,6 +348,7 @@ void Carrier::pass_state(base::StateBytes& bytes, const Particles& particles, st
   if (departures_.possible()) departures_.pass_state(bytes);
   if (departures_.possible() && memory_.wanted()) memory_.pass_state(bytes);
   if (counts_decay_) bytes(decayed_.own, decayed_.together);
+  for (Changed& tracer : reacted_) bytes(tracer.own, tracer.together);
   for (const auto& effect : effects_) effect->pass_state(bytes, particles);
 }
 
@@ -360,14 +374,21 @@ void Carrier::take_own_steps(Particles& particles, const time::Interval& interva
 }
 
 void Carrier::settle(Particles& particles, double time, StageTimes& stages) {
-  for (std::size_t q = 0; q < integrating_.size(); ++q)
-    stages.run(stage_of(*integrating_[q]), [&] {
+  std::size_t first = 0;  // row of its path integrals
+  for (Effect* effect : integrating_) {
+    const std::size_t rows = effect->path_integral()->rows();
+    stages.run(stage_of(*effect), [&] {
       const std::vector<double> before = counts_decay_ ? particles.alpha : std::vector<double>();
-      call(*integrating_[q], [&] { integrating_[q]->settle(particles, particles.path[q].data(), time); });
-      std::fill(particles.path[q].begin(), particles.path[q].end(), 0.0);
-      for (std::size_t j = 0; j < before.size(); ++j)
-        if (before[j] != particles.alpha[j]) decayed_.own.add(before[j]), decayed_.own.add(-particles.alpha[j]);
+      const auto tracers_before = reacted_.empty() ? std::vector<std::vector<double>>() : particles.tracers;
+      call(*effect, [&] { effect->settle(particles, particles.path[first].data(), time); });
+      for (std::size_t row = first; row < first + rows; ++row)
+        std::fill(particles.path[row].begin(), particles.path[row].end(), 0.0);
+      count_change(before, particles.alpha, -1, decayed_.own);
+      for (std::size_t k = 0; k < tracers_before.size(); ++k)
+        count_change(tracers_before[k], particles.tracers[k], 1, reacted_[k].own);
     });
+    first += rows;
+  }
 }
 
 void Carrier::arrive(Particles& particles, double from, double time, StageTimes& stages) {
@@ -411,14 +432,17 @@ void Carrier::scatter(Particles& particles, const Scattering& part, StageTimes& 
 
 // Particles that stand on their nodes, with nothing integrated yet, take all steps since the others stood on theirs.
 void Carrier::follow(Particles& particles) const {
-  particles.path.assign(integrating_.size(), std::vector<double>(particles.size(), 0.0));
+  particles.path.assign(rows_of(integrals_of(integrating_)), std::vector<double>(particles.size(), 0.0));
   double now = 0;
   for (const StepsTaken::Part& taken : taken_.parts()) {
     stepper_.advance(particles, taken.interval, taken.first, taken.steps, 0);
     now = taken.interval.start(taken.first + taken.steps);
   }
-  for (std::size_t q = 0; q < integrating_.size(); ++q)
-    integrating_[q]->settle(particles, particles.path[q].data(), now);
+  std::size_t first = 0;
+  for (Effect* effect : integrating_) {
+    effect->settle(particles, particles.path[first].data(), now);
+    first += effect->path_integral()->rows();
+  }
 }
 
 void Carrier::rearrange(Particles& particles, double time, StageTimes& stages) {

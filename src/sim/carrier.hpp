@@ -112,6 +112,9 @@ class Carrier {
   /// With sources: what weights have lost along the paths so far, on all ranks. Nothing where they keep them.
   std::optional<double> decayed() const;
 
+  /// What a tracer has gained along the paths so far, on all ranks. Nothing where none reacts.
+  std::optional<double> reacted(std::size_t tracer) const;
+
   std::size_t steps_rejected() const { return adaptive_ ? adaptive_->rejected() : 0; }
 
   const Effects& effects() const { return effects_; }
@@ -152,7 +155,10 @@ class Carrier {
   void rearrange(Particles& particles, double time, StageTimes& stages);
   void follow(Particles& particles) const;
   void settle(Particles& particles, double time, StageTimes& stages);
-  void bring_decay_together();
+  struct Changed {
+    base::ExactSum own, together;  // of this rank since the ranks brought it together, and of all ranks until then
+  };
+  void bring_together(Changed& changed);
   // Steps end one by one, with a look at what has come to an edge or to land.
   bool looks_at_steps() const { return departures_.possible() || coast_ || memory_.wanted(); }
   bool needs_beginnings() const { return coast_ || memory_.wanted(); }
@@ -171,9 +177,8 @@ class Carrier {
   Departures departures_;
   ParticleMemory memory_;
   bool counts_decay_ = false;
-  struct {
-    base::ExactSum own, together;  // of this rank since the ranks brought it together, and of all ranks until then
-  } decayed_;
+  Changed decayed_;
+  std::vector<Changed> reacted_;                          // of each tracer; empty: none reacts
   const Coast* coast_ = nullptr;                          // null: nobody looks at it
   std::array<std::vector<double>, max_dimension> began_;  // positions at the start of a step, where they are needed
   const time::Tableau& tableau_;

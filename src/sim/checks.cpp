@@ -18,7 +18,22 @@ double mass_that_left(const CheckSpec& check, const FrameNumbers& numbers) {
   return mass;
 }
 
+/// The mass of a tracer relative to that of all at the start, what was released of it, or a norm of its own error.
+double quantity_of_tracer(const CheckSpec& check, double mass_at_start, const FrameNumbers& numbers) {
+  for (const TracerNumbers& tracer : numbers.tracers) {
+    if (tracer.name != check.tracer) continue;
+    if (check.what == CheckSpec::Quantity::released) return tracer.released.value_or(nan);
+    if (!check.is_error()) return mass_at_start == 0 ? nan : tracer.mass / mass_at_start;
+    if (!tracer.error) return nan;
+    return check.what == CheckSpec::Quantity::linf ? tracer.error->linf
+           : check.what == CheckSpec::Quantity::l1 ? tracer.error->l1
+                                                   : tracer.error->l2;
+  }
+  return nan;
+}
+
 double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumbers& numbers) {
+  if (!check.tracer.empty()) return quantity_of_tracer(check, mass_at_start, numbers);
   if (check.what == CheckSpec::Quantity::released) return numbers.released.value_or(nan);
   if (!check.is_error()) {
     if (mass_at_start == 0) return nan;
@@ -91,7 +106,8 @@ std::string to_string(CheckSpec::Quantity quantity) {
 }
 
 std::string words_for(const CheckSpec& check) {
-  return to_string(check.what) + (check.by.empty() ? "" : " by " + check.by);
+  return to_string(check.what) + (check.by.empty() ? "" : " by " + check.by) +
+         (check.tracer.empty() ? "" : " of " + check.tracer);
 }
 
 const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames) {

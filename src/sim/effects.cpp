@@ -1,8 +1,10 @@
 #include "sim/effects.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "effect/catalogue.hpp"
+#include "effect/tracer_reactions.hpp"
 #include "gaussdrift/case.hpp"
 #include "sim/scene.hpp"
 
@@ -28,6 +30,10 @@ Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow,
                                          .ranks = ranks,
                                          .rank_at = rank_at,
                                          .threads = threads}));
+  }
+  if (tracers_react(spec)) {  // the last one: its rows of path integrals come behind those of others
+    const double cell = std::pow(scene.seeding.spacing, spec.domain.dimension);
+    made.push_back(std::make_unique<TracerReactions>(spec, *scene.velocity, cell));
   }
   return made;
 }

@@ -133,6 +133,12 @@ std::unique_ptr<InitialDensity> make_density(const Case& spec) {
   return folded(make_sum<SumDensity, InitialDensity>(spec.density, spec, 1), spec);
 }
 
+std::unique_ptr<InitialDensity> make_density(const Case& spec, const TracerSpec& tracer) {
+  std::vector<DensitySpec> parts;
+  for (const std::size_t part : tracer.parts) parts.push_back(spec.density[part]);
+  return folded(make_sum<SumDensity, InitialDensity>(parts, spec, 1), spec);
+}
+
 std::unique_ptr<InitialDensity> make_density(const Case& spec, const ShapeDensitySpec& shape) {
   return folded(make_part(shape, spec, 1), spec);
 }

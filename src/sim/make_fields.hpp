@@ -28,6 +28,9 @@ Outside outside_of(const FileVelocitySpec& part);
 /// The sum of all [[density]].
 std::unique_ptr<InitialDensity> make_density(const Case& spec);
 
+/// The sum of those of a tracer.
+std::unique_ptr<InitialDensity> make_density(const Case& spec, const TracerSpec& tracer);
+
 /// One shape in that domain, whether it is a density of the case or what a source releases.
 std::unique_ptr<InitialDensity> make_density(const Case& spec, const ShapeDensitySpec& shape);
 

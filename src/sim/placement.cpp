@@ -16,7 +16,7 @@ namespace gaussdrift {
 
 namespace {
 
-constexpr std::size_t most_addends = 8;
+constexpr std::size_t most_addends = 16;  // numbers of a frame, or named densities
 
 // Whole numbers without an order: the particles with the smallest ones are a random choice that is always the same.
 std::uint64_t shuffled(std::int64_t id) {

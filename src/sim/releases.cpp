@@ -174,7 +174,8 @@ double particles_released(const Case& spec, int threads) {
   return count;
 }
 
-Releases::Releases(const Case& spec, const Scene& scene, int threads) : rounding_(rounding_of_times(spec)) {
+Releases::Releases(const Case& spec, const Scene& scene, int threads)
+    : rounding_(rounding_of_times(spec)), of_tracers_(spec.tracers.size()) {
   for (std::size_t number = 0; number < spec.sources.size(); ++number) add_source(spec, scene, number, threads);
   std::stable_sort(puffs_.begin(), puffs_.end(), [](const Puff& a, const Puff& b) { return a.time < b.time; });
   double all = 0;
@@ -202,6 +203,7 @@ double Releases::began(std::int64_t id) const {
 void Releases::add_source(const Case& spec, const Scene& scene, std::size_t number, int threads) {
   const SourceSpec& source = spec.sources[number];
   faces_.emplace_back();
+  tracer_.push_back(source.tracer);
   if (const auto* face = std::get_if<FaceSourceSpec>(&source.what)) {
     faces_.back() = std::make_unique<Inflow>(spec, *face, scene, source.from, source.to);
     of_sources_.push_back(faces_.back()->places());
@@ -273,12 +275,15 @@ bool Releases::release(Particles& particles, double time, const std::function<bo
       const std::size_t from = puff.first + i;
       const double weight = weights[i];
       sum_.add(weight);
+      if (!of_tracers_.empty()) of_tracers_[tracer_[puff.source]].add(weight);
       if (weight == 0) continue;
       Vector place{};
       for (int k = 0; k < source.dimension; ++k) place[k] = source.position[k][from];
       if (!is_here(place)) continue;
       for (int k = 0; k < source.dimension; ++k) particles.position[k].push_back(place[k]);
       particles.alpha.push_back(weight);
+      for (std::size_t k = 0; k < particles.tracers.size(); ++k)
+        particles.tracers[k].push_back(k == tracer_[puff.source] ? weight : 0);
       particles.id.push_back(puff.id + static_cast<std::int64_t>(i));
     }
   }
@@ -304,6 +309,7 @@ void Releases::add_places(Particles& sample, std::size_t most) const {
 
 void Releases::pass_state(base::StateBytes& bytes) {
   bytes(done_, sum_);
+  for (base::ExactSum& tracer : of_tracers_) bytes(tracer);
   if (done_ > puffs_.size()) throw std::out_of_range("it has released more than its sources have");
 }
 

@@ -47,6 +47,9 @@ class Releases {
   /// The sum of the weights released so far, on all ranks.
   double released() const { return sum_.value(); }
 
+  /// The same of one tracer.
+  double released(std::size_t tracer) const { return of_tracers_[tracer].value(); }
+
   /// Places of some particles that are going to be released, appended to a sample of those that are there.
   void add_places(Particles& sample, std::size_t most) const;
 
@@ -69,6 +72,7 @@ class Releases {
   void look_at_face(const Scene& scene, const Inflow& face, const SourceSpec& source);
   void add_puffs(const Case& spec, std::size_t number, std::size_t count);
   std::vector<Particles> of_sources_;           // positions and weights alone
+  std::vector<std::size_t> tracer_;             // that each of them releases
   std::vector<std::unique_ptr<Inflow>> faces_;  // of the sources that are faces; null for others
   std::vector<Puff> puffs_;                     // by time
   std::vector<std::string> warnings_;
@@ -76,6 +80,7 @@ class Releases {
   std::int64_t ids_end_ = 0;
   std::uint64_t done_ = 0;
   base::ExactSum sum_;
+  std::vector<base::ExactSum> of_tracers_;
 };
 
 }  // namespace gaussdrift

@@ -95,6 +95,7 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
 // case has some, and so those about land and sources, so that what other cases keep stays as it is.
 void pass(base::StateBytes& bytes, FrameNumbers& n, Counted counted) {
   static_assert(sizeof(FrameNumbers) == 272 + sizeof(std::string), "a number is not passed yet");
+  if (counted.tracers) pass_tracers(bytes, n.tracers);
   if (counted.sources) bytes(n.released, n.decayed);
   if (counted.stopped) {
     Stopped stopped = n.stopped.value_or(Stopped{});
@@ -122,7 +123,7 @@ DensityOptions Simulation::Parts::density_options() const {
   options.tiles = usual_tiles(case_.domain.dimension);
   if (evaluate.tile_particles > 0) options.tiles->particles = static_cast<std::int64_t>(evaluate.tile_particles);
   options.tiles->pieces = pieces_.halvings();
-  options.derivatives = derivatives_of(case_.output, case_.domain.dimension);
+  if (!tracer_alone_) options.derivatives = derivatives_of(case_.output, case_.domain.dimension);
   return options;
 }
 
@@ -348,6 +349,7 @@ void Simulation::Parts::show_frame(double time) {
   frame.numbers = measure_particles(particles_, case_.domain, place_, threads_, stops);
   frame.numbers.left = carrier_.departures().so_far();
   if (releases_.possible()) frame.numbers.released = releases_.released(), frame.numbers.decayed = carrier_.decayed();
+  frame.numbers.tracers = count_tracers();
   DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);
   summary_.stages.add("density", report.evaluate_seconds);
   summary_.stages.add("measure transform error", report.measure_seconds);
@@ -364,6 +366,8 @@ void Simulation::Parts::show_frame(double time) {
         report.derivatives.clear();
       });
     });
+
+  sum_tracers(time, density, frame.numbers.tracers);
 
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
   std::vector<double> velocity = velocity_at_particles(time, velocity_wanted);

@@ -29,7 +29,7 @@ namespace gaussdrift {
 
 /// What a case counts besides: about edges of the domain and land, and about what sources release.
 struct Counted {
-  bool edges = false, sources = false, stopped = false;
+  bool edges = false, sources = false, stopped = false, tracers = false;
 };
 
 class Simulation::Parts {
@@ -91,13 +91,18 @@ class Simulation::Parts {
   DensityGrid sum_tiles(DensityReport& report);
   std::vector<FieldOnGrid> fields_of_piece(double time, const LatticeBox& box, std::vector<double>& values) const;
   DensityGrid sum_in_pieces(Frame& frame, DensityReport& report);
+  // tracer_outputs.cpp: the same of each named density.
+  std::vector<TracerNumbers> count_tracers() const;
+  void sum_tracers(double time, DensityGrid& density, std::vector<TracerNumbers>& numbers);
+
+  // run_outputs.cpp again.
   bool show_or_abandon(double time);
   void forget_output();
   void show_frame(double time);
   bool somebody_needs_particles(const Frame& frame) const;
   Counted counted() const {
     return {case_.domain.counts_inside() || carrier_.departures().possible(), releases_.possible(),
-            case_.domain.coast == AtCoast::stop};
+            case_.domain.coast == AtCoast::stop, !case_.tracers.empty()};
   }
   bool in_pieces() const { return pieces_.count() > 1; }
   /// A formula is evaluated wherever a piece is. Paths are followed from points of the thinned grid alone.
@@ -143,7 +148,8 @@ class Simulation::Parts {
   Releases releases_;
   Tracks tracks_;
   std::vector<double> landings_;
-  LatticePieces pieces_;  // of the evaluation lattice
+  bool tracer_alone_ = false;  // what is summed now is a named density, without derivatives
+  LatticePieces pieces_;       // of the evaluation lattice
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
   bool shares_reference_ = false;
@@ -169,5 +175,6 @@ class Simulation::Parts {
 
 /// The numbers of an output, to be kept or told.
 void pass(base::StateBytes& bytes, FrameNumbers& numbers, Counted counted);
+void pass_tracers(base::StateBytes& bytes, std::vector<TracerNumbers>& tracers);
 
 }  // namespace gaussdrift

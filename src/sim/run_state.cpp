@@ -26,7 +26,8 @@ bool all_finite(const Particles& particles) {
   };
   return std::all_of(particles.position.begin(), particles.position.end(), finite) && finite(particles.alpha) &&
          std::all_of(particles.path.begin(), particles.path.end(), finite) &&
-         std::all_of(particles.kept.begin(), particles.kept.end(), finite) && finite(particles.volume);
+         std::all_of(particles.kept.begin(), particles.kept.end(), finite) && finite(particles.volume) &&
+         std::all_of(particles.tracers.begin(), particles.tracers.end(), finite);
 }
 
 void pass(base::StateBytes& bytes, RunState& parts) {
@@ -208,6 +209,7 @@ void Simulation::Parts::take_particles(Particles particles) {
     if (particles.size() == 0) return;
     if (particles.dimension != particles_.dimension || particles.path.size() != integrals ||
         particles.kept.size() != kept ||
+        particles.tracers.size() != case_.tracers.size() ||
         (particles_.size() > 0 && particles.volume.empty() != particles_.volume.empty()))
       throw misfit("it has other particles");
     if (!all_finite(particles)) throw misfit("a number of its particles is not finite");
@@ -223,6 +225,7 @@ void Simulation::Parts::take_particles(Particles particles) {
     particles_.dimension = scene_.seeding.dimension;
     particles_.path.resize(integrals);
     particles_.kept.resize(kept);
+    particles_.tracers.resize(case_.tracers.size());
   }
   particles_.spread = place_.max(particles_.spread);
 }

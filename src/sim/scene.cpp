@@ -65,6 +65,7 @@ Scene make_scene(const Case& spec, int threads) {
   scene.starts_empty = spec.density.empty();
   scene.velocity = make_velocity(spec, threads, &scene.misfits);
   scene.density = make_density(spec);
+  for (const TracerSpec& tracer : spec.tracers) scene.tracers.push_back(make_density(spec, tracer));
   if (auto coast = std::make_unique<Coast>(spec); coast->exists()) scene.coast = std::move(coast);
   make_effect_fields(spec, scene);
   scene.threshold = spec.particles.threshold;
@@ -90,6 +91,9 @@ Particles seed_lattice(const Scene& scene, const Lattice& lattice, int threads, 
                        base::Communicator& ranks) {
   std::vector<Carried> carried{
       {"the initial density", [&](const PointsView& x, double* values) { scene.density->add(x, values); }}};
+  for (const auto& tracer : scene.tracers)
+    carried.push_back({"a named density",
+                       [&density = *tracer](const PointsView& x, double* values) { density.add(x, values); }, true});
   for (const EffectFields& fields : scene.effect_fields)
     if (fields.carried)
       carried.push_back(

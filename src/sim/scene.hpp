@@ -30,7 +30,8 @@ struct EffectFields {
 struct Scene {
   std::unique_ptr<VelocityField> velocity;
   std::unique_ptr<InitialDensity> density;
-  std::unique_ptr<ScalarField> decay_rate;  // of all weights along their paths, u0; null if none decays
+  std::vector<std::unique_ptr<InitialDensity>> tracers;  // of the named densities, whose sum is `density`
+  std::unique_ptr<ScalarField> decay_rate;               // of all weights along their paths, u0; null if none decays
   std::vector<EffectFields> effect_fields;
   Lattice seeding;            // where particles start
   Lattice evaluation;         // where rho is summed

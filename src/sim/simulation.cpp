@@ -79,6 +79,10 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
     carrier_.pause_every(tracks_.steps());
     carrier_.departures().watch([this](std::int64_t id) { return tracks_.follows(id); });
   }
+  if (in_pieces() && !case_.tracers.empty())
+    throw InputError(
+        "named densities are summed on the whole grid, and evaluate.piece_points divides it into pieces; raise "
+        "evaluate.piece_points, or take a coarser grid");
   if (ranks_.size() == 1) return;
   if (const std::string why = why_not_shared(*scene_.velocity); !why.empty())
     throw InputError(

@@ -120,7 +120,7 @@ double add_flow_and_drifts(const VelocityField& velocity, const std::vector<cons
 
 StepperSeconds Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first,
                                 std::size_t count, std::size_t steps_before) const {
-  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + integrals_.size();
+  const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + rows_of(integrals_);
   const bool together = !velocity_.evaluates_in_blocks() || !drifts_.empty();
   const std::size_t longest = together ? std::max<std::size_t>(1, particles.size()) : block_length;
   // Particles that move each other are one block, also on a rank that has none of them.
@@ -156,8 +156,11 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
       if (integrals_.empty()) return;
       const base::Stopwatch watch;
       agree_on(ranks_, [&] {
-        for (std::size_t q = 0; q < integrals_.size(); ++q)
-          integrals_[q]->add_rate(t, block.points(x), u + (dimension + q) * length);
+        std::size_t row = dimension;
+        for (const PathIntegral* integral : integrals_) {
+          integral->add_rates(t, particles, begin, block.points(x), x + row * length, u + row * length);
+          row += integral->rows();
+        }
       });
       seconds[b] += watch.seconds();
     };
@@ -174,9 +177,11 @@ StepperSeconds Stepper::advance(Particles& particles, const time::Interval& inte
         agree_on(ranks_, [&] {
           const std::int64_t* const ids = particles.id.data() + begin;
           check_block(velocity_, block.points(x), block.vectors(u), ids, t, steps_before + i + 1);
-          for (std::size_t q = 0; q < integrals_.size(); ++q)
-            check_rates(*integrals_[q], block.points(x), values + q * length, ids, velocity_.shown_time(t),
-                        steps_before + i + 1);
+          std::size_t row = 0;
+          for (const PathIntegral* integral : integrals_)
+            for (std::size_t end = row + integral->rows(); row < end; ++row)
+              check_rates(*integral, block.points(x), values + row * length, ids, velocity_.shown_time(t),
+                          steps_before + i + 1);
         });
       };
       const auto traced_rate = [&](double t, const double* x, double* u) {

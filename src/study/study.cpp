@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
+#include "effect/tracer_reactions.hpp"
 #include "gaussdrift/accuracy.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
@@ -299,6 +300,11 @@ Study run_study(const StudyOptions& options) {
     throw InputError(
         "study: the standard studies look at the particles of the start, and [[source]] adds others later; vary keys "
         "instead, as in --vary particles.per_axis=100,200");
+  if (options.vary.empty() && tracers_react(spec))
+    throw InputError(
+        "study: the standard studies know one density, and here named ones change into each other; vary keys instead, "
+        "as "
+        "in --vary particles.per_axis=100,200");
   if (options.vary.empty()) refuse_what_does_not_fit(spec, options.threads, options.most_memory);
   if (options.begins) options.begins();
   if (options.vary.empty())

@@ -51,12 +51,14 @@ Particles columns_in(const json& manifest) {
   particles.dimension = static_cast<int>(dimension);
   const json& columns = list_in(manifest, "columns");
   const auto paths = count_in(manifest, "paths");
-  if (paths > columns.size()) throw std::runtime_error("its columns are wrong");
+  const std::size_t tracers = manifest.contains("tracers") ? count_in(manifest, "tracers") : 0;
+  if (paths > columns.size() || tracers > columns.size()) throw std::runtime_error("its columns are wrong");
   particles.path.resize(paths);
+  particles.tracers.resize(tracers);
   particles.kept.resize(static_cast<std::size_t>(std::count_if(columns.begin(), columns.end(), [](const json& name) {
     return name.is_string() && name.get<std::string>().starts_with("kept_");
   })));
-  const std::size_t known = static_cast<std::size_t>(particles.dimension) + 2 + paths + particles.kept.size();
+  const std::size_t known = static_cast<std::size_t>(particles.dimension) + 2 + paths + tracers + particles.kept.size();
   if (columns.size() > known) particles.volume.resize(1);
   if (columns_of(particles) != columns) throw std::runtime_error("its columns are wrong");
   particles.spread = std::strtod(text_in(manifest, "spread").c_str(), nullptr);

@@ -62,7 +62,10 @@ OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<s
 OwnFiles files_of(const Case& spec, std::size_t particle_pieces) {
   std::vector<std::string> kinds, styles;
   for (const OutputFile& file : spec.output.files) kinds.emplace_back(file.name);
-  for (const PictureStyle& style : spec.output.images) styles.emplace_back(style.name);
+  for (const PictureStyle& style : spec.output.images) {
+    styles.emplace_back(style.name);
+    for (const TracerSpec& tracer : spec.tracers) styles.push_back(fmt::format("{}_{}", tracer.name, style.name));
+  }
   OwnFiles files =
       files_of_run(kinds, styles, spec.output.times.size(), {pieces_of_grid(spec).count(), particle_pieces});
   for (const std::string& name : track_file_names(spec.output)) files.add(name);

@@ -14,6 +14,26 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string heads_of(const TracerNumbers& tracer) {
+  std::string heads;
+  const auto add = [&](const char* what) { heads += fmt::format(",{}_{}", what, tracer.name); };
+  for (const char* what : {"mass", "minimum", "maximum"}) add(what);
+  if (tracer.released) add("released");
+  if (tracer.reacted) add("reacted");
+  if (tracer.left) add("left");
+  if (tracer.error)
+    for (const char* what : {"L1", "L2", "Linf"}) add(what);
+  return heads;
+}
+
+std::string numbers_of(const TracerNumbers& tracer) {
+  std::string row = fmt::format(",{:.17g},{:.17g},{:.17g}", tracer.mass, tracer.minimum, tracer.maximum);
+  for (const auto& number : {tracer.released, tracer.reacted, tracer.left})
+    if (number) row += fmt::format(",{:.17g}", *number);
+  if (tracer.error) row += fmt::format(",{:.6e},{:.6e},{:.6e}", tracer.error->l1, tracer.error->l2, tracer.error->linf);
+  return row;
+}
+
 class SeriesTable : public Observer {
  public:
   SeriesTable(const fs::path& folder, int dimension, bool errors, std::function<std::string(double t)> date)
@@ -44,6 +64,7 @@ class SeriesTable : public Observer {
     for (const Departed& departed : first.left) table += ",left_" + departed.reason;
     if (first.released) table += ",released";
     if (first.decayed) table += ",decayed";
+    for (const TracerNumbers& tracer : first.tracers) table += heads_of(tracer);
     table += ",evaluate_seconds,seconds\n";
     for (const auto& [time, numbers] : frames) table += row(time, numbers);
     text_.begin(table);
@@ -64,6 +85,7 @@ class SeriesTable : public Observer {
     for (const Departed& departed : n.left) row += fmt::format(",{:.17g}", departed.mass);
     if (n.released) row += fmt::format(",{:.17g}", *n.released);
     if (n.decayed) row += fmt::format(",{:.17g}", *n.decayed);
+    for (const TracerNumbers& tracer : n.tracers) row += numbers_of(tracer);
     return row + fmt::format(",{:.6f},{:.6f}\n", n.evaluate_seconds, n.seconds);
   }
 

@@ -64,6 +64,7 @@ json checks_of(const RunSummary& summary) {
                       {"min", result.check.min ? json(*result.check.min) : json(nullptr)},
                       {"passed", result.passed}});
     if (!result.check.by.empty()) checks.back()["by"] = result.check.by;
+    if (!result.check.tracer.empty()) checks.back()["tracer"] = result.check.tracer;
   }
   return checks;
 }
@@ -95,6 +96,18 @@ json frames_of(const Case& spec, const RunSummary& summary) {
     if (n.stopped) frames.back()["stopped"] = {{"particles", n.stopped->particles}, {"mass", n.stopped->mass}};
     for (const Departed& departed : n.left)
       frames.back()["left"][departed.reason] = {{"particles", departed.particles}, {"mass", departed.mass}};
+    for (const TracerNumbers& tracer : n.tracers) {
+      json& row = frames.back()["tracers"][tracer.name];
+      row = {{"mass", tracer.mass}, {"minimum", tracer.minimum}, {"maximum", tracer.maximum}};
+      if (tracer.released) row["released"] = *tracer.released;
+      if (tracer.reacted) row["reacted"] = *tracer.reacted;
+      if (tracer.left) row["left"] = *tracer.left;
+      if (tracer.error) {
+        row["L1"] = number(tracer.error->l1);
+        row["L2"] = number(tracer.error->l2);
+        row["Linf"] = number(tracer.error->linf);
+      }
+    }
     if (n.stretch > 0) frames.back()["stretch"] = n.stretch;
     if (n.error) {
       frames.back()["L1"] = number(n.error->l1);

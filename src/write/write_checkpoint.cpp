@@ -67,6 +67,7 @@ Particles columns_of_all(const Particles& particles, base::Communicator& ranks) 
   columns.dimension = particles.dimension;
   columns.path.resize(particles.path.size());
   columns.kept.resize(particles.kept.size());
+  columns.tracers.resize(particles.tracers.size());
   std::int64_t has_volume = !particles.volume.empty();
   ranks.max(std::span(&has_volume, 1));
   if (has_volume) columns.volume.resize(1);
@@ -105,6 +106,7 @@ std::vector<json> write_shared(const fs::path& slot, const Particles& particles,
   none.dimension = particles.dimension;
   none.path.resize(particles.path.size());
   none.kept.resize(particles.kept.size());
+  none.tracers.resize(particles.tracers.size());
   hand_out_by_id(
       particles, before, ranks, none, [&](const std::vector<std::size_t>& chosen) { return pack(particles, chosen); },
       [&](std::size_t number, Particles& piece) {
@@ -184,6 +186,7 @@ CheckpointFacts CheckpointWriter::write(const std::string& past, double time, st
                   {"paths", particles.path.size()},
                   {"spread", fmt::format("{:a}", particles.spread)},
                   {"columns", columns_of(columns)}};
+    if (!particles.tracers.empty()) manifest["tracers"] = particles.tracers.size();
     for (const json& piece : pieces) facts.bytes += piece["bytes"].get<double>();
     manifest["pieces"] = std::move(pieces);
     manifest["state"] = write_raw(here, state_file, options_.in_haste,

@@ -106,7 +106,8 @@ TEST(Inflow, KeepsTheBudgetOfMass) {
 }
 
 TEST(Inflow, GoesOnWithTheSameBits) {
-  const Case spec = channel_with({"velocity.u=[\"1\", \"0.3*sin(t)\"]", "output.times=[0, 0.5, 1]"});
+  const Case spec = channel_with(
+      {"velocity.u=[\"1\", \"0.3*sin(t)\"]", "output.times=[0, 0.5, 1]", "source.concentration=c*(1+y)", "params.c=2"});
   Simulation whole(spec, 1), part(spec, 1);
   whole.run();
   int calls = 0;

@@ -148,6 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
               "density.center=[0.4, 0.95]", characteristics, "reference.points=300"}},
         Kind{"inflow",
              {"source.face=x_min", "source.concentration=1+y*y", "source.puffs=5", "velocity.u=[\"0.3\", \"x\"]"}},
+        Kind{"tracers", {"density.name=A", "density.gain=-(1+x)*A", "density.half_life=2"}},
         Kind{"backwards", {"time.start=0.9", "time.end=0.5", "output.times=[0.9, 0.7, 0.5]"}},
         Kind{"sources",
              {"source.shape=gaussian", "source.center=[0.1, 0.3]", "source.radius=0.03", "source.from=0.1",

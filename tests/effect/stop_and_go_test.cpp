@@ -195,6 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"sources",
              {"time.step=0.0005", "source.point=[0.2, 0.3]", "source.from=0.05", "source.to=0.45", "source.rate=1+t",
               "source.puffs=13", "effects.reaction.rate=1+x"}},
+        Kind{"tracers", {"density.name=A", "density.gain=-(1+x)*A", "time.step=0.0001"}},
         Kind{"inflow",
              {"time.step=0.0005", "source.face=x_min", "source.concentration=1+y", "source.puffs=13",
               "velocity.u=[\"0.3+0.1*t\", \"x\"]"}},

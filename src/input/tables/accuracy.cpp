@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "effect/catalogue.hpp"
+#include "effect/tracer_reactions.hpp"
 #include "input/tables/tables.hpp"
 
 namespace gaussdrift::input {
@@ -43,6 +44,10 @@ void read_accuracy(Reader& in, Case& spec) {
   if (const Entry* written = in.find("accuracy", "target"); written && !spec.sources.empty())
     in.diagnostics.error(written->value.place, "no settings can be chosen for a target with [[source]]",
                          "the error is predicted for what is there at the start; leave out accuracy.target");
+  if (const Entry* written = in.find("accuracy", "target"); written && tracers_react(spec))
+    in.diagnostics.error(
+        written->value.place, "no settings can be chosen for a target with reactions of named densities",
+        "the error is predicted for densities that do not change each other; leave out accuracy.target");
   if (const Entry* written = in.find("accuracy", "target"); written && spec.domain.coast != AtCoast::refuse)
     in.diagnostics.error(written->value.place, "no settings can be chosen for a target with domain.coast",
                          "the error is predicted for flows without land; leave out accuracy.target");

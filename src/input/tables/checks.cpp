@@ -11,33 +11,37 @@
 namespace gaussdrift::input {
 
 Section checks_section() {
-  return {Table{.name = "check",
-                .required = false,
-                .meaning =
-                    "a bound that the results have to keep. If they break it, the run ends with exit code 5. Several "
-                    "`[[check]]` are possible",
-                .kinds = {"what"}},
-          {{.name = "what",
-            .type = Type::choice,
-            .required = true,
-            .choices = {"Linf", "L1", "L2", "mass", "inside", "left", "released", "stopped"},
+  return {
+      Table{.name = "check",
+            .required = false,
             .meaning =
-                "the number to check: a norm of the error relative to that of the exact density, or a mass "
-                "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
-                "domain, `left` of those that have left the run, `stopped` of those that lie at a coast. `inside` and "
-                "`left` need `domain.edges` or `domain.coast`, `stopped` needs coast = \"stop\". `released` is the "
-                "mass that `[[source]]` has "
-                "released, relative to nothing"},
-           {.name = "by",
-            .type = Type::text,
-            .meaning = "with what = \"left\": the reason for which particles have left, a face of the domain as in "
-                       "`x_max`, or `coast`. Without it all of them count"},
-           {.name = "max", .type = Type::number, .meaning = "the number must not be larger"},
-           {.name = "min", .type = Type::number, .meaning = "the number must not be smaller"},
-           {.name = "at",
-            .type = Type::number,
-            .unit = "time",
-            .meaning = "the output time to check. Without it every output is checked"}}};
+                "a bound that the results have to keep. If they break it, the run ends with exit code 5. Several "
+                "`[[check]]` are possible",
+            .kinds = {"what"}},
+      {{.name = "what",
+        .type = Type::choice,
+        .required = true,
+        .choices = {"Linf", "L1", "L2", "mass", "inside", "left", "released", "stopped"},
+        .meaning =
+            "the number to check: a norm of the error relative to that of the exact density, or a mass "
+            "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
+            "domain, `left` of those that have left the run, `stopped` of those that lie at a coast. `inside` and "
+            "`left` need `domain.edges` or `domain.coast`, `stopped` needs coast = \"stop\". `released` is the "
+            "mass that `[[source]]` has "
+            "released, relative to nothing"},
+       {.name = "by",
+        .type = Type::text,
+        .meaning = "with what = \"left\": the reason for which particles have left, a face of the domain as in "
+                   "`x_max`, or `coast`. Without it all of them count"},
+       {.name = "tracer",
+        .meaning = "the named density that is meant; without it the sum of all. Its mass is relative to that of all "
+                   "at the start. Norms need its `exact` density"},
+       {.name = "max", .type = Type::number, .meaning = "the number must not be larger"},
+       {.name = "min", .type = Type::number, .meaning = "the number must not be smaller"},
+       {.name = "at",
+        .type = Type::number,
+        .unit = "time",
+        .meaning = "the output time to check. Without it every output is checked"}}};
 }
 
 using Kind = Value::Kind;
@@ -89,6 +93,23 @@ void read_departure(Reader& in, const Value& what, const Case& spec, CheckSpec& 
                          fmt::format("reasons to leave: {}", fmt::join(reasons, ", ")));
 }
 
+/// Of which named density.
+void read_tracer(Reader& in, const Value& what, const Case& spec, CheckSpec& check) {
+  const Entry* entry = in.find("check", "tracer");
+  if (!entry) return;
+  check.tracer = in.text("check", "tracer");
+  const auto tracer = std::find_if(spec.tracers.begin(), spec.tracers.end(),
+                                   [&](const TracerSpec& one) { return one.name == check.tracer; });
+  if (tracer == spec.tracers.end())
+    return in.diagnostics.error(entry->value.place, fmt::format("no density is called \"{}\"", check.tracer));
+  if (check.is_error() && tracer->exact.empty())
+    in.diagnostics.error(what.place, fmt::format("{} of {} needs its exact density", what.text, check.tracer),
+                         "[[density]] exact = \"...\" gives it");
+  if (!check.is_error() && check.what != CheckSpec::Quantity::mass && check.what != CheckSpec::Quantity::released)
+    in.diagnostics.error(entry->place, fmt::format("\"tracer\" does not go with what = \"{}\"", what.text),
+                         "mass, released and norms are known of named densities");
+}
+
 }  // namespace
 
 void read_checks(Reader& in, Case& spec) {
@@ -105,7 +126,8 @@ void read_checks(Reader& in, Case& spec) {
       in.diagnostics.error(min->value.place,
                            fmt::format("no number is at least {} and at most {}", *check.min, *check.max));
     read_departure(in, value, spec, check);
-    if (check.is_error() && spec.reference.kind == ReferenceSpec::Kind::none)
+    read_tracer(in, value, spec, check);
+    if (check.is_error() && check.tracer.empty() && spec.reference.kind == ReferenceSpec::Kind::none)
       in.diagnostics.error(value.place,
                            fmt::format("{} needs an exact density, but reference.kind is \"none\"", value.text));
     if (const auto at = in.number("check", "at")) check.at = output_time(in, *at, spec);
@@ -118,6 +140,7 @@ void write_checks(Writer& out, const std::vector<CheckSpec>& checks, const TimeS
     out.part("check", checks.size());
     out.entry("what", written_choice(find_key("check", "what"), check.what));
     if (!check.by.empty()) out.entry("by", written(check.by));
+    if (!check.tracer.empty()) out.entry("tracer", written(check.tracer));
     if (check.max) out.entry("max", written(*check.max));
     if (check.min) out.entry("min", written(*check.min));
     if (check.at) out.entry("at", written(time.at(*check.at)));

@@ -1,7 +1,15 @@
 // [density]: the density at the start.
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "effect/catalogue.hpp"
+#include "effect/tracer_reactions.hpp"
+#include "expression/expression.hpp"
 #include "field/density/shapes.hpp"
 #include "input/tables/tables.hpp"
+#include "sim/grid_fields.hpp"
 
 namespace gaussdrift::input {
 
@@ -13,6 +21,26 @@ Section density_section() {
        .choices = base::names_of(named_shapes()),
        .meaning = "name of a shape. Its parameters stand beside it"}};
   add_parameters(keys, "shape", named_shapes());
+  const std::vector<Key> of_tracer{
+      {.name = "name",
+       .meaning =
+           "name of a tracer. Each name has a density of its own in files, series.csv and pictures; those of one "
+           "name add up. `rho` is then the sum of all. Either all `[[density]]` have a name or none has one"},
+      {.name = "gain",
+       .type = Type::expression,
+       .unit = "density / time",
+       .meaning = "with `name`: what this density gains in a unit of time along the paths, an expression of all named "
+                  "densities, x, y, z, t and params. `\"-0.5*A\"` lets A decay"},
+      {.name = "half_life",
+       .type = Type::number,
+       .range = positive,
+       .unit = "time",
+       .meaning = "with `name`: the time in which half of it decays, besides its `gain`"},
+      {.name = "exact",
+       .type = Type::expression,
+       .meaning = "with `name`: its exact density, an expression in x, y, z, t and params, that outputs are compared "
+                  "with"}};
+  keys.insert(keys.end(), of_tracer.begin(), of_tracer.end());
   keys.push_back(
       {.name = "file",
        .meaning =
@@ -35,16 +63,120 @@ Section density_section() {
       keys};
 }
 
-void read_density(Reader& in, std::vector<DensitySpec>& density) {
+namespace {
+
+using Kind = Value::Kind;
+
+/// The names of all parts, one each; empty where a part has none.
+std::vector<std::string> names_of_parts(const Reader& in) {
+  const Entry* density = in.top("density");
+  std::vector<std::string> names;
+  if (!density) return names;
+  const std::vector<Value> one{density->value};
+  for (const Value& part : density->value.kind == Kind::list ? density->value.items : one) {
+    const Entry* name = part.find("name");
+    names.push_back(name && name->value.kind == Kind::text ? name->value.text : "");
+  }
+  return names;
+}
+
+/// Arrays of files and variables of expressions have names that a tracer cannot have.
+bool is_taken(const Reader& in, const std::string& name) {
+  for (const std::string_view other : {"x", "y", "z", "t", "u", "id", "alpha", "rho", "rho_exact", "error", "pi", "e"})
+    if (name == other) return true;
+  for (const GridFieldKind& field : grid_fields())
+    if (field.about.name == name) return true;
+  return std::any_of(in.params.begin(), in.params.end(), [&](const Parameter& one) { return one.name == name; });
+}
+
+void check_name(Reader& in, const Value& name) {
+  if (!is_name(name.text) || is_reserved_name(name.text))
+    in.diagnostics.error(name.place, fmt::format("\"{}\" cannot be the name of a density", name.text),
+                         "a letter, then letters, digits and underscores, and no name of a function");
+  else if (is_taken(in, name.text))
+    in.diagnostics.error(name.place, fmt::format("the name \"{}\" is taken", name.text),
+                         "expressions or files have another quantity of this name; choose a longer one");
+}
+
+/// What a part says of its tracer, beside its density at the start.
+void read_tracer(Reader& in, Case& spec, const std::vector<std::string>& names) {
+  const Entry* name = in.find("density", "name");
+  if (!name) {
+    for (const char* key : {"gain", "half_life", "exact"})
+      if (const Entry* entry = in.find("density", key))
+        in.diagnostics.error(entry->place, fmt::format("\"{}\" goes with \"name\"", key),
+                             "without names the densities are one, which effects and [reference] are for");
+    return;
+  }
+  const std::string text = in.text("density", "name");
+  check_name(in, name->value);
+  auto tracer =
+      std::find_if(spec.tracers.begin(), spec.tracers.end(), [&](const auto& one) { return one.name == text; });
+  if (tracer == spec.tracers.end()) tracer = spec.tracers.insert(tracer, TracerSpec{.name = text});
+  tracer->parts.push_back(spec.density.size() - 1);
+  const auto once = [&](const Entry* entry, bool said) {
+    if (entry && said)
+      in.diagnostics.error(entry->place, fmt::format("\"{}\" of {} is said twice", entry->name, text),
+                           "several densities of one name add up; one of them says what happens to it");
+    return entry && !said;
+  };
+  std::vector<std::string> tracers;
+  for (const std::string& one : names)
+    if (std::find(tracers.begin(), tracers.end(), one) == tracers.end()) tracers.push_back(one);
+  if (const Entry* gain = in.find("density", "gain"); once(gain, !tracer->gain.empty()))
+    tracer->gain = in.tracer_expression(gain->value, in.label_of(find_key("density", "gain")), tracers);
+  if (const Entry* life = in.find("density", "half_life"); once(life, tracer->half_life.has_value()))
+    if (const auto number = in.number("density", "half_life")) tracer->half_life = number->number;
+  if (const Entry* exact = in.find("density", "exact"); once(exact, !tracer->exact.empty()))
+    tracer->exact = in.field_expression(exact->value, in.label_of(find_key("density", "exact")), true);
+}
+
+}  // namespace
+
+void read_density(Reader& in, Case& spec) {
+  const std::vector<std::string> names = names_of_parts(in);
   in.each_part("density", [&](std::string_view kind, const Value& value) {
     const Key& key = find_key("density", kind);
     if (kind == "expression")
-      density.emplace_back(ExpressionDensitySpec{in.field_expression(value, in.label_of(key), false)});
-    if (kind == "file") density.emplace_back(grid_file<FileDensitySpec>(in, "density", value, 1, 1));
-    if (kind == "samples") density.emplace_back(sampled_density(in, value));
+      spec.density.emplace_back(ExpressionDensitySpec{in.field_expression(value, in.label_of(key), false)});
+    if (kind == "file") spec.density.emplace_back(grid_file<FileDensitySpec>(in, "density", value, 1, 1));
+    if (kind == "samples") spec.density.emplace_back(sampled_density(in, value));
     if (kind == "shape")
-      density.emplace_back(ShapeDensitySpec{value.text, in.arguments(key, find_named_shape(value.text).about, value)});
+      spec.density.emplace_back(
+          ShapeDensitySpec{value.text, in.arguments(key, find_named_shape(value.text).about, value)});
+    read_tracer(in, spec, names);
   });
+  const auto nameless = std::count(names.begin(), names.end(), "");
+  if (nameless > 0 && static_cast<std::size_t>(nameless) < names.size())
+    in.diagnostics.error(in.top("density")->place, "some densities have a name and some have none",
+                         "give each a name, or none; several of one name add up");
+  if (spec.tracers.size() > most_tracers)
+    in.diagnostics.error(
+        in.top("density")->place,
+        fmt::format("{} named densities are too many; at most {} are possible", spec.tracers.size(), most_tracers));
+}
+
+void check_tracers(Reader& in, const Case& spec) {
+  const Entry* density = in.top("density");
+  if (!density || spec.tracers.empty()) return;
+  for (const auto& [effect, values] : effects_of(spec.effects)) {
+    const EffectTraits& traits = effect->traits;
+    const int dimension = spec.domain.dimension;
+    std::string reason;
+    if (traits.adds_particles.of(values, dimension)) reason = traits.adds_particles.words;
+    if (traits.replaces_particles.of(values, dimension)) reason = traits.replaces_particles.words;
+    if (!reason.empty()) reason += ", which have one weight each";
+    if (reason.empty() && traits.particles_interact) reason = "which of the densities moves the particles is not said";
+    if (!reason.empty())
+      in.diagnostics.error(density->place,
+                           fmt::format("named densities do not go with [{}]: {}", table_of(*effect), reason),
+                           "leave out the effect, or the names");
+  }
+  if (in.diagnostics.errors() == 0 && !spec.sources.empty() && !tracers_react_linearly(spec))
+    in.diagnostics.error(in.top("source")->place,
+                         "[[source]] does not go with reactions that are not sums of multiples of named densities: "
+                         "what is released lies upon other particles, and they would not see each other",
+                         "reactions such as \"-0.5*A + 0.1*B\" go with it");
 }
 
 namespace {
@@ -60,10 +192,18 @@ void write_part(Writer& out, const ShapeDensitySpec& spec) {
 
 }  // namespace
 
-void write_density(Writer& out, const std::vector<DensitySpec>& density) {
-  for (const DensitySpec& part : density) {
-    out.part("density", density.size());
-    std::visit([&](const auto& spec) { write_part(out, spec); }, part);
+void write_density(Writer& out, const Case& spec) {
+  for (std::size_t part = 0; part < spec.density.size(); ++part) {
+    out.part("density", spec.density.size());
+    for (const TracerSpec& tracer : spec.tracers) {
+      if (std::find(tracer.parts.begin(), tracer.parts.end(), part) == tracer.parts.end()) continue;
+      out.entry("name", written(tracer.name));
+      if (part != tracer.parts.front()) continue;
+      if (!tracer.gain.empty()) out.entry("gain", written(tracer.gain));
+      if (tracer.half_life) out.entry("half_life", written(*tracer.half_life));
+      if (!tracer.exact.empty()) out.entry("exact", written(tracer.exact));
+    }
+    std::visit([&](const auto& one) { write_part(out, one); }, spec.density[part]);
   }
 }
 

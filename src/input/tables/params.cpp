@@ -76,15 +76,24 @@ Params params_in_use(const Case& spec) {
       texts.push_back(stream->psi);
   for (const auto& part : spec.density)
     if (const auto* density = std::get_if<ExpressionDensitySpec>(&part)) texts.push_back(density->text);
-  for (const SourceSpec& source : spec.sources)
+  for (const SourceSpec& source : spec.sources) {
     if (!source.rate.empty()) texts.push_back(source.rate);
+    if (const auto* face = std::get_if<FaceSourceSpec>(&source.what)) texts.push_back(face->concentration);
+  }
+  std::vector<std::string> variables;
+  for (const TracerSpec& tracer : spec.tracers) {
+    variables.push_back(tracer.name);
+    for (const std::string& text : {tracer.gain, tracer.exact})
+      if (!text.empty()) texts.push_back(text);
+  }
+  variables.insert(variables.end(), {"x", "y", "z", "t"});
   if (spec.reference.kind == ReferenceSpec::Kind::exact) texts.push_back(spec.reference.rho);
   for (const auto& [effect, values] : effects_of(spec.effects))
     for (const NamedParameter& parameter : effect->about.parameters)
       if (is_expression(parameter) && values.has(parameter.name)) texts.push_back(values.text(parameter.name));
   std::set<std::string> mentioned;
   for (const std::string& text : texts) {
-    const Expression expression(text, {"x", "y", "z", "t"}, spec.params);
+    const Expression expression(text, variables, spec.params);
     mentioned.insert(expression.used_names().begin(), expression.used_names().end());
   }
   Params params;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "effect/catalogue.hpp"
+#include "effect/tracer_reactions.hpp"
 #include "field/gridded/grid_data.hpp"
 #include "input/tables/tables.hpp"
 #include "render/styles.hpp"
@@ -90,6 +91,14 @@ void read_reference(Reader& in, Case& spec) {
         fmt::format("with [effects.{}] there is no exact density to compare with, so no errors are measured", without),
         "[reference] kind = \"exact\" compares with a formula, kind = \"none\" says that this is meant");
   }
+  const bool reacts = tracers_react(spec);
+  if (reacts && kind && chosen == "characteristics")
+    in.diagnostics.error(
+        kind->value.place,
+        "kind = \"characteristics\" does not go with reactions of named densities: paths know their sum "
+        "only where nothing is made or lost",
+        "kind = \"none\"; [[density]] exact = \"...\" gives the exact density of each");
+  if (reacts && !kind && !rho) chosen = "none";
   const Entry* source = spec.sources.empty() ? nullptr : in.top("source");
   if (source && kind && chosen == "characteristics" && without.empty())
     in.diagnostics.error(
@@ -97,7 +106,7 @@ void read_reference(Reader& in, Case& spec) {
         "kind = \"characteristics\" does not go with [[source]]: paths that are traced back to the start "
         "do not meet what enters later",
         "kind = \"exact\" and a formula as rho, or kind = \"none\"");
-  if (source && !kind && !rho && without.empty()) {
+  if (source && !kind && !rho && without.empty() && !reacts) {
     chosen = "none";
     in.diagnostics.warning(
         source->place, "with [[source]] there is no exact density to compare with, so no errors are measured",

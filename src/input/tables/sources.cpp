@@ -1,6 +1,7 @@
 // [[source]]: what enters during the run.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "field/density/shapes.hpp"
@@ -39,6 +40,7 @@ Section sources_section() {
        .type = Type::expression,
        .meaning = "of what comes in through the face: a density, an expression in x, y, z, t and params",
        .with = "face"},
+      {.name = "tracer", .meaning = "which of the named densities is released, where `[[density]]` has names"},
       {.name = "at", .type = Type::number, .unit = "time", .meaning = "the time at which all of it is released"},
       {.name = "from",
        .type = Type::number,
@@ -183,6 +185,25 @@ void read_interval(Reader& in, SourceSpec& source, const TimeSpec& clock) {
   if (const auto puffs = in.number("source", "puffs")) source.puffs = to_int(*puffs);
 }
 
+/// Which of the named densities it is.
+void read_tracer(Reader& in, SourceSpec& source, const std::vector<TracerSpec>& tracers) {
+  const Entry* tracer = in.find("source", "tracer");
+  if (tracers.empty() && tracer)
+    in.diagnostics.error(tracer->place, "no density of this case has a name", "[[density]] name = \"A\" names one");
+  if (tracers.empty()) return;
+  std::vector<std::string_view> names;
+  for (const TracerSpec& one : tracers) names.push_back(one.name);
+  const std::string wanted = in.text("source", "tracer");
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  if (found == names.end())
+    in.diagnostics.error(tracer ? tracer->value.place : in.table("source")->place,
+                         tracer ? fmt::format("no density is called \"{}\"", wanted)
+                                : std::string("a source does not say which of the named densities it releases"),
+                         fmt::format("tracer = one of {}", quoted_list(names)));
+  else
+    source.tracer = static_cast<std::size_t>(found - names.begin());
+}
+
 /// Through a face, during the whole run if nothing else is said.
 void read_inflow(Reader& in, SourceSpec& source, const TimeSpec& clock) {
   for (const char* name : {"at", "rate"})
@@ -256,6 +277,7 @@ void read_sources(Reader& in, Case& spec) {
                              where_sources_are);
       source.what = PointSourceSpec{place.value_or(std::vector<double>{})};
     }
+    read_tracer(in, source, spec.tracers);
     read_when(in, source, spec.time);
     spec.sources.push_back(std::move(source));
   });
@@ -264,6 +286,7 @@ void read_sources(Reader& in, Case& spec) {
 void write_sources(Writer& out, const Case& spec) {
   for (const SourceSpec& source : spec.sources) {
     out.part("source", spec.sources.size());
+    if (!spec.tracers.empty()) out.entry("tracer", written(spec.tracers[source.tracer].name));
     if (const auto* shape = std::get_if<ShapeDensitySpec>(&source.what)) {
       out.entry("shape", written(shape->shape));
       out.arguments("source", shape->shape, shape->arguments);

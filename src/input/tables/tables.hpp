@@ -35,8 +35,10 @@ void read_velocity(Reader& in, std::vector<VelocitySpec>& velocity);
 void write_velocity(Writer& out, const std::vector<VelocitySpec>& velocity);
 
 Section density_section();
-void read_density(Reader& in, std::vector<DensitySpec>& density);
-void write_density(Writer& out, const std::vector<DensitySpec>& density);
+void read_density(Reader& in, Case& spec);
+void write_density(Writer& out, const Case& spec);
+/// What does not go with named densities, once all is read.
+void check_tracers(Reader& in, const Case& spec);
 
 Section sources_section();
 void read_sources(Reader& in, Case& spec);

@@ -25,7 +25,8 @@ std::vector<std::string> reasons_to_leave(const Case& spec) {
   return all;
 }
 
-Departures::Departures(std::vector<std::unique_ptr<WayOut>> ways) : ways_(std::move(ways)) {
+Departures::Departures(std::vector<std::unique_ptr<WayOut>> ways, std::size_t tracers)
+    : ways_(std::move(ways)), tracers_own_(tracers), tracers_together_(tracers) {
   for (const auto& way : ways_)
     for (std::string& reason : way->reasons()) reasons_.push_back(std::move(reason));
   own_.resize(reasons_.size());
@@ -54,6 +55,7 @@ bool Departures::take(Particles& particles, double time) {
     if (see_) see_(particles, j);
     if (is_watched_ && is_watched_(particles.id[j]))
       lately_.push_back({particles.id[j], time, particles.view().at(j), reason[j]});
+    for (std::size_t k = 0; k < particles.tracers.size(); ++k) tracers_own_[k].add(particles.tracers[k][j]);
   }
   if (staying.size() == particles.size()) return false;
   for_each_column(particles, [&](std::string_view, std::size_t, auto& column) {
@@ -81,11 +83,17 @@ void Departures::bring_together(base::Communicator& ranks) {
     together_[r].mass.add(masses[r]);
     own_[r] = {};
   }
+  base::sum_over_ranks(ranks, tracers_own_);
+  for (std::size_t k = 0; k < tracers_own_.size(); ++k) {
+    tracers_together_[k].add(tracers_own_[k]);
+    tracers_own_[k] = {};
+  }
 }
 
 void Departures::pass_state(base::StateBytes& bytes) {
   if (bytes.reading()) lately_.clear();  // in steps that were abandoned
   bytes(own_, together_);
+  for (std::size_t k = 0; k < tracers_own_.size(); ++k) bytes(tracers_own_[k], tracers_together_[k]);
   const auto wrong = [](const Count& count) { return count.particles < 0; };
   if (own_.size() != reasons_.size() || together_.size() != reasons_.size() ||
       std::any_of(own_.begin(), own_.end(), wrong) || std::any_of(together_.begin(), together_.end(), wrong))

@@ -48,7 +48,8 @@ std::vector<std::string> reasons_to_leave(const Case& spec);
 
 class Departures {
  public:
-  explicit Departures(std::vector<std::unique_ptr<WayOut>> ways);
+  /// tracers: how many columns of Particles::tracers are counted too.
+  explicit Departures(std::vector<std::unique_ptr<WayOut>> ways, std::size_t tracers = 0);
 
   /// False: nothing can ever leave, and nobody need ask.
   bool possible() const { return !ways_.empty(); }
@@ -76,6 +77,9 @@ class Departures {
   /// What has left so far, by reason: on all ranks, as of the last bring_together().
   std::vector<Departed> so_far() const;
 
+  /// What of a tracer has left so far, for whatever reason: as of the last bring_together().
+  double left_of_tracer(std::size_t tracer) const { return tracers_together_[tracer].value(); }
+
   /// Adds up what the ranks have counted. All of them call it together.
   void bring_together(base::Communicator& ranks);
 
@@ -92,6 +96,7 @@ class Departures {
   std::function<bool(std::int64_t id)> is_watched_;
   std::function<void(const Particles& particles, std::size_t j)> see_;
   std::vector<Leaver> lately_;
+  std::vector<base::ExactSum> tracers_own_, tracers_together_;
   std::vector<Count> own_;       // of this rank, since they were brought together
   std::vector<Count> together_;  // of all ranks until then; the same on each
 };

@@ -1,0 +1,86 @@
+// What an output of a run shows of each named density.
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "effect/tracer_reactions.hpp"
+#include "reference/formula.hpp"
+#include "reference/norms.hpp"
+#include "sim/run_parts.hpp"
+
+namespace gaussdrift {
+
+namespace {
+
+/// Weights of a tracer in the place of the others, as long as it lives.
+class InPlaceOfWeights {
+ public:
+  InPlaceOfWeights(Particles& particles, std::size_t tracer)
+      : weights_(particles.alpha), tracer_(particles.tracers[tracer]) {
+    weights_.swap(tracer_);
+  }
+  ~InPlaceOfWeights() { weights_.swap(tracer_); }
+  InPlaceOfWeights(const InPlaceOfWeights&) = delete;
+  InPlaceOfWeights& operator=(const InPlaceOfWeights&) = delete;
+
+ private:
+  std::vector<double>&weights_, &tracer_;
+};
+
+}  // namespace
+
+void pass_tracers(base::StateBytes& bytes, std::vector<TracerNumbers>& tracers) {
+  std::uint64_t count = tracers.size();
+  bytes(count);
+  if (count > most_tracers) throw std::out_of_range("there are too many named densities");
+  tracers.resize(count);
+  for (TracerNumbers& one : tracers)
+    bytes(one.name, one.mass, one.minimum, one.maximum, one.released, one.reacted, one.left, one.error);
+}
+
+// Their numbers that follow from the particles. All ranks call it together.
+std::vector<TracerNumbers> Simulation::Parts::count_tracers() const {
+  std::vector<TracerNumbers> all;
+  if (case_.tracers.empty()) return all;
+  const std::vector<double> masses =
+      place_.sums(particles_, case_.tracers.size(), threads_, [&](std::size_t j, double* of_particle) {
+        for (std::size_t k = 0; k < particles_.tracers.size(); ++k) of_particle[k] = particles_.tracers[k][j];
+      });
+  for (std::size_t k = 0; k < case_.tracers.size(); ++k) {
+    TracerNumbers& one = all.emplace_back(TracerNumbers{.name = case_.tracers[k].name, .mass = masses[k]});
+    if (releases_.possible()) one.released = releases_.released(k);
+    one.reacted = carrier_.reacted(k);
+    if (carrier_.departures().possible()) one.left = carrier_.departures().left_of_tracer(k);
+  }
+  return all;
+}
+
+// Their densities, as further fields of the grid: one Gauss transform each, over the same points.
+void Simulation::Parts::sum_tracers(double time, DensityGrid& density, std::vector<TracerNumbers>& numbers) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    DensityReport report;
+    DensityGrid own;
+    {
+      const InPlaceOfWeights weights(particles_, k);
+      tracer_alone_ = true;
+      own = sum_density(report);
+      tracer_alone_ = false;
+    }
+    summary_.stages.add("density", report.evaluate_seconds);
+    summary_.stages.add("measure transform error", report.measure_seconds);
+    summary_.transform_achievable = std::max(summary_.transform_achievable, report.achievable);
+    on_first([&] {
+      const auto [low, high] = std::minmax_element(own.rho.begin(), own.rho.end());
+      numbers[k].minimum = *low, numbers[k].maximum = *high;
+      if (const std::string& exact = case_.tracers[k].exact; !exact.empty()) {
+        std::vector<double> rho;
+        const auto clock = [clock = case_.time](double elapsed) { return clock.at(elapsed); };
+        if (formula(exact, case_.params, scene_.evaluation, clock)->evaluate(time, rho).untraced == 0)
+          numbers[k].error = compare(own.rho, rho);
+      }
+      density.fields.push_back({numbers[k].name, 1, std::move(own.rho)});
+    });
+  }
+}
+
+}  // namespace gaussdrift
