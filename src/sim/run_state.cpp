@@ -208,8 +208,7 @@ void Simulation::Parts::take_particles(Particles particles) {
   ranks_.agree_on([&] {
     if (particles.size() == 0) return;
     if (particles.dimension != particles_.dimension || particles.path.size() != integrals ||
-        particles.kept.size() != kept ||
-        particles.tracers.size() != case_.tracers.size() ||
+        particles.kept.size() != kept || particles.tracers.size() != case_.tracers.size() ||
         (particles_.size() > 0 && particles.volume.empty() != particles_.volume.empty()))
       throw misfit("it has other particles");
     if (!all_finite(particles)) throw misfit("a number of its particles is not finite");

@@ -122,6 +122,7 @@ struct Moving {
 
 Moving moving_part(const Case& spec) {
   Moving moving{spec};
+  moving.spec.tracers.clear();  // they change weights alone
   const bool each_other = particles_interact(spec.effects);
   for (const auto& [effect, written] : effects_of(spec.effects)) {
     const bool moves = effect->traits.particles_interact || effect->spreading;

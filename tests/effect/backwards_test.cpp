@@ -8,6 +8,7 @@
 
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "message_of.hpp"
 #include "same_particles.hpp"
 #include "sim/carrier.hpp"
@@ -209,6 +210,15 @@ TEST(Backwards, RefusesTimesThatItDoesNotMeet) {
   says({"output.frames=2", "time.start=2020-01-03"}, "time.start is a date, and no data of the case have dates");
   says({"output.frames=2", "source.point=[0,0]", "source.at=3", "source.amount=1"},
        "lies before the run, which begins at 2 and goes backwards");
+}
+
+TEST(Backwards, TheSourceOfTheGalleryIsFound) {
+  // The checks of the case are the cloud that was released, and its mass.
+  const Case spec =
+      read_case(SOURCE_DIR "/cases/source_finding.toml", {"output.images=[]", "evaluate.per_axis=41"}).spec;
+  const RunSummary summary = Simulation(spec).run();
+  ASSERT_EQ(summary.checks.size(), 2u);
+  for (const CheckResult& check : summary.checks) EXPECT_TRUE(check.passed) << check.text;
 }
 
 }  // namespace

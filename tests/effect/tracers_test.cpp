@@ -7,6 +7,7 @@
 
 #include "effect/scene.hpp"
 #include "gaussdrift/error.hpp"
+#include "gaussdrift/read_case.hpp"
 #include "message_of.hpp"
 #include "same_particles.hpp"
 
@@ -150,6 +151,14 @@ TEST(Tracers, RefuseWhatIsNotKnownOfThem) {
   refused(resting_gaussian, {"density.half_life=1"}, "\"half_life\" goes with \"name\"");
   refused(resting_gaussian, {"density.name=rho"}, "the name \"rho\" is taken");
   refused(plain, {"check.what=Linf", "check.tracer=A", "check.max=1"}, "Linf of A needs its exact density");
+}
+
+TEST(Tracers, OfTheGalleryDecayIntoEachOtherAsTheirFormulasSay) {
+  // The checks of the case are the closed forms of both, and what is left of one.
+  const Case spec = read_case(SOURCE_DIR "/cases/two_tracers.toml", {"output.images=[]", "evaluate.per_axis=41"}).spec;
+  const RunSummary summary = Simulation(spec).run();
+  ASSERT_EQ(summary.checks.size(), 4u);
+  for (const CheckResult& check : summary.checks) EXPECT_TRUE(check.passed) << check.text;
 }
 
 }  // namespace

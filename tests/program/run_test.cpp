@@ -205,6 +205,7 @@ TEST(Run, SaysWhatTookLongestFirstEffectsAmongIt) {
                     "--set 'output.times=[0, 0.5]' --set reference.kind=none");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   // "(charge 0.06, files 0.06, other 0.00)": which comes first is a matter of the machine, that they descend is not.
+  // What is left for "other" stands at the end, however much it is.
   const std::size_t begin = run.out.find(" threads (") + 10, end = run.out.find(')', begin);
   ASSERT_NE(end, std::string::npos) << run.out;
   std::istringstream stages(run.out.substr(begin, end - begin));
@@ -214,6 +215,7 @@ TEST(Run, SaysWhatTookLongestFirstEffectsAmongIt) {
     const std::size_t blank = stage.rfind(' ');
     names.push_back(stage.substr(0, blank));
     const double seconds = std::stod(stage.substr(blank + 1));
+    if (names.back() == "other") continue;
     EXPECT_LE(seconds, last) << run.out;
     last = seconds;
   }
