@@ -49,7 +49,8 @@ TEST_P(EveryCase, HasTheSameFilesOnThreeRanksOrIsRefused) {
   const ScratchFolder folder;
   std::string more;
   if (GetParam() == "shear_diffusion") more = "--set time.step=0.02 ";  // narrow blobs exchange faster
-  if (GetParam() == "enright" || GetParam() == "charged_ball")          // in space
+  if (GetParam() == "uneven_diffusion") more = "--set particles.per_axis=101 --set particles.overlap=2 ";  // the same
+  if (GetParam() == "enright" || GetParam() == "charged_ball")                                             // in space
     more = "--set particles.per_axis=101 --set evaluate.per_axis=61 ";
   const std::string arguments = copy_of(GetParam(), folder) + small("--set time.end=0.2 --set output.frames=3 " + more);
   const Outcome three = on_ranks_of_mpi(3, run + arguments + "--out three", folder);
