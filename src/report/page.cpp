@@ -134,7 +134,7 @@ class Page {
       text_ += fmt::format("<h2>Error over time</h2><p>{}</p>{}\n", about_comparison(summary_, last()), curves);
       if (curves.empty()) by_choice_.push_back("a curve of the error over time: the run was compared at one time only");
     } else {
-      by_choice_.push_back("errors: the run was compared with nothing (reference.kind)");
+      by_choice_.push_back("errors: the density was compared with nothing (reference.kind)");
     }
     if (summary_.contains("budget"))
       text_ += "<h2>Where the error comes from</h2>" + budget_table(summary_.at("budget")) + "\n";

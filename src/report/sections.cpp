@@ -25,7 +25,7 @@ std::string verdict(const json& summary) {
   const json last = frames.empty() ? json() : frames.back();
   std::string text;
   if (!last.contains("Linf"))
-    text += "The run was compared with nothing, so its error is not known.";
+    text += "The density was compared with nothing, so its error is not known.";
   else if (!last.at("Linf").is_number())
     text += fmt::format("At t = {} {}.", time_of(last),
                         get(last, "no_norms").is_string() ? escaped(last.at("no_norms").get<std::string>())

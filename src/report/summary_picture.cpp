@@ -35,7 +35,7 @@ std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary
   const json told = get(frame, "compared");
   const double compared = told.is_number() ? told.get<double>() : static_cast<double>(points);
   if (!frame.contains("Linf")) {
-    notes.push_back("pictures of the exact density and the error: the run was compared with nothing");
+    notes.push_back("pictures of the exact density and the error: the density was compared with nothing");
   } else if (compared < static_cast<double>(points)) {
     notes.push_back(fmt::format(
         "pictures of the exact density and the error: only {:.0f} of the {} grid points were compared with it "

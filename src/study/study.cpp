@@ -290,21 +290,24 @@ Experiment vary_keys(const Case& spec, const StudyOptions& options) {
   return experiment;
 }
 
+void refuse_what_standard_studies_do_not_know(const Case& spec) {
+  constexpr const char* remedy = "vary keys instead, as in --vary particles.per_axis=100,200";
+  if (!spec.sources.empty())
+    throw InputError(fmt::format(
+        "study: the standard studies look at the particles of the start, and [[source]] adds others later; {}",
+        remedy));
+  if (tracers_react(spec))
+    throw InputError(fmt::format(
+        "study: the standard studies know one density, and here named ones change into each other; {}", remedy));
+}
+
 }  // namespace
 
 Study run_study(const StudyOptions& options) {
   const base::Stopwatch watch;
   const Case spec = read_case(options.file, options.overrides, options.threads).spec;
   Study study{spec.name, spec.title, {}, base::resolve_threads(options.threads), 0};
-  if (options.vary.empty() && !spec.sources.empty())
-    throw InputError(
-        "study: the standard studies look at the particles of the start, and [[source]] adds others later; vary keys "
-        "instead, as in --vary particles.per_axis=100,200");
-  if (options.vary.empty() && tracers_react(spec))
-    throw InputError(
-        "study: the standard studies know one density, and here named ones change into each other; vary keys instead, "
-        "as "
-        "in --vary particles.per_axis=100,200");
+  if (options.vary.empty()) refuse_what_standard_studies_do_not_know(spec);
   if (options.vary.empty()) refuse_what_does_not_fit(spec, options.threads, options.most_memory);
   if (options.begins) options.begins();
   if (options.vary.empty())

@@ -82,7 +82,7 @@ TEST(Page, TellsWhatIsNotOnItAndWhy) {
   EXPECT_NE(sampled.find("of the 1600 grid points, those around the maximum among them"), std::string::npos);
   EXPECT_NE(sampled.find("pictures of the exact density and the error: only "), std::string::npos);
   const std::string alone = page("--set reference.kind=none --set 'output.vtk=[]'");
-  EXPECT_NE(alone.find("errors: the run was compared with nothing"), std::string::npos);
+  EXPECT_NE(alone.find("errors: the density was compared with nothing"), std::string::npos);
   EXPECT_NE(alone.find("pictures: the run wrote no density files"), std::string::npos);
   EXPECT_EQ(alone.find("data:image"), std::string::npos);
   const std::string once = page("--set 'output.times=[1]'");
