@@ -60,11 +60,11 @@ set(public_mpi ranks)
 set(public_core arguments buffer dispatch simd/functions simd/product_block simd/pack)
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
-  gaussians/divergence_free gaussians/gaussian_velocity clocked/clocked folded/folded gridded/every_second gridded/grid_data gridded/gridded gridded/land
-  named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar velocity/differences velocity/sampled_gradients velocity/value_seconds
+  gaussians/divergence_free gaussians/gaussian_velocity clocked/clocked folded/folded gridded/around_sphere gridded/every_second gridded/grid_data gridded/gridded gridded/land
+  named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar spherical/around_centre spherical/on_sphere velocity/differences velocity/sampled_gradients velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read calendar grid_file missing_data netcdf/netcdf_file written_run)
-set(public_particle columns cutoff fgtd_points images pieces_by_id placing round_coordinates seeding subset tiles)
+set(public_particle chord columns cutoff fgtd_points images pieces_by_id placing round_coordinates seeding subset tiles)
 set(public_effect catalogue drift effect path_integral tracer_reactions)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample)
 set(public_sim carrier checks comparison borders/departures borders/edges fields_on_grid follow/particle_fields follow/time_units grid_fields grid_pieces landings make_fields borders/outside releases run_state scene sharing stable_step stepper tiled_density transform work)

@@ -57,7 +57,12 @@ struct Domain {
   /// The lower and the upper end of every axis. Either both or none of them are periodic.
   std::array<std::array<Edge, 2>, 3> edges{};
   AtCoast coast = AtCoast::refuse;  ///< what happens to particles that reach land
+  /// Radius of the sphere on which x is the longitude and y the latitude, both in degrees. Velocities are then lengths per
+  /// time, and densities are per area. 0: x, y and z are lengths.
+  double sphere = 0;
 
+  /// True if places are longitudes and latitudes.
+  bool on_sphere() const { return sphere > 0; }
   /// True if the case says of edges or of land what happens there: then outputs tell the mass inside.
   bool counts_inside() const { return has_edges() || coast != AtCoast::refuse; }
   /// True if the case says of any end what happens there.

@@ -62,7 +62,7 @@ double fit_of_samples(const Scene& scene, const Particles& start, const Particle
                       const std::vector<double>& rho, double time, double norm) {
   double largest = 0;  // rho_0
   for (const double alpha : start.alpha) largest = std::max(largest, std::abs(alpha));
-  largest /= std::pow(scene.seeding.spacing, scene.seeding.dimension);
+  largest /= scene.seeding.largest_cell();
   double error = 0;
   if (const double of_density = scene.density->fit_error(); of_density > 0 && largest > 0)
     error += of_density / largest;

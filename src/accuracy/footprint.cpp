@@ -103,7 +103,7 @@ double bytes_of_particle(const Case& spec, const EffectMemory& effects) {
 double summed_with_images(const Case& spec) {
   const Domain& domain = spec.domain;
   const Folding folding = folding_of(domain);
-  if (!folding.folds()) return 1;
+  if (!folding.folds() || domain.on_sphere()) return 1;
   const double eps = spec.particles.overlap * seeding_lattice(domain, spec.particles.per_axis).spacing;
   const double felt =
       reach(make_cutoff(spec.particles.cutoff, domain.dimension, eps, spec.particles.cutoff_arguments), 1e-14);

@@ -58,7 +58,7 @@ void sample_field(const Scene& scene, const Particles& particles, double end, Fo
   const double affordable = work_of_samples / (6 * scene.velocity->cost());
   const Particles sample = sample_of(particles, static_cast<std::size_t>(std::clamp(affordable, 20.0, 2000.0)));
   for (const double t : {0.0, 0.5 * end, end}) {
-    const Columns u = velocity_at(*scene.velocity, t, sample);
+    const Columns u = velocity_at(scene.velocity->in_lengths(), t, sample);
     for (std::size_t j = 0; j < sample.size(); ++j) {
       double square = 0;
       for (int k = 0; k < sample.dimension; ++k) square += u[k][j] * u[k][j];
@@ -268,7 +268,7 @@ void describe_trial(const Case& spec, const Trial& trial, Forecast& result) {
   result.grid_points = scene.evaluation.size();
   result.frames = spec.output.times.size();
   result.spacing = trial.lattice.spacing;
-  result.core_radius = spec.particles.overlap * trial.lattice.spacing;
+  result.core_radius = spec.particles.overlap * trial.lattice.spacing * trial.lattice.unit();
 }
 
 /// Seconds of pictures and report, and the sums of all that was timed.

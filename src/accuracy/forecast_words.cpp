@@ -29,6 +29,7 @@ std::string head_text(const Case& spec, const Forecast& r) {
     const auto axis = static_cast<std::size_t>(k);
     box += fmt::format("{}[{:g},{:g}]", k ? "x" : "", domain.min[axis], domain.max[axis]);
   }
+  if (domain.on_sphere()) box += fmt::format(" degrees, R = {:.10g}", domain.sphere);
   const std::string divergence = r.solenoidal ? "div u = 0"
                                  : r.largest_divergence <= r.divergence_noise
                                      ? "div u = 0 (sampled)"
@@ -48,11 +49,11 @@ std::string particles_text(const Case& spec, const Forecast& r) {
   text += fmt::format("velocity   {}\n", r.velocity);
   for (const std::string& warning : r.step_warnings) text += fmt::format("           {}\n", warning);
   text += fmt::format("density    {}\n", r.initial_density);
-  text +=
-      fmt::format("particles  {} on the lattice, h = {:.3g}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}{}\n",
-                  grouped(r.lattice_points), r.spacing, spec.particles.overlap, r.core_radius, spec.particles.cutoff,
-                  r.whole ? "" : "about ", grouped(r.particles), besides.empty() ? "" : fmt::format(" or {}", besides),
-                  spec.density.empty() ? " in the middle of the run" : "");
+  text += fmt::format(
+      "particles  {} on the lattice, h = {:.3g}{}, eps = {:g}h = {:.3g}, cutoff {}; {}{} carry weight{}{}\n",
+      grouped(r.lattice_points), r.spacing, spec.domain.on_sphere() ? " degrees" : "", spec.particles.overlap,
+      r.core_radius, spec.particles.cutoff, r.whole ? "" : "about ", grouped(r.particles),
+      besides.empty() ? "" : fmt::format(" or {}", besides), spec.density.empty() ? " in the middle of the run" : "");
   if (!spec.sources.empty())
     text += fmt::format("sources    {} release about {} particles during the run\n", spec.sources.size(),
                         grouped(static_cast<std::size_t>(r.released)));

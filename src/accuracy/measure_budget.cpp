@@ -87,7 +87,7 @@ Better smoothing_of_others(const Case& spec, const Scene& scene, const std::vect
                            const Particles& particles, double norm, int threads) {
   Better better;
   for (const std::string& name : higher_cutoffs(spec)) {
-    const Cutoff cutoff = make_cutoff(name, particles.dimension, scene.core_radius);
+    const Cutoff cutoff = other_cutoff(scene, name);
     better.emplace_back(name, largest_difference(sums_at(probes, particles, cutoff, threads), exact_of(probes)) / norm);
   }
   return better;
@@ -164,7 +164,7 @@ class Measurement {
 
   bool choose_probes_and_paths() {
     const std::vector<Probe> places =
-        choose_probes(scene_.evaluation, points_, values_, exact_, 3 * scene_.core_radius, 6);
+        choose_probes(scene_.evaluation, points_, values_, exact_, 3e3 * difference_length(scene_), 6);
     const ExactPathsOptions paths{.length = extent(spec_), .threads = threads_};
     const std::optional<ProbePlan> plan = choose_probe_plan(spec_, scene_, last_.particles, places, effort_, paths);
     if (!plan) return not_covered(too_costly);

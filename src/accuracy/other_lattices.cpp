@@ -36,8 +36,8 @@ std::vector<std::size_t> cells_around(const Particles& start, const Lattice& lat
 void weigh(Particles& particles, const Scene& scene) {
   particles.alpha.assign(particles.position[0].size(), 0.0);
   scene.density->add(particles.view(), particles.alpha.data());
-  const double cell = std::pow(scene.seeding.spacing, particles.dimension);
-  for (double& alpha : particles.alpha) alpha *= cell;
+  for (std::size_t j = 0; j < particles.alpha.size(); ++j)
+    particles.alpha[j] *= scene.seeding.cell(particles.position[1][j]);
 }
 
 }  // namespace

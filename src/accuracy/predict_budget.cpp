@@ -232,7 +232,7 @@ class Prediction {
   void advise() {
     Better better;
     for (const std::string& name : higher_cutoffs(spec_)) {
-      const std::vector<double> sharper = summed(carried_, make_cutoff(name, seeded_.dimension, scene_.core_radius));
+      const std::vector<double> sharper = summed(carried_, other_cutoff(scene_, name));
       better.emplace_back(name, farthest([&](std::size_t i) { return sharper[i]; }) / norm_);
     }
     give_advice(spec_, scene_, better, threads_, budget_);

@@ -144,8 +144,10 @@ RankForecast forecast_ranks(const Case& spec, double particles_at_most, double p
   result.whole = trial.whole;
   result.refused = why_not_shared(*trial.scene.velocity);
   // Blobs as wide as those of the case, whose sample has wider ones.
-  const Cutoff blob = make_cutoff(spec.particles.cutoff, spec.domain.dimension,
-                                  spec.particles.overlap * trial.lattice.spacing, spec.particles.cutoff_arguments);
+  Scene scene;
+  scene.seeding = trial.lattice;
+  set_blob(spec.particles, scene);
+  const Cutoff& blob = scene.cutoff;
   const Lattice grid = evaluation_lattice(spec);
   const double each = trial.each();
   DensityOptions options;

@@ -54,11 +54,9 @@ void take(Trial& trial, const LatticePart& part, Found found) {
   trial.particles = std::move(found.particles);
   trial.seeding = std::move(found.report);
   Scene& scene = trial.scene;
-  const ParticleSpec& spec = trial.spec.particles;
   const double times = static_cast<double>(part.stride);
   scene.seeding = part.of(trial.lattice);
-  scene.core_radius = spec.overlap * scene.seeding.spacing;
-  scene.cutoff = make_cutoff(spec.cutoff, trial.lattice.dimension, scene.core_radius, spec.cutoff_arguments);
+  set_blob(trial.spec.particles, scene);
   trial.spec.effects = trial.effects;
   for (EffectSpec& effect : trial.spec.effects.list)
     if (const auto coarsen = base::find_named(effects(), "effect", effect.name).coarsen) coarsen(effect, times);

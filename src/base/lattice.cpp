@@ -4,8 +4,16 @@
 #include <cmath>
 
 #include "base/longest_side.hpp"
+#include "base/sphere.hpp"
 
 namespace gaussdrift {
+
+double Lattice::unit() const { return sphere > 0 ? sphere * radians(1) : 1; }
+
+double Lattice::cell(double y) const {
+  const double flat = std::pow(spacing * unit(), dimension);
+  return sphere > 0 ? flat * std::cos(radians(y)) : flat;
+}
 
 std::vector<double> Lattice::nodes(int axis) const {
   std::vector<double> list(points[axis]);

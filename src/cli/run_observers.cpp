@@ -25,6 +25,7 @@ void observe_pictures(Simulation& simulation, const Case& spec, const fs::path& 
                                {.warn = [&](const std::string& line) { later.push_back(line); },
                                 .date = spec.time.date,
                                 .tracer = tracer,
+                                .sphere = spec.domain.sphere,
                                 .run_writes_densities = base::has_one(spec.output.files, &OutputFile::shows_density)}));
 }
 

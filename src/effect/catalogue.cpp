@@ -34,7 +34,7 @@ const std::vector<NamedEffect>& effects() { return base::catalogue<NamedEffect>(
 
 std::string table_of(const NamedEffect& effect) { return fmt::format("effects.{}", effect.about.name); }
 
-double EffectScene::cell() const { return std::pow(seeding.spacing, spec.domain.dimension); }
+double EffectScene::cell() const { return seeding.largest_cell(); }
 
 std::vector<std::pair<const NamedEffect*, EffectSpec>> effects_of(const EffectsSpec& named) {
   for (const EffectSpec& spec : named.list)

@@ -60,6 +60,8 @@ struct EffectTraits {
   Trait makes_ellipses = {};
   /// Particles move at random: "the random walk parts neighbours".
   Trait scatters = {};
+  /// It knows lengths in the plane and in space, and no longitudes: "remeshing puts particles on a flat lattice".
+  Trait needs_lengths = {};
   /// The density spreads.
   bool diffuses = false;
   /// What carries the density changes, the density does not.

@@ -44,7 +44,7 @@ void CoreSpreading::look_at(const Particles& sample) {
   for (int i = 0; i < dimension_ && !is_even(); ++i)
     for (int j = 0; j < dimension_; ++j)
       along(i, j) = diffusivity_[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] / coefficient_;
-  for (const SampledGradient& at : sampled_gradients(velocity_, sample.view(), end_, distance_)) {
+  for (const SampledGradient& at : gradients_in_lengths(velocity_, sample.view(), end_, distance_)) {
     const Eigen::MatrixXd stretched = is_even() ? at.gradient : Eigen::MatrixXd(at.gradient * along);
     for (const std::complex<double>& rate : eigenvalues_of((stretched + stretched.transpose()) / 2))
       strain_ = std::max(strain_, std::abs(rate));

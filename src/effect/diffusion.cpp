@@ -233,6 +233,10 @@ NamedParameter mixed_number(std::string_view name, std::string_view meaning) {
   return {.name = name, .unit = unit, .meaning = meaning, .optional = true};
 }
 
+bool needs_lengths(const EffectSpec& effect, int dimension) {
+  return !spreads(effect, dimension) || makes_ellipses(effect, dimension);
+}
+
 std::vector<NamedParameter> keys() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {
@@ -311,6 +315,9 @@ NamedEffect diffusion() {
                                   .unless = "`method = \"core-spreading\"` or `\"particle-exchange\"`",
                                   .remedy = "method = \"particle-exchange\"",
                                   .holds = walks},
+                     .needs_lengths = {.words = "of diffusion on a sphere only core spreading with one D is known",
+                                       .remedy = "method = \"core-spreading\" with D",
+                                       .holds = needs_lengths},
                      .diffuses = true,
                      .irreversible = {.words = "diffusion cannot be undone: what was there before is lost in it, and "
                                                "small errors would grow without bound"}},

@@ -294,6 +294,7 @@ NamedEffect remesh() {
                                              "weight goes to the others"}}},
           .traits = {.replaces_particles = {.words = "remeshing makes new particles"},
                      .moves_weight = {.words = "remeshing moves weight between particles"},
+                     .needs_lengths = {.words = "its lattice and its kernels are flat"},
                      .keeps_density = true,
                      .restores_overlap = true},
           // The table of neighbours; the nodes.

@@ -85,6 +85,7 @@ NamedEffect vortex() {
                                              "single velocities at that place. The library farfield promises it"}}},
           .traits = {.particles_interact = true,
                      .moved_by_weights = {.words = "these are the circulations that move the particles"},
+                     .needs_lengths = {.words = "the velocity of vortices is that of the plane"},
                      .flat_patches_ripple = true},
           .problems = needs_gaussian,
           .memory = [](const EffectSpec&,

@@ -4,6 +4,7 @@
 
 #include "base/text_file.hpp"
 #include "input/reader.hpp"
+#include "input/sphere_rules.hpp"
 #include "input/tables/tables.hpp"
 #include "read/grid_file.hpp"
 
@@ -39,6 +40,7 @@ Case read_tables(Reader& in) {
   read_reference(in, spec);
   read_accuracy(in, spec);
   read_checks(in, spec);
+  check_sphere(in, spec);
   if (in.diagnostics.errors() == 0) warn_unused_params(in);
   return spec;
 }

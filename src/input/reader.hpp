@@ -44,7 +44,8 @@ struct Parameter {
 struct Facts {
   int dimension = 0;  // 0: not known because of an error
   bool domain_valid = false;
-  Box box;  // the domain, if it is valid
+  bool on_sphere = false;  // places are longitudes and latitudes
+  Box box;                 // the domain, if it is valid
   std::array<bool, max_dimension> one_particle_across{};
   std::vector<std::pair<Place, std::shared_ptr<const GridData>>> grid_files;
   std::optional<double> end;  // time.end, elapsed

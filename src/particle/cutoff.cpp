@@ -106,6 +106,11 @@ double reach(const Cutoff& cutoff, double part) {
   return high;
 }
 
+Cutoff on_sphere(Cutoff cutoff, double radius) {
+  for (CutoffTerm& term : cutoff) term.sphere = radius;
+  return cutoff;
+}
+
 Cutoff spread_cutoff(const Cutoff& cutoff, int dimension, double spread) {
   Cutoff wider = cutoff;
   for (CutoffTerm& term : wider) {

@@ -24,6 +24,9 @@ struct CutoffTerm {
   std::array<int, max_dimension> derivative{};
   double coefficient = 1;
   Tensor longer{};
+  /// Radius of a sphere: |x| is then the chord, the straight line through the sphere between two of its points, and
+  /// derivatives are those of the plane, of which all together depend on |x| alone. 0: there is no sphere.
+  double sphere = 0;
 
   bool is_round() const { return longer == Tensor{}; }
 };
@@ -67,6 +70,10 @@ double narrowest_width(const Cutoff& cutoff);
 
 /// A distance beyond which no |zeta_eps| is larger than this part of its peak, 0 < part < 1.
 double reach(const Cutoff& cutoff, double part);
+
+/// The same function of |x| on a sphere of this radius, in 2D and of round terms; 0: the cutoff as it is. Its integral over
+/// the sphere is that over the plane, but for what lies beyond the distance 2 radius. docs/method.md, section 18.
+Cutoff on_sphere(Cutoff cutoff, double radius);
 
 /// The cutoff convolved with the Gaussian of variance spread/2 an axis. The square of every width grows by `spread`.
 /// Its integral and the coefficients of the derivatives stay (method.md, equation 11).

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
+#include "base/sphere.hpp"
 #include "gaussdrift/error.hpp"
 #include "particle/placing.hpp"
 
@@ -37,7 +38,7 @@ Line weigh_line(const Lattice& lattice, std::size_t number, const std::vector<Ca
   line.x[2].assign(length, lattice.coordinate(2, number / lattice.points[1]));
   PointsView points{lattice.dimension, length, {}};
   for (int a = 0; a < lattice.dimension; ++a) points.axis[a] = line.x[a].data();
-  const double cell = std::pow(lattice.spacing, lattice.dimension);
+  const double cell = lattice.cell(line.x[1].front());
   for (const Carried& kind : carried) {
     std::vector<double>& weights = line.weights.emplace_back(length, 0.0);
     kind.density(points, weights.data());
@@ -241,6 +242,11 @@ double longest_square(const Particles& particles, const Lattice& lattice, const 
       met[next] = 1;
       if (std::abs(particles.alpha[j]) < light && std::abs(particles.alpha[next]) < light) continue;
       double square = 0;
+      if (lattice.sphere > 0) {
+        const PointsView places = particles.view();
+        longest = std::max(longest, std::pow(degrees(angle_between(places.at(j), places.at(next))), 2));
+        continue;
+      }
       for (int a = 0; a < particles.dimension; ++a) {
         double distance = particles.position[a][j] - particles.position[a][next];
         if (const FoldedAxis& axis = folding.axis(a); axis.periodic)

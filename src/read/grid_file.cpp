@@ -247,6 +247,7 @@ GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string&
   }
   result.axis = std::move(layout.axis);
   if (const double time = grid.time(); std::isfinite(time)) result.time = time;
+  result.sphere = grid.sphere();
   return result;
 }
 

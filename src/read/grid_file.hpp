@@ -44,6 +44,7 @@ struct GridRequest {
   std::optional<Frame> frame{};           // of .png and .csv, which are read only where there is one
   std::optional<SceneClock> clock{};
   std::optional<double> level{};  // of a further dimension: the layer that is read
+  bool on_sphere = false;         // coordinates are degrees, and velocities are lengths per time all the same
   Gaps gaps = Gaps::warn;
   Duplicates duplicates = Duplicates::error;
   std::size_t times_at_once = 2;  // that a value depends on
@@ -78,6 +79,7 @@ struct GridSnapshot {
   std::size_t components = 1;                           // of the array, 1 to 3
   std::vector<double> values;                           // one number a point, first axis fastest
   std::optional<double> time;                           // the file's TimeValue
+  double sphere = 0;                                    // radius, where the axes are longitudes and latitudes
 };
 /// Its values, or a component of them; of a vector without that its length. Throws GridFileError as read_grid() does.
 GridSnapshot read_snapshot(const std::filesystem::path& file, const std::string& array,

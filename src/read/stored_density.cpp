@@ -37,6 +37,7 @@ TimedDensity read_image(const fs::path& file, const std::string& array, std::opt
   GridSnapshot data = told(file, [&] { return read_snapshot(file, array, component); });
   DensityGrid density;
   density.lattice.dimension = data.dimension;
+  density.lattice.sphere = data.sphere;
   double spacing = 0;  // of the first axis that has one
   for (int k = 0; k < data.dimension && spacing == 0; ++k)
     if (const auto& nodes = data.axis[static_cast<std::size_t>(k)]; nodes.size() > 1) spacing = nodes[1] - nodes[0];

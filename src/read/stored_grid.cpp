@@ -39,7 +39,7 @@ struct StoredGrid::Parts {
   std::vector<ArrayValues> values;
   std::array<std::vector<double>, 3> axis;
   std::array<double, 3> rounding{};
-  double time = 0;
+  double time = 0, sphere = 0;
   bool overlapping = false;  // the pieces
   bool curved = false;
   std::vector<double> places;  // of points, where the grid is curved
@@ -282,6 +282,7 @@ double StoredGrid::rounding_of_places() const { return parts_->rounding_of_place
 double StoredGrid::rounding(std::size_t k) const { return parts_->rounding[k]; }
 const std::vector<std::uint8_t>& StoredGrid::hidden(bool cells) const { return parts_->hidden[cells]; }
 double StoredGrid::time() const { return parts_->time; }
+double StoredGrid::sphere() const { return parts_->sphere > 0 ? parts_->sphere : 0; }
 
 void StoredGrid::load(const std::vector<ArrayInfo>& wanted) {
   Parts& parts = *parts_;
@@ -335,6 +336,7 @@ void StoredGrid::load(const std::vector<ArrayInfo>& wanted) {
     parts.values.push_back(std::move(values));
   }
   parts.time = parts.field_number("TimeValue");
+  parts.sphere = parts.field_number("sphere_radius");
 }
 
 }  // namespace gaussdrift::read

@@ -50,6 +50,8 @@ class StoredGrid {
   const std::vector<std::uint8_t>& hidden(bool cells) const;
   /// The field array TimeValue; NaN where there is none.
   double time() const;
+  /// The field array sphere_radius, where coordinates are longitudes and latitudes; 0 where there is none.
+  double sphere() const;
 
  private:
   struct Parts;

@@ -37,6 +37,12 @@ ErrorNorms compare(const std::vector<double>& rho, const std::vector<double>& ex
       exact, [&](std::size_t i) { return rho[i]; }, [](std::size_t) { return 1.0; });
 }
 
+ErrorNorms compare(const Lattice& lattice, const std::vector<double>& rho, const std::vector<double>& exact) {
+  if (!(lattice.sphere > 0)) return compare(rho, exact);
+  return norms(
+      exact, [&](std::size_t i) { return rho[i]; }, [&](std::size_t i) { return part_of_largest_cell(lattice, i); });
+}
+
 ErrorNorms compare(const std::vector<double>& rho, const GridSample& sample, const std::vector<double>& exact) {
   return norms(
       exact, [&](std::size_t i) { return rho[sample.points[i]]; }, [&](std::size_t i) { return sample.weight[i]; });

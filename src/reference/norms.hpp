@@ -15,4 +15,7 @@ ErrorNorms compare(const std::vector<double>& rho, const GridSample& sample, con
 /// is 0 everywhere. Sums in the order of the points.
 ErrorNorms compare(const std::vector<double>& rho, const std::vector<double>& exact);
 
+/// The same, weighted by the areas of the points where these lie on a sphere.
+ErrorNorms compare(const Lattice& lattice, const std::vector<double>& rho, const std::vector<double>& exact);
+
 }  // namespace gaussdrift

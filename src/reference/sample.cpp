@@ -8,12 +8,27 @@
 
 namespace gaussdrift {
 
+namespace {
+
+/// Points of a sphere stand for areas that differ with the latitude.
+void weigh_by_areas(const Lattice& lattice, GridSample& sample) {
+  for (std::size_t i = 0; lattice.sphere > 0 && i < sample.points.size(); ++i)
+    sample.weight[i] *= part_of_largest_cell(lattice, sample.points[i]);
+}
+
+}  // namespace
+
+double part_of_largest_cell(const Lattice& lattice, std::size_t point) {
+  return lattice.cell(lattice.coordinate(1, point / lattice.points[0] % lattice.points[1])) / lattice.largest_cell();
+}
+
 GridSample sample_of_grid(const Lattice& lattice, const std::vector<double>& rho, std::size_t count) {
   GridSample sample;
   if (rho.size() <= count) {
     sample.points.resize(rho.size());
     std::iota(sample.points.begin(), sample.points.end(), std::size_t{0});
     sample.weight.assign(rho.size(), 1.0);
+    weigh_by_areas(lattice, sample);
     return sample;
   }
   std::size_t top = 0;
@@ -49,6 +64,7 @@ GridSample sample_of_grid(const Lattice& lattice, const std::vector<double>& rho
         sample.points.push_back((z * lattice.points[1] + y) * lattice.points[0] + x);
         sample.weight.push_back(0);
       }
+  weigh_by_areas(lattice, sample);
   return sample;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/sphere.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift::render {
@@ -32,6 +33,9 @@ FlowPlane::FlowPlane(const DensityGrid& density, std::string_view name)
   if (field == density.fields.end() || field->components != 2 || field->values.size() != 2 * nx_ * ny_)
     throw Error(ExitCode::internal, fmt::format("the {} is not there to be drawn", name));
   values_ = field->values;
+  // On a map of degrees a way to the east is the longer, the nearer it is to a pole.
+  for (std::size_t j = 0; density.lattice.sphere > 0 && j < nx_ * ny_; ++j)
+    values_[2 * j] /= std::cos(radians(density.lattice.coordinate(1, j / nx_)));
   for (std::size_t j = 0; j < values_.size(); j += 2)
     if (const double speed = std::hypot(values_[j], values_[j + 1]); speed > largest_ && std::isfinite(speed))
       largest_ = speed;

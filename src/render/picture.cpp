@@ -58,7 +58,9 @@ void on_canvas(int width, int height, const std::filesystem::path& png, const st
 void draw(const Style& style, const DensityGrid& density, const PictureOptions& options,
           const std::filesystem::path& png) {
   const ColourRange range = colour_range(style, density, options);
-  on_canvas(options.width, options.height, png, style.painting(density, range, options));
+  PictureOptions on_map = options;
+  if (density.lattice.sphere > 0) on_map.axes = {"longitude (degrees)", "latitude (degrees)"};
+  on_canvas(options.width, options.height, png, style.painting(density, range, on_map));
 }
 
 }  // namespace gaussdrift::render

@@ -65,6 +65,7 @@ class PictureSeries : public Observer {
     for (const PictureStyle& about : styles)
       if (tracer_.empty() || !about.shows_error) styles_.push_back({find_style(about.name), {}});
     options_.title = std::move(title);
+    kept_.lattice.sphere = options.sphere;
   }
   std::string name() const override { return tracer_.empty() ? "pictures" : "pictures of " + tracer_; }
   bool needs_particles(double /*time*/) const override { return false; }

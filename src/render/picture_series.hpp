@@ -20,6 +20,7 @@ struct SeriesOptions {
   std::function<void(const std::string&)> warn{};  // gets lines for people
   std::function<std::string(double t)> date{};     // of an output, shown beside its time; empty: there is none
   std::string tracer{};  // the pictures show this named density, not that of all: images/A_surface_0000.png, ...
+  double sphere = 0;     // of the lattice of every density
   std::size_t most_bytes = most_kept_bytes;
   bool run_writes_densities = false;  // in its density files
 };

@@ -29,30 +29,31 @@ fgtd::Method method_by_name(const std::string& name) {
 
 }  // namespace
 
-template <int d>
-BlobSum<d>::BlobSum(const Particles& particles, const Cutoff& cutoff, const DensityOptions& options)
+template <int d, int e>
+BlobSum<d, e>::BlobSum(const Particles& particles, const Cutoff& cutoff, const DensityOptions& options)
     : options_(options),
       sources_(points_of<d>(particles)),
       weights_(Eigen::Map<const Eigen::VectorXd>(particles.alpha.data(), static_cast<Eigen::Index>(particles.size()))),
       groups_(group_by_width(cutoff, options.derivatives)) {}
 
-template <int d>
-std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cutoff& cutoff,
-                                                                        const std::vector<DensityDerivatives>& wanted) {
+template <int d, int e>
+std::vector<typename BlobSum<d, e>::WidthGroup> BlobSum<d, e>::group_by_width(
+    const Cutoff& cutoff, const std::vector<DensityDerivatives>& wanted) {
   std::map<std::pair<double, Tensor>, WidthGroup> groups;
-  for (const CutoffTerm& term : cutoff) {
+  for (const CutoffTerm& term : e == d ? cutoff : in_space(cutoff)) {
     WidthGroup& group = groups[{term.width, term.longer}];
+    group.sphere = sphere_of(cutoff);
     group.sigma = term.is_round() ? 1 / (term.width * term.width) : 1;
     if (!term.is_round() && !group.round) group.round = round_coordinates(term);
     group.combinations.resize(1 + wanted.size());
     group.scale.resize(1 + wanted.size());
     const auto add_one = [&](std::size_t quantity, const std::array<int, max_dimension>& derivative,
                              double coefficient) {
-      fgtd::Derivative<d> alpha{};
-      for (std::size_t k = 0; k < d; ++k) alpha[k] = derivative[k];
+      fgtd::Derivative<e> alpha{};
+      for (std::size_t k = 0; k < e; ++k) alpha[k] = derivative[k];
       group.combinations[quantity].push_back({alpha, coefficient});
       group.derivative_order = std::max(group.derivative_order, std::accumulate(alpha.begin(), alpha.end(), 0));
-      group.scale[quantity] += std::abs(coefficient) * fgtd::derivative_scale<d>(alpha, group.sigma);
+      group.scale[quantity] += std::abs(coefficient) * fgtd::derivative_scale<e>(alpha, group.sigma);
     };
     const auto add = [&](std::size_t quantity, const std::array<int, max_dimension>& further) {
       std::array<int, max_dimension> derivative = term.derivative;
@@ -70,21 +71,23 @@ std::vector<typename BlobSum<d>::WidthGroup> BlobSum<d>::group_by_width(const Cu
   return list;
 }
 
-template <int d>
-fgtd::Points<d> BlobSum<d>::WidthGroup::in_its_coordinates(const fgtd::Points<d>& points) const {
-  if (!round) return points;
-  fgtd::Points<d> there(d, points.cols());
+template <int d, int e>
+fgtd::Points<e> BlobSum<d, e>::WidthGroup::in_its_coordinates(const fgtd::Points<d>& points) const {
+  if constexpr (e == d)
+    if (!round) return points;
+  fgtd::Points<e> there(e, points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     Vector x{};
     for (int k = 0; k < d; ++k) x[static_cast<std::size_t>(k)] = points(k, i);
-    const Vector y = round->of(x);
-    for (int k = 0; k < d; ++k) there(k, i) = y[static_cast<std::size_t>(k)];
+    const Vector y = e == d ? round->of(x) : point_of_sphere(sphere, x);
+    for (int k = 0; k < e; ++k) there(k, i) = y[static_cast<std::size_t>(k)];
   }
   return there;
 }
 
-template <int d>
-std::optional<fgtd::TensorGrid> BlobSum<d>::WidthGroup::in_its_coordinates(const fgtd::TensorGrid& grid) const {
+template <int d, int e>
+std::optional<fgtd::TensorGrid> BlobSum<d, e>::WidthGroup::in_its_coordinates(const fgtd::TensorGrid& grid) const {
+  if (e != d) return std::nullopt;
   if (!round) return grid;
   if (!round->keeps_axes()) return std::nullopt;
   fgtd::TensorGrid there = grid;
@@ -93,8 +96,8 @@ std::optional<fgtd::TensorGrid> BlobSum<d>::WidthGroup::in_its_coordinates(const
   return there;
 }
 
-template <int d>
-double BlobSum<d>::WidthGroup::steepest_at(std::size_t axis) const {
+template <int d, int e>
+double BlobSum<d, e>::WidthGroup::steepest_at(std::size_t axis) const {
   double square = sigma;  // of the factor of x_k^2 in the exponent
   if (round) {
     square = 0;
@@ -103,16 +106,17 @@ double BlobSum<d>::WidthGroup::steepest_at(std::size_t axis) const {
   return 1 / std::sqrt(2 * square);
 }
 
-template <int d>
-OfQuantities BlobSum<d>::error_of_unit_tolerance(const Particles& particles) const {
+template <int d, int e>
+OfQuantities BlobSum<d, e>::error_of_unit_tolerance(const Particles& particles) const {
   OfQuantities errors(options_.quantities(), 0.0);
   for (const WidthGroup& group : groups_) {
     const double reach = std::sqrt((2 * std::log(1 / options_.tolerance) + 40) / group.sigma);
     PointsView places = particles.view();
-    std::array<Eigen::VectorXd, d> columns;
-    if (group.round) {
-      const fgtd::Points<d> there = group.in_its_coordinates(points_of<d>(particles));
-      for (std::size_t k = 0; k < d; ++k) {
+    std::array<Eigen::VectorXd, e> columns;
+    if (group.round || e != d) {
+      const fgtd::Points<e> there = group.in_its_coordinates(points_of<d>(particles));
+      places.dimension = e;
+      for (std::size_t k = 0; k < e; ++k) {
         columns[k] = there.row(static_cast<Eigen::Index>(k)).transpose();
         places.axis[k] = columns[k].data();
       }
@@ -124,8 +128,9 @@ OfQuantities BlobSum<d>::error_of_unit_tolerance(const Particles& particles) con
 }
 
 // The promise of fgtd is tolerance * N * (weight around the target); the simulator's is relative to the maximum.
-template <int d>
-void BlobSum<d>::choose_tolerance(const OfQuantities& unit_errors, const OfQuantities& maxima, DensityReport& report) {
+template <int d, int e>
+void BlobSum<d, e>::choose_tolerance(const OfQuantities& unit_errors, const OfQuantities& maxima,
+                                     DensityReport& report) {
   constexpr double coarsest = 0.1;  // nothing is gained above
   const auto wanted = [&](std::size_t q) {
     return unit_errors[q] > 0 ? options_.tolerance * maxima[q] / unit_errors[q] : coarsest;
@@ -149,13 +154,13 @@ void BlobSum<d>::choose_tolerance(const OfQuantities& unit_errors, const OfQuant
   report.requested_tolerance = by_hand() ? options_.tolerance : tolerance_;
 }
 
-template <int d>
-double BlobSum<d>::bound_by_hand(std::size_t quantity) const {
+template <int d, int e>
+double BlobSum<d, e>::bound_by_hand(std::size_t quantity) const {
   const HermiteSpec& by_hand = *options_.hermite;
   double bound = 0;
   for (const WidthGroup& group : groups_)
-    for (const fgtd::Term<d>& term : group.combinations[quantity]) {
-      const auto of_term = fgtd::hermite_bound<d>(by_hand.r, by_hand.p, by_hand.n, term.derivative);
+    for (const fgtd::Term<e>& term : group.combinations[quantity]) {
+      const auto of_term = fgtd::hermite_bound<e>(by_hand.r, by_hand.p, by_hand.n, term.derivative);
       if (!of_term)
         throw InputError(
             fmt::format("with evaluate.p = {} the error of `hermite` has no bound for this cutoff function{}. "
@@ -168,8 +173,8 @@ double BlobSum<d>::bound_by_hand(std::size_t quantity) const {
 }
 
 // The grid where its points count as one in the coordinates of a group, and else its points.
-template <int d>
-class BlobSum<d>::Targets {
+template <int d, int e>
+class BlobSum<d, e>::Targets {
  public:
   Targets(const WidthGroup& group, const fgtd::TensorGrid& grid) : grid_(group.in_its_coordinates(grid)) {
     if (!grid_) points_ = group.in_its_coordinates(points_of_grid(grid));
@@ -181,7 +186,7 @@ class BlobSum<d>::Targets {
     else
       options.expected_targets = static_cast<std::size_t>(points_.cols());
   }
-  Eigen::MatrixXd values(const fgtd::Plan<d>& plan, const std::vector<fgtd::Combination<d>>& combinations) const {
+  Eigen::MatrixXd values(const fgtd::Plan<e>& plan, const std::vector<fgtd::Combination<e>>& combinations) const {
     return grid_ ? plan.evaluate_combinations(*grid_, combinations) : plan.evaluate_combinations(points_, combinations);
   }
 
@@ -199,17 +204,18 @@ class BlobSum<d>::Targets {
   }
 
   std::optional<fgtd::TensorGrid> grid_;
-  fgtd::Points<d> points_;
+  fgtd::Points<e> points_;
 };
 
-template <int d>
-fgtd::Plan<d> BlobSum<d>::plan_of(const WidthGroup& group, const fgtd::Options& options) const {
-  if (!group.round) return {sources_, weights_, group.sigma, options};
+template <int d, int e>
+fgtd::Plan<e> BlobSum<d, e>::plan_of(const WidthGroup& group, const fgtd::Options& options) const {
+  if constexpr (e == d)
+    if (!group.round) return {sources_, weights_, group.sigma, options};
   return {group.in_its_coordinates(sources_), weights_, group.sigma, options};
 }
 
-template <int d>
-DensityWork BlobSum<d>::predict(const fgtd::TensorGrid& grid) const {
+template <int d, int e>
+DensityWork BlobSum<d, e>::predict(const fgtd::TensorGrid& grid) const {
   DensityWork work;
   for (const WidthGroup& group : groups_) {
     fgtd::Options options = options_for(group);
@@ -225,8 +231,8 @@ DensityWork BlobSum<d>::predict(const fgtd::TensorGrid& grid) const {
   return work;
 }
 
-template <int d>
-Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
+template <int d, int e>
+Eigen::MatrixXd BlobSum<d, e>::transform(const fgtd::TensorGrid& grid, DensityReport& report) const {
   report.choice.clear();
   Eigen::MatrixXd values =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(grid.size()), static_cast<Eigen::Index>(options_.quantities()));
@@ -234,7 +240,7 @@ Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityRepor
     const Targets targets(group, grid);
     fgtd::Options options = options_for(group);
     targets.expect(options);
-    const fgtd::Plan<d> plan = plan_of(group, options);
+    const fgtd::Plan<e> plan = plan_of(group, options);
     values += targets.values(plan, group.combinations);
     if (!report.choice.empty()) report.choice += '\n';
     report.choice += base::printed(plan.choice());
@@ -242,8 +248,8 @@ Eigen::MatrixXd BlobSum<d>::transform(const fgtd::TensorGrid& grid, DensityRepor
   return values;
 }
 
-template <int d>
-Eigen::MatrixXd BlobSum<d>::direct(const fgtd::Points<d>& targets) const {
+template <int d, int e>
+Eigen::MatrixXd BlobSum<d, e>::direct(const fgtd::Points<d>& targets) const {
   Eigen::MatrixXd values = Eigen::MatrixXd::Zero(targets.cols(), static_cast<Eigen::Index>(options_.quantities()));
   for (const WidthGroup& group : groups_) {
     fgtd::Options options;
@@ -255,8 +261,8 @@ Eigen::MatrixXd BlobSum<d>::direct(const fgtd::Points<d>& targets) const {
   return values;
 }
 
-template <int d>
-OfQuantities BlobSum<d>::largest_near(const fgtd::Points<d>& points) const {
+template <int d, int e>
+OfQuantities BlobSum<d, e>::largest_near(const fgtd::Points<d>& points) const {
   const auto largest_at = [&](const fgtd::Points<d>& targets) {
     const Eigen::RowVectorXd largest = direct(targets).cwiseAbs().colwise().maxCoeff();
     return OfQuantities(largest.begin(), largest.end());
@@ -274,8 +280,8 @@ OfQuantities BlobSum<d>::largest_near(const fgtd::Points<d>& points) const {
   return largest;
 }
 
-template <int d>
-fgtd::Options BlobSum<d>::options_for(const WidthGroup& group) const {
+template <int d, int e>
+fgtd::Options BlobSum<d, e>::options_for(const WidthGroup& group) const {
   fgtd::Options options;
   options.tolerance = tolerance_;
   options.derivative_order = group.derivative_order;
@@ -285,10 +291,10 @@ fgtd::Options BlobSum<d>::options_for(const WidthGroup& group) const {
   return options;
 }
 
-template <int d>
-OfQuantities BlobSum<d>::largest_errors(const Lattice& lattice, const LatticeBox& box,
-                                        const std::vector<double>& values,
-                                        const std::vector<std::size_t>& numbers) const {
+template <int d, int e>
+OfQuantities BlobSum<d, e>::largest_errors(const Lattice& lattice, const LatticeBox& box,
+                                           const std::vector<double>& values,
+                                           const std::vector<std::size_t>& numbers) const {
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(numbers.size()));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     std::size_t rest = numbers[i];
@@ -334,5 +340,6 @@ std::vector<std::size_t> spread_numbers(std::size_t size, std::size_t count) {
 
 template class BlobSum<2>;
 template class BlobSum<3>;
+template class BlobSum<2, 3>;
 
 }  // namespace gaussdrift

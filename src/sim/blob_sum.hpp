@@ -1,4 +1,5 @@
-// The blobs of some particles as sums of Gaussians that fgtd computes, in d = 2 or 3 dimensions.
+// The blobs of some particles as sums of Gaussians that fgtd computes, in d = 2 or 3 dimensions. The Gaussians lie in a
+// space of e dimensions: e = d, but for those on a sphere (particle/chord.hpp), whose places are d = 2 numbers each.
 #pragma once
 
 #include <fgtd/fgtd.hpp>
@@ -7,17 +8,19 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "gaussdrift/lattice_pieces.hpp"
 #include "gaussdrift/particles.hpp"
+#include "particle/chord.hpp"
 #include "particle/cutoff.hpp"
 #include "particle/round_coordinates.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
 
-template <int d>
+template <int d, int e = d>
 class BlobSum {
  public:
   /// Copies what it needs of the particles. The options must outlive it. Throws InputError for an unknown method.
@@ -54,15 +57,16 @@ class BlobSum {
 
  private:
   // All terms of one Gaussian width: one prepared transform, evaluated with derivatives. That of ellipses is one in
-  // coordinates in which they are round.
+  // coordinates in which they are round, and that of a sphere one in space.
   struct WidthGroup {
     double sigma = 0;                                // 1 / width^2
     std::optional<RoundCoordinates> round = {};      // of ellipses
-    std::vector<fgtd::Combination<d>> combinations;  // of each quantity
+    double sphere = 0;                               // its radius, where e is not d
+    std::vector<fgtd::Combination<e>> combinations;  // of each quantity
     int derivative_order = 0;
     OfQuantities scale;  // sum |c_alpha| N_alpha, the largest value of the combination for a unit weight
 
-    fgtd::Points<d> in_its_coordinates(const fgtd::Points<d>& points) const;
+    fgtd::Points<e> in_its_coordinates(const fgtd::Points<d>& points) const;
     // The grid, as long as it is one there.
     std::optional<fgtd::TensorGrid> in_its_coordinates(const fgtd::TensorGrid& grid) const;
     // Where a Gaussian is steepest on the way along an axis.
@@ -73,7 +77,7 @@ class BlobSum {
   // Bound (3.5) of the error of the sum with parameters by hand.
   double bound_by_hand(std::size_t quantity) const;
   class Targets;
-  fgtd::Plan<d> plan_of(const WidthGroup& group, const fgtd::Options& options) const;
+  fgtd::Plan<e> plan_of(const WidthGroup& group, const fgtd::Options& options) const;
   fgtd::Options options_for(const WidthGroup& group) const;
 
   const DensityOptions& options_;
@@ -82,6 +86,15 @@ class BlobSum {
   std::vector<WidthGroup> groups_;
   double tolerance_ = 0;
 };
+
+/// Calls use(d, e), two std::integral_constants: the dimensions of places, and of the space of these Gaussians.
+template <class Use>
+decltype(auto) in_dimensions(int dimension, const Cutoff& cutoff, const Use& use) {
+  constexpr std::integral_constant<int, 2> plane;
+  constexpr std::integral_constant<int, 3> space;
+  if (dimension == 3) return use(space, space);
+  return sphere_of(cutoff) > 0 ? use(plane, space) : use(plane, plane);
+}
 
 /// All of a lattice.
 inline LatticeBox whole(const Lattice& lattice) { return {.first = {}, .points = lattice.points}; }

@@ -29,8 +29,10 @@ std::vector<Outflow> outflows_of(const Domain& domain) {
   for (const Face& face : faces_of(domain, Edge::open)) {
     const FoldedAxis& axis = folding.axis(face.axis);
     Outflow& outflow = outflows.emplace_back(Outflow{.axis = face.axis});
-    if (face.upper || axis.mirror_high) outflow.high = face.upper ? axis.high : 2 * axis.high - axis.low;
-    if (!face.upper || axis.mirror_low) outflow.low = face.upper ? 2 * axis.low - axis.high : axis.low;
+    const double low = domain.min[static_cast<std::size_t>(face.axis)],
+                 high = domain.max[static_cast<std::size_t>(face.axis)];
+    if (face.upper || axis.mirror_high) outflow.high = face.upper ? high : 2 * high - low;
+    if (!face.upper || axis.mirror_low) outflow.low = face.upper ? 2 * low - high : low;
     outflow.high += rounding, outflow.low -= rounding;
   }
   return outflows;

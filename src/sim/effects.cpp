@@ -32,8 +32,7 @@ Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow,
                                          .threads = threads}));
   }
   if (tracers_react(spec)) {  // the last one: its rows of path integrals come behind those of others
-    const double cell = std::pow(scene.seeding.spacing, spec.domain.dimension);
-    made.push_back(std::make_unique<TracerReactions>(spec, *scene.velocity, cell));
+    made.push_back(std::make_unique<TracerReactions>(spec, *scene.velocity, scene.seeding.largest_cell()));
   }
   return made;
 }

@@ -17,6 +17,8 @@
 #include "field/named/named_fields.hpp"
 #include "field/samples/sampled_density.hpp"
 #include "field/samples/sampled_velocity.hpp"
+#include "field/spherical/around_centre.hpp"
+#include "field/spherical/on_sphere.hpp"
 #include "field/velocity/expression_field.hpp"
 #include "field/velocity/streamfunction_field.hpp"
 #include "field/velocity/sum_field.hpp"
@@ -29,13 +31,22 @@ namespace {
 
 Box box_of(const Domain& domain) { return {domain.dimension, domain.min, domain.max}; }
 
+/// As particles are carried: on a sphere in degrees per time.
+std::unique_ptr<VelocityField> in_coordinates(std::unique_ptr<VelocityField> part, const Case& spec,
+                                              DegreesVelocity::Of kind = DegreesVelocity::Of::components) {
+  if (!spec.domain.on_sphere()) return part;
+  return std::make_unique<DegreesVelocity>(std::move(part), kind, spec.domain.sphere);
+}
+
 std::unique_ptr<VelocityField> make_part(const ExpressionVelocitySpec& part, const Case& spec, int /*threads*/) {
-  return std::make_unique<ExpressionField>(part.components, spec.params);
+  return in_coordinates(std::make_unique<ExpressionField>(part.components, spec.params), spec);
 }
 
 std::unique_ptr<VelocityField> make_part(const StreamfunctionVelocitySpec& part, const Case& spec, int /*threads*/) {
-  return std::make_unique<StreamfunctionField>(part.psi, spec.params,
-                                               longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max));
+  return in_coordinates(
+      std::make_unique<StreamfunctionField>(part.psi, spec.params,
+                                            longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max)),
+      spec, DegreesVelocity::Of::streamfunction);
 }
 
 std::unique_ptr<VelocityField> make_part(const NamedVelocitySpec& part, const Case& spec, int /*threads*/) {
@@ -57,9 +68,10 @@ GridInterpolator interpolator(const FileSpec& part) {
 
 std::unique_ptr<VelocityField> make_part(const FileVelocitySpec& part, const Case& spec, int /*threads*/) {
   if (part.data->land)
-    return std::make_unique<CoastalVelocity>(interpolator(part), outside_of(part),
-                                             spec.domain.coast != AtCoast::refuse);
-  return std::make_unique<GriddedVelocity>(interpolator(part));
+    return in_coordinates(
+        std::make_unique<CoastalVelocity>(interpolator(part), outside_of(part), spec.domain.coast != AtCoast::refuse),
+        spec);
+  return in_coordinates(std::make_unique<GriddedVelocity>(interpolator(part)), spec);
 }
 
 /// Most particles that there may be at the start: points at which a velocity is evaluated at once.
@@ -88,7 +100,13 @@ std::unique_ptr<InitialDensity> make_part(const ExpressionDensitySpec& part, con
 
 std::unique_ptr<InitialDensity> make_part(const ShapeDensitySpec& part, const Case& spec, int /*threads*/) {
   const NamedShape& shape = find_named_shape(part.shape);
-  return shape.make(spec.domain.dimension, complete(shape.about, part.arguments, box_of(spec.domain)));
+  Arguments arguments = complete(shape.about, part.arguments, box_of(spec.domain));
+  if (!spec.domain.on_sphere()) return shape.make(spec.domain.dimension, arguments);
+  const Vector centre = point(arguments, "center");
+  for (auto& [name, values] : arguments)
+    if (name == "center") values.assign(values.size(), 0.0);
+  return std::make_unique<DensityAroundCentre>(shape.make(spec.domain.dimension, arguments), centre,
+                                               spec.domain.sphere);
 }
 
 /// The parts of a case; Sum adds several up.
@@ -99,6 +117,17 @@ std::unique_ptr<Part> make_sum(const std::vector<Spec>& specs, const Case& spec,
     parts.push_back(std::visit([&](const auto& one) { return make_part(one, spec, threads); }, part));
   if (parts.size() == 1) return std::move(parts.front());
   return std::make_unique<Sum>(std::move(parts));
+}
+
+}  // namespace
+
+namespace {
+
+/// The velocity has no divergence on the sphere, by construction.
+bool keeps_areas_of_sphere(const Case& spec) {
+  return std::all_of(spec.velocity.begin(), spec.velocity.end(), [](const VelocitySpec& part) {
+    return std::holds_alternative<StreamfunctionVelocitySpec>(part) || std::holds_alternative<NamedVelocitySpec>(part);
+  });
 }
 
 }  // namespace
@@ -115,8 +144,10 @@ std::unique_ptr<VelocityField> make_velocity(const Case& spec, int threads, std:
     if (misfits) *misfits = std::move(words);
     velocity = std::make_unique<FoldedVelocity>(std::move(velocity), folding, smooth);
   }
-  if (spec.time.is_plain()) return velocity;
-  return std::make_unique<ClockedVelocity>(std::move(velocity), clock_of(spec.time));
+  if (!spec.time.is_plain()) velocity = std::make_unique<ClockedVelocity>(std::move(velocity), clock_of(spec.time));
+  if (spec.domain.on_sphere())
+    velocity = std::make_unique<SphereVelocity>(std::move(velocity), spec.domain.sphere, keeps_areas_of_sphere(spec));
+  return velocity;
 }
 
 namespace {

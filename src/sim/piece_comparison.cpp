@@ -7,6 +7,8 @@
 #include <limits>
 #include <span>
 
+#include "reference/sample.hpp"
+
 namespace gaussdrift {
 
 PieceComparison::PieceComparison(const Lattice& lattice, const LatticePieces& pieces, double size)
@@ -42,9 +44,9 @@ void PieceComparison::compare(const Reference& reference, double time, const Den
         const double error = std::abs((*piece.rho)[first + i] - row[i]), size = std::abs(row[i]);
         largest_error_ = std::max(largest_error_, error);
         largest_ = std::max(largest_, size);
-        const double e = error * scale_, s = size * scale_;
-        sums_[error_1].add(e), sums_[error_2].add(e * e);
-        sums_[norm_1].add(s), sums_[norm_2].add(s * s);
+        const double e = error * scale_, s = size * scale_, w = part_of_largest_cell(lattice_, points[i]);
+        sums_[error_1].add(w * e), sums_[error_2].add(w * (e * e));
+        sums_[norm_1].add(w * s), sums_[norm_2].add(w * (s * s));
       }
     }
 }

@@ -11,6 +11,7 @@
 #include "base/broadcast.hpp"
 #include "base/has_one.hpp"
 #include "base/parallel.hpp"
+#include "base/sphere.hpp"
 #include "reference/norms.hpp"
 #include "reference/sample.hpp"
 #include "sim/borders/edges.hpp"
@@ -40,7 +41,8 @@ enum Addend : std::size_t { mass, weight, outside, centroid };
 /// stops: whether particle j lies on land, for good; empty: none does.
 FrameNumbers measure_particles(const Particles& particles, const Domain& domain, const Placement& place, int threads,
                                const std::function<bool(std::size_t j)>& stops) {
-  const auto dimension = static_cast<std::size_t>(particles.dimension);
+  // On a sphere the centre is that in space, brought to the surface.
+  const auto dimension = static_cast<std::size_t>(domain.on_sphere() ? 3 : particles.dimension);
   const std::size_t inside = centroid + dimension, stopped = inside + (domain.counts_inside() ? 1 : 0),
                     count = stopped + (stops ? 2 : 0);
   const auto addends_of = [&](std::size_t j, double* of_particle) {
@@ -49,7 +51,9 @@ FrameNumbers measure_particles(const Particles& particles, const Domain& domain,
     of_particle[mass] = alpha;
     of_particle[weight] = std::abs(alpha);
     of_particle[outside] = is_out ? std::abs(alpha) : 0;
-    for (std::size_t k = 0; k < dimension; ++k) of_particle[centroid + k] = alpha * particles.position[k][j];
+    const Vector x = domain.on_sphere() ? on_unit_sphere(particles.position[0][j], particles.position[1][j])
+                                        : particles.view().at(j);
+    for (std::size_t k = 0; k < dimension; ++k) of_particle[centroid + k] = alpha * x[k];
     if (domain.counts_inside()) of_particle[inside] = is_out ? 0 : alpha;
     if (!stops) return;
     const bool lies = stops(j);
@@ -65,9 +69,11 @@ FrameNumbers measure_particles(const Particles& particles, const Domain& domain,
   if (stops) numbers.stopped = {static_cast<std::uint64_t>(sums[stopped]), sums[stopped + 1]};
   // Where positive and negative weights cancel there is no centre of mass.
   const bool cancelled = std::abs(numbers.mass) <= 1e-12 * numbers.weight;
-  for (int k = 0; k < particles.dimension; ++k)
-    numbers.centroid[k] = cancelled ? std::numeric_limits<double>::quiet_NaN()
-                                    : sums[centroid + static_cast<std::size_t>(k)] / numbers.mass;
+  for (std::size_t k = 0; k < dimension; ++k)
+    numbers.centroid[k] = cancelled ? std::numeric_limits<double>::quiet_NaN() : sums[centroid + k] / numbers.mass;
+  if (!domain.on_sphere()) return numbers;
+  const Vector centre = longitude_and_latitude(numbers.centroid);
+  numbers.centroid = {folding_of(domain).fold(0, centre[0]).x, centre[1], 0};
   return numbers;
 }
 
@@ -159,6 +165,10 @@ std::vector<double> Simulation::Parts::velocity_at_particles(double time, bool w
     add(&ranks_);
   ranks_.agree_on([&] { check_velocity(*scene_.velocity, particles_, u, time, steps_before_); });
   if (!wanted) return velocity;
+  if (case_.domain.on_sphere()) {  // in degrees until here
+    std::fill(columns.begin(), columns.end(), 0.0);
+    ranks_.agree_on([&] { scene_.velocity->in_lengths().add(time, particles_.view(), u); });
+  }
   if (case_.time.backwards)  // people know it as the case has it
     for (double& component : columns) component = -component;
   velocity.resize(count * dimension);
@@ -217,7 +227,7 @@ const Particles& Simulation::Parts::images_agreed(Particles& images) const {
 // On rank 0 the whole of it.
 DensityGrid Simulation::Parts::sum_density(DensityReport& report) {
   if (!place_.one_tile()) return sum_tiles(report);
-  DensityGrid density;
+  DensityGrid density{scene_.evaluation, {}};
   on_first([&] {
     Particles images;
     density = evaluate_at_once(summed(images), blob(), scene_.evaluation, density_options(), &report);
@@ -437,7 +447,7 @@ void Simulation::Parts::compare_with_reference(const DensityGrid& density, Frame
     traced = reference_->evaluate(frame.elapsed, exact);
     if (!place_.is_first()) return;
     frame.exact = &exact;
-    frame.numbers.error = compare(density.rho, exact);
+    frame.numbers.error = compare(density.lattice, density.rho, exact);
     frame.numbers.compared = density.rho.size();
   } else {
     GridSample sample;

@@ -54,9 +54,22 @@ Cutoff blob_of(const Scene& scene, const Particles& particles) {
 
 Lattice evaluation_lattice(const Case& spec) {
   const Domain& domain = spec.domain;
-  return spec.evaluate.spacing > 0
-             ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
-             : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
+  Lattice lattice = spec.evaluate.spacing > 0
+                        ? make_lattice_with_spacing(domain.dimension, domain.min, domain.max, spec.evaluate.spacing)
+                        : make_lattice(domain.dimension, domain.min, domain.max, spec.evaluate.per_axis);
+  lattice.sphere = domain.sphere;
+  return lattice;
+}
+
+void set_blob(const ParticleSpec& particles, Scene& scene) {
+  const Lattice& lattice = scene.seeding;
+  scene.core_radius = particles.overlap * lattice.spacing * lattice.unit();
+  scene.cutoff = on_sphere(
+      make_cutoff(particles.cutoff, lattice.dimension, scene.core_radius, particles.cutoff_arguments), lattice.sphere);
+}
+
+Cutoff other_cutoff(const Scene& scene, std::string_view name) {
+  return on_sphere(make_cutoff(name, scene.seeding.dimension, scene.core_radius), scene.seeding.sphere);
 }
 
 Scene make_scene(const Case& spec, int threads) {
@@ -71,9 +84,7 @@ Scene make_scene(const Case& spec, int threads) {
   scene.threshold = spec.particles.threshold;
   scene.seeding = seeding_lattice(domain, spec.particles.per_axis);
   scene.evaluation = evaluation_lattice(spec);
-  scene.core_radius = spec.particles.overlap * scene.seeding.spacing;
-  scene.cutoff =
-      make_cutoff(spec.particles.cutoff, domain.dimension, scene.core_radius, spec.particles.cutoff_arguments);
+  set_blob(spec.particles, scene);
   scene.spreading_shape = spreading_shape(spec.effects, domain.dimension);
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "field/density/density.hpp"
@@ -46,7 +47,14 @@ struct Scene {
 
 /// The length over which gradients of the velocity are taken as differences: a thousandth of the smallest length that
 /// the density resolves.
-inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius; }
+/// In units of the coordinates.
+inline double difference_length(const Scene& scene) { return 1e-3 * scene.core_radius / scene.seeding.unit(); }
+
+/// The blob of a scene with this seeding lattice at the start: sets core radius and cutoff.
+void set_blob(const ParticleSpec& particles, Scene& scene);
+
+/// A cutoff with this name and default arguments in its place.
+Cutoff other_cutoff(const Scene& scene, std::string_view name);
 
 /// What these particles carry: the cutoff at the start, as wide as it has become.
 Cutoff blob_of(const Scene& scene, const Particles& particles);

@@ -117,7 +117,7 @@ void Simulation::Parts::make_ready() {
   mass_at_start_ = mass();
   Heaviest heavy = heaviest(particles_, scene_.seeding);
   heavy = {place_.max(heavy.anywhere), place_.max(heavy.at_edge)};
-  largest_at_start_ = heavy.anywhere / std::pow(scene_.seeding.spacing, scene_.seeding.dimension);
+  largest_at_start_ = heavy.anywhere / scene_.seeding.largest_cell();
   beyond_at_start_ = part_beyond(scene_.density->mass(), heavy, mass_at_start_);
   Particles sample = place_.sample(particles_, sampled_particles);
   releases_.add_places(sample, sampled_particles);

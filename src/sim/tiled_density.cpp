@@ -101,7 +101,7 @@ std::vector<std::size_t> fullest(const Tiles& tiles) {
   return order;
 }
 
-template <int d>
+template <int d, int e>
 class SumsInDimension : public TileSums {
  public:
   SumsInDimension(const TileSources& sources, const Tiles& tiles, const std::vector<char>& owned, const Cutoff& cutoff,
@@ -157,7 +157,7 @@ class SumsInDimension : public TileSums {
     if (of_tile_[tile].empty() || where.size() == 0) return nothing();
     const Particles some = particles_.places_and_weights(main ? of_tile_[tile] : within_reach(tile, where));
     if (some.size() == 0) return nothing();
-    BlobSum<d> blobs(some, cutoff_, options_);
+    BlobSum<d, e> blobs(some, cutoff_, options_);
     DensityReport of_tile;
     blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maxima_, of_tile);
     const Eigen::MatrixXd matrix = blobs.transform(nodes_of(lattice_, where), of_tile);
@@ -183,7 +183,7 @@ class SumsInDimension : public TileSums {
       if (!owned_[tile] || of_tile_[tile].empty()) continue;
       const Tile& where = tiles_.list()[tile];
       const Particles some = particles_.places_and_weights(of_tile_[tile]);
-      BlobSum<d> blobs(some, cutoff_, options_);
+      BlobSum<d, e> blobs(some, cutoff_, options_);
       DensityReport ignored;
       blobs.choose_tolerance(blobs.error_of_unit_tolerance(some), maxima, ignored);
       const DensityWork work = blobs.predict(nodes_of(lattice_, where));
@@ -217,7 +217,7 @@ class SumsInDimension : public TileSums {
       }
       fgtd::Points<d> target(d, 1);
       for (int k = 0; k < d; ++k) target(k, 0) = x[static_cast<std::size_t>(k)];
-      const BlobSum<d> blobs(particles_.places_and_weights(near), cutoff_, options_);
+      const BlobSum<d, e> blobs(particles_.places_and_weights(near), cutoff_, options_);
       raise(largest, blobs.largest_near(target));
     }
     return largest;
@@ -281,7 +281,7 @@ class SumsInDimension : public TileSums {
   }
 
   // At the sample, and in the main part of a tile where each quantity is largest in it.
-  void measure(const BlobSum<d>& blobs, const LatticeBox& where, const std::vector<double>& values,
+  void measure(const BlobSum<d, e>& blobs, const LatticeBox& where, const std::vector<double>& values,
                std::vector<std::size_t> sample, bool main) {
     for (std::size_t q = 0; main && q < options_.quantities(); ++q)
       sample.push_back(number_of_largest({values.data() + q * where.size(), where.size()}));
@@ -324,8 +324,12 @@ std::string told_by_whom_it_concerns(base::Communicator& ranks, const std::strin
 
 }  // namespace
 
+// On a sphere the longitude runs round, and near a pole a short way crosses many of them: there a blob is taken to be felt
+// everywhere, so that a grid is one tile.
 // At that distance a second derivative is some hundred times larger, relative to its largest value, than the blob.
 double reach_of_blob(const Cutoff& cutoff, const DensityOptions& options) {
+  constexpr double whole_sphere = 360;
+  if (sphere_of(cutoff) > 0) return whole_sphere;
   return reach(cutoff, options.derivatives.empty() ? 1e-14 : 1e-17);
 }
 
@@ -337,10 +341,9 @@ void sum_by_tiles(const TileSources& sources, const Tiles& tiles, const std::vec
   OfQuantities expected;
   const std::vector<Candidate> candidates = heaviest(sources, ranks);
   ranks.agree_on([&] {
-    if (lattice.dimension == 2)
-      sums = std::make_unique<SumsInDimension<2>>(sources, tiles, owned, cutoff, lattice, options);
-    else
-      sums = std::make_unique<SumsInDimension<3>>(sources, tiles, owned, cutoff, lattice, options);
+    in_dimensions(lattice.dimension, cutoff, [&](auto d, auto e) {
+      sums = std::make_unique<SumsInDimension<d, e>>(sources, tiles, owned, cutoff, lattice, options);
+    });
     expected = sums->lower_bounds_of_maxima(candidates);
   });
   expected = largest_of(ranks, expected);
@@ -407,8 +410,9 @@ DensityWork predict_tiles(const Particles& particles, const Tiles& tiles, const 
   const TileSources sources{particles, none};
   base::Communicator alone;
   const auto predict = [&](auto sums) { return sums.predict(sums.lower_bounds_of_maxima(heaviest(sources, alone))); };
-  return lattice.dimension == 2 ? predict(SumsInDimension<2>(sources, tiles, all, cutoff, lattice, options))
-                                : predict(SumsInDimension<3>(sources, tiles, all, cutoff, lattice, options));
+  return in_dimensions(lattice.dimension, cutoff, [&](auto d, auto e) {
+    return predict(SumsInDimension<d, e>(sources, tiles, all, cutoff, lattice, options));
+  });
 }
 
 }  // namespace gaussdrift

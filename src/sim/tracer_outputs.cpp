@@ -76,7 +76,7 @@ void Simulation::Parts::sum_tracers(double time, DensityGrid& density, std::vect
         std::vector<double> rho;
         const auto clock = [clock = case_.time](double elapsed) { return clock.at(elapsed); };
         if (formula(exact, case_.params, scene_.evaluation, clock)->evaluate(time, rho).untraced == 0)
-          numbers[k].error = compare(own.rho, rho);
+          numbers[k].error = compare(own.lattice, own.rho, rho);
       }
       density.fields.push_back({numbers[k].name, 1, std::move(own.rho)});
     });

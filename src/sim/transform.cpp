@@ -38,8 +38,8 @@ std::vector<std::size_t> promising_particles(const Particles& particles) {
 }
 
 // The largest among some promising points, by `direct`: lower bounds of the maxima.
-template <int d>
-OfQuantities lower_bounds_of_maxima(const BlobSum<d>& blobs, const Particles& particles) {
+template <int d, int e>
+OfQuantities lower_bounds_of_maxima(const BlobSum<d, e>& blobs, const Particles& particles) {
   const std::vector<std::size_t> chosen = promising_particles(particles);
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t i = 0; i < chosen.size(); ++i)
@@ -47,8 +47,8 @@ OfQuantities lower_bounds_of_maxima(const BlobSum<d>& blobs, const Particles& pa
   return blobs.largest_near(targets);
 }
 
-template <int d>
-void measure(const BlobSum<d>& blobs, const Lattice& lattice, const std::vector<double>& values,
+template <int d, int e>
+void measure(const BlobSum<d, e>& blobs, const Lattice& lattice, const std::vector<double>& values,
              DensityReport& report) {
   // At most 2e7 pairs, so that measuring stays a small part of any run; never fewer than 4 points.
   const std::size_t wanted = std::clamp<std::size_t>(20'000'000 / blobs.size(), 4, 200);
@@ -65,21 +65,21 @@ void measure(const BlobSum<d>& blobs, const Lattice& lattice, const std::vector<
   tell_errors(blobs.largest_errors(lattice, whole(lattice), values, sample), maxima, report);
 }
 
-template <int d>
+template <int d, int e>
 DensityWork predict_in_dimension(const Particles& particles, const Cutoff& cutoff, const Lattice& lattice,
                                  const DensityOptions& options) {
   DensityReport ignored;
-  BlobSum<d> blobs(particles, cutoff, options);
+  BlobSum<d, e> blobs(particles, cutoff, options);
   blobs.choose_tolerance(blobs.error_of_unit_tolerance(particles), lower_bounds_of_maxima(blobs, particles), ignored);
   return blobs.predict(nodes_of(lattice, whole(lattice)));
 }
 
-template <int d>
+template <int d, int e>
 void evaluate_in_dimension(const Particles& particles, const Cutoff& cutoff, DensityGrid& grid,
                            const DensityOptions& options, DensityReport& report) {
   const base::Stopwatch evaluating;
   const fgtd::TensorGrid nodes = nodes_of(grid.lattice, whole(grid.lattice));
-  BlobSum<d> blobs(particles, cutoff, options);
+  BlobSum<d, e> blobs(particles, cutoff, options);
   const OfQuantities unit_errors = blobs.error_of_unit_tolerance(particles);
   const OfQuantities expected = lower_bounds_of_maxima(blobs, particles);
   blobs.choose_tolerance(unit_errors, expected, report);
@@ -144,10 +144,8 @@ DensityGrid evaluate_at_once(const Particles& particles, const Cutoff& cutoff, c
     return grid;
   }
   in_words_of_a_case([&] {
-    if (lattice.dimension == 2)
-      evaluate_in_dimension<2>(particles, cutoff, grid, options, filled);
-    else
-      evaluate_in_dimension<3>(particles, cutoff, grid, options, filled);
+    in_dimensions(lattice.dimension, cutoff,
+                  [&](auto d, auto e) { evaluate_in_dimension<d, e>(particles, cutoff, grid, options, filled); });
   });
   return grid;
 }
@@ -176,8 +174,9 @@ DensityWork predict_density(const Particles& particles, const Cutoff& cutoff, co
   const Tiles tiles = tiles_of(particles, cutoff, lattice, options);
   return in_words_of_a_case([&] {
     if (tiles.list().size() > 1) return predict_tiles(particles, tiles, cutoff, lattice, options);
-    return lattice.dimension == 2 ? predict_in_dimension<2>(particles, cutoff, lattice, options)
-                                  : predict_in_dimension<3>(particles, cutoff, lattice, options);
+    return in_dimensions(lattice.dimension, cutoff, [&](auto d, auto e) {
+      return predict_in_dimension<d, e>(particles, cutoff, lattice, options);
+    });
   });
 }
 
@@ -201,7 +200,7 @@ void check_seconds(const EvaluateSpec& evaluate, const DensityWork& work, int th
 
 namespace {
 
-template <int d>
+template <int d, int e>
 std::vector<double> sum_blobs_in(const Particles& particles, const Cutoff& cutoff, const PointsView& points,
                                  int threads) {
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(points.count));
@@ -209,7 +208,7 @@ std::vector<double> sum_blobs_in(const Particles& particles, const Cutoff& cutof
     targets.row(k) = Eigen::Map<const Eigen::RowVectorXd>(points.axis[k], static_cast<Eigen::Index>(points.count));
   DensityOptions options;
   options.threads = threads;
-  const Eigen::VectorXd sum = BlobSum<d>(particles, cutoff, options).direct(targets);
+  const Eigen::VectorXd sum = BlobSum<d, e>(particles, cutoff, options).direct(targets);
   return {sum.data(), sum.data() + sum.size()};
 }
 
@@ -217,8 +216,8 @@ std::vector<double> sum_blobs_in(const Particles& particles, const Cutoff& cutof
 
 std::vector<double> sum_blobs(const Particles& particles, const Cutoff& cutoff, const PointsView& points, int threads) {
   if (particles.size() == 0 || points.count == 0) return std::vector<double>(points.count, 0.0);
-  return particles.dimension == 2 ? sum_blobs_in<2>(particles, cutoff, points, threads)
-                                  : sum_blobs_in<3>(particles, cutoff, points, threads);
+  return in_dimensions(particles.dimension, cutoff,
+                       [&](auto d, auto e) { return sum_blobs_in<d, e>(particles, cutoff, points, threads); });
 }
 
 }  // namespace gaussdrift

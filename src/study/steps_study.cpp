@@ -80,7 +80,7 @@ Paths paths_of_each_other(Case spec, const Scene& scene, const Particles& all, i
     StageTimes ignored;
     carrier.carry(moved, 0, time, 0, ignored);
     // Halving takes away 15/16 of the error.
-    if (last > 0) paths.known = largest_distance(moved, paths.exact) / 15 / scene.core_radius;
+    if (last > 0) paths.known = largest_distance(moved, paths.exact) * scene.seeding.unit() / 15 / scene.core_radius;
     paths.exact = std::move(moved);
     last = one.seconds();
     if (paths.known < enough) break;
@@ -238,8 +238,8 @@ class StepsStudy {
       sample.seconds = times.fastest() * paths_.scale;
       sample.confirmed = times.count() < 2 || times.repeatable();
       sample.particles = all_.size();
-      sample.error = std::max(
-          {largest_distance(moved, paths_.exact) / scene_.core_radius, each_other_ ? paths_.known : 0.0, 1e-16});
+      sample.error = std::max({largest_distance(moved, paths_.exact) * scene_.seeding.unit() / scene_.core_radius,
+                               each_other_ ? paths_.known : 0.0, 1e-16});
     } catch (const Error& error) {
       sample.failure = error.what();
     }

@@ -30,11 +30,13 @@ FileKind particle_files() {
       .ending = ".vtp",
       .text =
           [](const std::filesystem::path& file, const Frame& frame) {
-            return particle_text(file, *frame.particles, *frame.velocity, frame.time, frame.particle_fields);
+            return particle_text(file, *frame.particles, *frame.velocity, frame.time, frame.particle_fields,
+                                 frame.density->lattice.sphere);
           },
       .particle_piece =
           [](const std::filesystem::path& file, const Frame& frame, const ParticlePiece& piece) {
-            return particle_text(file, *piece.particles, *piece.velocity, frame.time, piece.fields);
+            return particle_text(file, *piece.particles, *piece.velocity, frame.time, piece.fields,
+                                 frame.density->lattice.sphere);
           },
       .index = [](const Frame& frame,
                   const std::vector<std::string>& files) { return particle_index_text(files, frame.particle_fields); },

@@ -66,10 +66,13 @@ std::string beginning(const char* type, std::size_t numbers) {
   return text;
 }
 
-/// ParaView's name for the time that a file belongs to.
-void add_time(std::string& text, double time) {
+/// ParaView's name for the time that a file belongs to. Where places are longitudes and latitudes in degrees, the radius
+/// of their sphere says so.
+void add_time(std::string& text, double time, double sphere) {
   text += "    <FieldData>\n";
   add_array(text, {6, "TimeValue", " NumberOfTuples=\"1\""}, 1, [&](std::size_t) { return time; });
+  if (sphere > 0)
+    add_array(text, {6, "sphere_radius", " NumberOfTuples=\"1\""}, 1, [&](std::size_t) { return sphere; });
   text += "    </FieldData>\n";
 }
 
@@ -83,7 +86,7 @@ std::string beginning_of_image(const Lattice& lattice, const LatticeBox& box, do
       "Direction=\"1 0 0 0 1 0 0 0 1\">\n",
       extent, shortest_text(lattice.origin[0]), shortest_text(lattice.origin[1]), shortest_text(lattice.origin[2]),
       spacing);
-  add_time(text, time);
+  add_time(text, time, lattice.sphere);
   text += fmt::format("  <Piece Extent=\"{}\">\n    <PointData{}>\n", extent, attributes);
   return text;
 }
@@ -210,7 +213,7 @@ void write_density(const fs::path& file, const DensityGrid& density, double time
 }
 
 std::string particle_text(const fs::path& file, const Particles& particles, const std::vector<double>& velocity,
-                          double time, const std::vector<FieldOnGrid>* fields) {
+                          double time, const std::vector<FieldOnGrid>* fields, double sphere) {
   const std::size_t count = particles.size();
   const int dimension = particles.dimension;
   check_size(file, "id", particles.id.size(), count);
@@ -218,7 +221,7 @@ std::string particle_text(const fs::path& file, const Particles& particles, cons
 
   std::string text = beginning("PolyData", 10 * count + (fields ? numbers_in(*fields, count) : 0));
   text += "  <PolyData>\n";
-  add_time(text, time);
+  add_time(text, time, sphere);
   text += fmt::format(
       "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
       "NumberOfPolys=\"0\">\n      <PointData Scalars=\"alpha\" Vectors=\"u\">\n",

@@ -25,9 +25,10 @@ void write_particles(const std::filesystem::path& file, const Particles& particl
 /// The texts of these files; messages call them `file`.
 std::string density_text(const std::filesystem::path& file, const DensityGrid& density, double time,
                          const std::vector<double>* exact = nullptr);
+/// sphere: its radius, where places are longitudes and latitudes.
 std::string particle_text(const std::filesystem::path& file, const Particles& particles,
                           const std::vector<double>& velocity, double time,
-                          const std::vector<FieldOnGrid>* fields = nullptr);
+                          const std::vector<FieldOnGrid>* fields = nullptr, double sphere = 0);
 
 /// Image data with the fields alone.
 std::string fields_text(const std::filesystem::path& file, const Lattice& lattice,

@@ -36,6 +36,13 @@ class GridLevels {
 
   std::size_t most_held() const { return most_held_; }
 
+  /// Others that hold what `change` makes of the numbers. They are read anew.
+  template <class Change>
+  std::shared_ptr<const GridLevels> changed(const Change& change) const {
+    return std::make_shared<const GridLevels>(most_held_,
+                                              [load = load_, change](std::size_t time) { return change(load(time)); });
+  }
+
  private:
   std::size_t most_held_;
   Load load_;

@@ -19,6 +19,7 @@ NamedField double_gyre();
 NamedField lamb_oseen();
 NamedField rotation();
 NamedField shear();
+NamedField sphere_rotation();
 NamedField strain();
 NamedField swirl();
 NamedField taylor_green();
@@ -53,9 +54,9 @@ namespace gaussdrift::base {
 template <>
 std::vector<NamedField>& catalogue() {
   static std::vector<NamedField> all = {
-      named::rotation(),   named::translation(), named::shear(),        named::strain(),
-      named::swirl(),      named::double_gyre(), named::taylor_green(), named::doswell(),
-      named::lamb_oseen(), named::deformation(), named::abc(),          named::burgers(),
+      named::rotation(),    named::translation(),  named::shear(),           named::strain(),     named::swirl(),
+      named::double_gyre(), named::taylor_green(), named::doswell(),         named::lamb_oseen(), named::deformation(),
+      named::abc(),         named::burgers(),      named::sphere_rotation(),
   };
   return all;
 }

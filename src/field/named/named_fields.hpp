@@ -28,8 +28,11 @@ struct NamedField {
   NamedFormula about;
   std::string_view divergence;  // formula, for people
   std::string_view exact_flow;  // formula of VelocityField::flow from time s to t, or why there is none
+  /// Of cases with longitudes and latitudes, and only of these: x, y and u are in degrees. Its divergence as a flow on the
+  /// sphere is 0; `divergence` is what the coordinates have.
+  bool on_sphere = false;
   /// From complete arguments.
-  std::function<std::unique_ptr<NamedVelocityField>(int dimension, const Arguments& arguments)> make;
+  std::function<std::unique_ptr<NamedVelocityField>(int dimension, const Arguments& arguments)> make = {};
 };
 
 /// In the order of docs/cases.md.

@@ -25,6 +25,10 @@ struct SampledGradient {
 std::vector<SampledGradient> sampled_gradients(const VelocityField& velocity, const PointsView& points, double length,
                                                double distance, std::vector<Jump>* jumps = nullptr);
 
+/// The same of lengths by lengths (VelocityField::in_lengths). Where coordinates are none, by the field's own formula.
+std::vector<SampledGradient> gradients_in_lengths(const VelocityField& velocity, const PointsView& points,
+                                                  double length, double distance);
+
 /// The eigenvalues of a square matrix of finite numbers.
 std::vector<std::complex<double>> eigenvalues_of(const Eigen::MatrixXd& matrix);
 

@@ -54,6 +54,9 @@ class VelocityField {
   virtual double shown_time(double t) const { return t; }
   /// The field as people know it: at times of the clock, and not turned round.
   virtual const VelocityField& shown() const { return *this; }
+  /// The same flow as lengths per time, and its gradient by lengths. On a sphere, where u is in degrees per time, these are
+  /// the components to the east and to the north; elsewhere it is the field itself.
+  virtual const VelocityField& in_lengths() const { return *this; }
   /// What a value costs, roughly, in values of a formula with a sine or two.
   virtual double cost() const { return 1; }
   /// True if u, or a part of it, is fitted to samples.

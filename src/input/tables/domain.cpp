@@ -8,6 +8,12 @@
 
 namespace gaussdrift::input {
 
+namespace {
+
+constexpr std::string_view longitude_latitude = "longitude latitude";
+
+}  // namespace
+
 Section domain_section() {
   return {Table{.name = "domain",
                 .required = true,
@@ -22,6 +28,18 @@ Section domain_section() {
             .required = true,
             .unit = "length",
             .meaning = "upper corner. It lies above `min` on every axis"},
+           {.name = "coordinates",
+            .type = Type::choice,
+            .choices = {longitude_latitude},
+            .meaning = "`longitude latitude`: x and y are degrees on a sphere. Velocities are lengths per time to the "
+                       "east and to the north, densities are per area, blobs are round on the sphere. A domain of 360 "
+                       "degrees is periodic in x. Without this key all coordinates are lengths"},
+           {.name = "radius",
+            .type = Type::number,
+            .fallback = "6371000",
+            .range = positive,
+            .unit = "length",
+            .meaning = "radius of the sphere that `coordinates` needs. The default is that of the Earth in metres"},
            {.name = "edges",
             .type = Type::ends,
             .fallback = "unbounded",
@@ -84,6 +102,64 @@ void read_edges(Reader& in, Domain& domain) {
     read_ends(in, entry->value.items[k], key, std::string(1, "xyz"[k]), domain.edges[k]);
 }
 
+/// A domain that goes all the way round is periodic there.
+void go_round(Reader& in, Domain& domain, const Place& place) {
+  constexpr double whole = 360, rounding = 1e-9;
+  const double length = domain.max[0] - domain.min[0];
+  const Entry* edges = in.find("domain", "edges");
+  if (length > whole + rounding)
+    in.diagnostics.error(place,
+                         fmt::format("the domain reaches over {:g} degrees of longitude, and there are 360", length),
+                         "max[0] - min[0] is at most 360");
+  const bool round = std::abs(length - whole) <= rounding;
+  if (!edges && round) domain.edges[0] = {Edge::periodic, Edge::periodic};
+  if (!edges) return;
+  const bool periodic = domain.edges[0][0] == Edge::periodic;
+  if (round && !periodic)
+    in.diagnostics.error(edges->value.place,
+                         "the domain goes all the way round, and its edges along x are not periodic",
+                         "\"periodic\" for x, or a domain of less than 360 degrees");
+  if (!round && periodic)
+    in.diagnostics.error(
+        edges->value.place,
+        fmt::format("the domain reaches over {:g} degrees of longitude and cannot be periodic", length),
+        "let it reach over 360, as from -180 to 180, or use \"open\"");
+  if (domain.edges[1][0] == Edge::periodic)
+    in.diagnostics.error(edges->value.place, "latitudes are not periodic", "\"open\" or \"unbounded\" for y");
+  if (domain.has(Edge::closed))
+    in.diagnostics.error(edges->value.place,
+                         "closed edges need blobs mirrored beyond them, which are not known on a sphere",
+                         "\"open\" or \"unbounded\"");
+}
+
+void read_coordinates(Reader& in, Domain& domain, const Value& min, const Value& max) {
+  const Entry* coordinates = in.find("domain", "coordinates");
+  const Entry* radius = in.find("domain", "radius");
+  if (!coordinates) {
+    if (radius)
+      in.diagnostics.error(radius->place, "domain.radius is that of a sphere, and there is none",
+                           fmt::format("coordinates = \"{}\" in [domain]", longitude_latitude));
+    return;
+  }
+  const Key& key = find_key("domain", "coordinates");
+  if (!in.choice_in(coordinates->value, key, in.label_of(key))) return;
+  if (domain.dimension != 2)
+    in.diagnostics.error(coordinates->value.place, "longitudes and latitudes need a domain of 2 dimensions, this has 3",
+                         "leave out the third numbers of min and max");
+  if (const auto number = in.number("domain", "radius")) domain.sphere = number->number;
+  if (domain.dimension != 2 || !domain.on_sphere()) return;
+  constexpr double most = 89;
+  for (const auto& [latitude, value] : {std::pair{domain.min[1], &min}, std::pair{domain.max[1], &max}})
+    if (std::abs(latitude) > most)
+      in.diagnostics.error(
+          value->items[1].place,
+          fmt::format("the domain reaches to the latitude {:g}, too near to a pole: there a degree of longitude has "
+                      "hardly any length, and particles would run round faster than any step",
+                      latitude),
+          fmt::format("latitudes from -{0:g} to {0:g}", most));
+  go_round(in, domain, max.items[0].place);
+}
+
 /// As short as it can be.
 std::string written_edges(const Domain& domain) {
   const auto word = [](Edge edge) { return written_choice(find_key("domain", "edges"), edge); };
@@ -131,6 +207,8 @@ void read_domain(Reader& in, Domain& domain) {
     if (const auto rule = in.choice_in(coast->value, key, in.label_of(key)))
       domain.coast = static_cast<AtCoast>(*rule + 1);  // without the key: refuse, the first one
   }
+  read_coordinates(in, domain, min_entry->value, max_entry->value);
+  in.facts.on_sphere = domain.on_sphere();
   in.facts.domain_valid = valid;
   in.facts.box = {domain.dimension, domain.min, domain.max};
 }
@@ -142,6 +220,10 @@ void write_domain(Writer& out, const Domain& domain) {
   out.table("domain");
   out.entry("min", corner(domain.min));
   out.entry("max", corner(domain.max));
+  if (domain.on_sphere()) {
+    out.entry("coordinates", written(std::string(longitude_latitude)));
+    out.entry("radius", written(domain.sphere));
+  }
   if (domain.has_edges()) out.entry("edges", written_edges(domain));
   if (domain.coast != AtCoast::refuse)
     out.entry("coast",

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "base/number.hpp"
+#include "field/gridded/around_sphere.hpp"
 #include "field/gridded/grid_data.hpp"
 #include "input/data_files.hpp"
 #include "input/tables/tables.hpp"
@@ -242,9 +244,12 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
                     .frame = frame,
                     .clock = clock,
                     .level = spec.level,
+                    .on_sphere = in.facts.on_sphere,
                     .gaps = choice_of<read::Gaps>(read::gaps_names, spec.gaps),
                     .duplicates = choice_of<read::Duplicates>(read::duplicates_names, spec.duplicates),
                     .times_at_once = times_of(choice_of<Interpolation>(interpolation_names, spec.time_interpolation))});
+    if (in.facts.on_sphere && in.facts.domain_valid)
+      spec.data = around_sphere(spec.data, (in.facts.box.min[0] + in.facts.box.max[0]) / 2);
     for (const DataWarning& warning : spec.data->warnings)
       in.diagnostics.warning(value.place, warning.message, warning.remedy);
     in.facts.grid_files.push_back({value.place, spec.data});
@@ -255,6 +260,8 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
   } catch (const read::GridFileError& error) {
     const std::string was = where_data_file_was(in.folder, value.text);
     in.diagnostics.error(value.place, error.what(), was.empty() ? error.remedy() : was);
+  } catch (const std::invalid_argument& error) {
+    in.diagnostics.error(value.place, error.what(), "without domain.coordinates all coordinates are lengths");
   }
   return spec;
 }

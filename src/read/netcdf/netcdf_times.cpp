@@ -110,6 +110,12 @@ std::optional<GridDates> NetcdfTimes::dates() const {
       }};
 }
 
+namespace {
+
+const std::string degree_unit = "degree";  // of length_unit()
+
+}  // namespace
+
 double NetcdfTimes::velocity_factor(const NetcdfLayout& layout, std::vector<DataWarning>& warnings) const {
   if (request_.most_components == 1) return 1;
   const bool converts = request_.clock && !request_.clock->unit.empty();
@@ -131,8 +137,12 @@ double NetcdfTimes::velocity_factor(const NetcdfLayout& layout, std::vector<Data
                           "they are taken as written, as lengths per unit of time of the scene"});
     return 1;
   }
+  if (request_.on_sphere && units->length != "m")
+    warnings.push_back({fmt::format("{} has velocities in \"{}\"", series_, layout.units[0]),
+                        "they are taken as written, in the unit of domain.radius, which is a metre by default"});
+  const std::string& wanted = request_.on_sphere ? degree_unit : units->length;
   for (const NetcdfAxis& axis : layout.axes)
-    if (const std::string length = length_unit(axis.units); !length.empty() && length != units->length) {
+    if (const std::string length = length_unit(axis.units); !length.empty() && length != wanted) {
       warnings.push_back(
           {fmt::format("{} has velocities in \"{}\", and {} in \"{}\"", series_, layout.units[0], axis.name,
                        axis.units),

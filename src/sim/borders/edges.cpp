@@ -106,8 +106,23 @@ Folding folding_of(const Domain& domain) {
                .mirror_high = domain.edges[k][1] == Edge::closed,
                .low = domain.min[k],
                .high = domain.max[k]};
+  // Around the sphere a place is met again, whatever part of it the domain is.
+  if (domain.on_sphere()) {
+    const double beside = (360 - (domain.max[0] - domain.min[0])) / 2;
+    axes[0] = {.periodic = true, .low = domain.min[0] - beside, .high = domain.max[0] + beside};
+  }
   return Folding(axes);
 }
+
+namespace {
+
+/// Along this axis particles and images of them are one lattice.
+bool lattice_folds(const Domain& domain, const FoldedAxis& axis, int k) {
+  return axis.folds() && domain.edges[static_cast<std::size_t>(k)] != std::array<Edge, 2>{} &&
+         domain.edges[static_cast<std::size_t>(k)] != std::array{Edge::open, Edge::open};
+}
+
+}  // namespace
 
 double rounding_of(const Domain& domain) { return 1e-9 * longest_side(domain.dimension, domain.min, domain.max); }
 
@@ -116,12 +131,13 @@ Lattice seeding_lattice(const Domain& domain, int per_axis) {
   const Folding folding = folding_of(domain);
   for (int k = 0; k < domain.dimension; ++k) {
     const FoldedAxis& axis = folding.axis(k);
-    if (!axis.folds()) continue;
+    if (!lattice_folds(domain, axis, k)) continue;
     const auto a = static_cast<std::size_t>(k);
     const double cells = std::max(1.0, std::round((axis.high - axis.low) / lattice.spacing));
     lattice.points[a] = static_cast<std::size_t>(cells);
     lattice.origin[a] = axis.low + (axis.periodic ? 0 : lattice.spacing / 2);
   }
+  lattice.sphere = domain.sphere;
   return lattice;
 }
 
@@ -131,7 +147,8 @@ std::optional<int> axis_without_whole_cells(const Domain& domain, int per_axis) 
   for (int k = 0; k < domain.dimension; ++k) {
     const FoldedAxis& axis = folding.axis(k);
     const double cells = (axis.high - axis.low) / lattice.spacing;
-    if (axis.folds() && (std::round(cells) < 1 || std::abs(cells - std::round(cells)) > 1e-9 * cells)) return k;
+    if (lattice_folds(domain, axis, k) && (std::round(cells) < 1 || std::abs(cells - std::round(cells)) > 1e-9 * cells))
+      return k;
   }
   return std::nullopt;
 }
@@ -146,7 +163,7 @@ std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const D
     const auto a = static_cast<std::size_t>(k);
     Misfit jump, through;
     double largest = 0;
-    for (int i = 0; axis.folds() && i < (velocity.is_steady() ? 1 : times); ++i) {
+    for (int i = 0; lattice_folds(domain, axis, k) && i < (velocity.is_steady() ? 1 : times); ++i) {
       const double t = time.at(time.end * i / (times - 1));
       const std::vector<Vector> low = points_of_face(domain, k, axis.low), high = points_of_face(domain, k, axis.high);
       const auto below = velocities(velocity, t, low, domain.dimension),
@@ -181,7 +198,7 @@ std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const D
 const Particles& summed_particles(const Domain& domain, const Particles& particles, double reach, Particles& images) {
   constexpr std::int64_t ids = std::int64_t{1} << 40;  // more than lattices and sources have
   const Folding folding = folding_of(domain);
-  if (!folding.folds()) return particles;
+  if (!folding.folds() || domain.on_sphere()) return particles;  // chords know no edges
   images = with_images(particles, folding, reach, ids);
   return images;
 }

@@ -69,11 +69,11 @@ std::vector<std::size_t> fill(std::map<Cell, Group>& groups, const Particles& pa
   return felt;
 }
 
-template <int d>
+template <int d, int e>
 void sum_group(const Particles& felt, const Group& group, const Cutoff& cutoff, const DensityOptions& options,
                const std::vector<double>& points, std::vector<std::vector<double>>& values) {
   if (group.particles.empty()) return;
-  const BlobSum<d> sum(subset(felt, group.particles), cutoff, options);
+  const BlobSum<d, e> sum(subset(felt, group.particles), cutoff, options);
   fgtd::Points<d> targets(d, static_cast<Eigen::Index>(group.points.size()));
   for (std::size_t i = 0; i < group.points.size(); ++i)
     for (std::size_t k = 0; k < d; ++k)
@@ -102,10 +102,8 @@ std::vector<std::vector<double>> sums_of(const Particles& felt, std::map<Cell, G
   of_group.threads = 1;
   constexpr double seconds_of_a_pair = 1e-8;
   base::parallel_for({list.size(), pairs * seconds_of_a_pair}, options.threads, [&](std::size_t number) {
-    if (felt.dimension == 2)
-      sum_group<2>(felt, *list[number], cutoff, of_group, wanted, values);
-    else
-      sum_group<3>(felt, *list[number], cutoff, of_group, wanted, values);
+    in_dimensions(felt.dimension, cutoff,
+                  [&](auto d, auto e) { sum_group<d, e>(felt, *list[number], cutoff, of_group, wanted, values); });
   });
   return values;
 }
