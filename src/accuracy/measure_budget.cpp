@@ -75,7 +75,7 @@ std::optional<ProbePlan> choose_probe_plan(const Case& spec, const Scene& scene,
     for (std::size_t i = 0; i < plans.size(); ++i) {
       ProbePlan& plan = plans[i];
       for (plan.probes = places; plan.probes.size() >= least; plan.probes.pop_back()) {
-        plan.around = near(plan.probes, particles, reach_of(scene.cutoff, plan.widths));
+        plan.around = near(plan.probes, particles, reach_of(scene.cutoff, plan.widths), scene.seeding.sphere);
         if (static_cast<double>(plan.around.size()) * (work[i][0] + work[i][1]) <= allowed) return plan;
       }
     }

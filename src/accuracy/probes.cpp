@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/sphere.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift::accuracy {
@@ -85,12 +86,14 @@ double reach_of(const Cutoff& cutoff, double widths) {
   return widths * widest;
 }
 
-std::vector<std::size_t> near(const std::vector<Probe>& probes, const Particles& particles, double reach) {
+std::vector<std::size_t> near(const std::vector<Probe>& probes, const Particles& particles, double reach,
+                              double sphere) {
   std::vector<std::size_t> found;
   for (std::size_t j = 0; j < particles.size(); ++j) {
     Vector x{};
     for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
     if (std::any_of(probes.begin(), probes.end(), [&](const Probe& probe) {
+          if (sphere > 0) return sphere * angle_between(x, probe.x) <= reach;
           return distance_squared(x, probe.x, particles.dimension) <= reach * reach;
         }))
       found.push_back(j);

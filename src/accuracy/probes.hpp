@@ -35,7 +35,9 @@ std::vector<double> sums_at(const std::vector<Probe>& probes, const Particles& p
 double reach_of(const Cutoff& cutoff, double widths);
 
 /// The particles within reach of a probe, as numbers.
-std::vector<std::size_t> near(const std::vector<Probe>& probes, const Particles& particles, double reach);
+/// sphere: its radius, where places lie on one.
+std::vector<std::size_t> near(const std::vector<Probe>& probes, const Particles& particles, double reach,
+                              double sphere = 0);
 
 /// NaN if some difference is NaN.
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b);

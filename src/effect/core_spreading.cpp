@@ -75,9 +75,11 @@ std::string CoreSpreading::warning() const {
         strain_, strain_ * length, length, restorers_table());
   return fmt::format(
       "this flow strains at the rate {:.3g} and stretches lengths by up to exp({:.3g}) over the run. Core spreading "
-      "keeps blobs round, so the flow does not stretch what has diffused. {} with small intervals cures "
-      "that, or method = \"particle-exchange\" (docs/method.md, section 8.2).",
-      strain_, strain_ * end_, restorers_table());
+      "keeps blobs round, so the flow does not stretch what has diffused{} (docs/method.md, section 8.2).",
+      strain_, strain_ * end_,
+      &velocity_.in_lengths() != &velocity_  // on a sphere, where it is the only method
+          ? ""
+          : fmt::format(". {} with small intervals cures that, or method = \"particle-exchange\"", restorers_table()));
 }
 
 Numbers CoreSpreading::numbers() const {

@@ -269,9 +269,10 @@ const std::vector<Wrong> wrongs = {
      "unknown value \"rotatoin\" for velocity.field; did you mean \"rotation\"?",
      "known values: \"rotation\", \"translation\", \"shear\", \"strain\", \"swirl\", \"double_gyre\", "
      "\"taylor_green\", "
-     "\"doswell\", \"lamb_oseen\", \"deformation\", \"abc\", \"burgers\""},
+     "\"doswell\", \"lamb_oseen\", \"deformation\", \"abc\", \"burgers\", \"sphere_rotation\""},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\nrate = 2", 17, "rate",
-     "\"rate\" goes with field = \"rotation\" or \"shear\", not with \"u\"", "known keys with \"u\": u"},
+     "\"rate\" goes with field = \"rotation\" or \"shear\" or \"sphere_rotation\", not with \"u\"",
+     "known keys with \"u\": u"},
     {"u = [\"-y\", \"x\"]", "field = \"rotation\"\ncenter = [0, 0, 0]", 17, "[0, 0, 0]",
      "velocity.center needs 2 numbers, one for each axis of the domain, found 3"},
     {"u = [\"-y\", \"x\"]", "u = [\"-y\", \"x\"]\npotential = \"x\"", 17, "potential",
@@ -281,7 +282,7 @@ const std::vector<Wrong> wrongs = {
     {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nperiod = 0", 17, "0", "velocity.period must be greater than 0, found 0",
      "period: the flow reverses at T/2 and has undone itself at T; without it the flow is steady"},
     {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nrate = 1", 17, "rate",
-     "\"rate\" goes with field = \"rotation\" or \"shear\", not with field = \"swirl\"",
+     "\"rate\" goes with field = \"rotation\" or \"shear\" or \"sphere_rotation\", not with field = \"swirl\"",
      "known keys with field = \"swirl\": field, min, max, period"},
     {"u = [\"-y\", \"x\"]", "field = \"swirl\"\nperiode = 1", 17, "periode",
      "unknown key \"periode\" in [velocity]; did you mean \"period\"?", "known keys: field, min, max, period"},
