@@ -40,6 +40,22 @@ function(gaussdrift_module name)
   endif()
 endfunction()
 
+# embedded_files(source FOLDER folder PATTERN *.csv HEADER input/examples.hpp MODULE input TYPE File FUNCTION files): the files of a folder of the tree become
+# part of a module. Sets `source` to the source that has them, which cmake/EmbedFiles.cmake writes.
+function(embedded_files source)
+  cmake_parse_arguments(EMBED "" "FOLDER;PATTERN;HEADER;MODULE;TYPE;FUNCTION" "" ${ARGN})
+  file(GLOB names RELATIVE ${EMBED_FOLDER} CONFIGURE_DEPENDS ${EMBED_FOLDER}/${EMBED_PATTERN})
+  list(SORT names)
+  list(TRANSFORM names PREPEND ${EMBED_FOLDER}/ OUTPUT_VARIABLE paths)
+  list(JOIN names "|" joined)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${EMBED_FUNCTION}.cpp)
+  add_custom_command(OUTPUT ${out}
+    COMMAND ${CMAKE_COMMAND} -D FOLDER=${EMBED_FOLDER} "-DFILES=${joined}" -D OUT=${out} -D HEADER=${EMBED_HEADER} -D MODULE=${EMBED_MODULE}
+      -D TYPE=${EMBED_TYPE} -D FUNCTION=${EMBED_FUNCTION} -P ${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake
+    DEPENDS ${paths} ${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake VERBATIM)
+  set(${source} ${out} PARENT_SCOPE)
+endfunction()
+
 # Programs look for such libraries beside themselves (in the folder of the build) and where they are installed. The longer of the two
 # paths is that of the build: CMake would fill it up with empty ones, and they mean the folder that somebody is in.
 include(GNUInstallDirs)

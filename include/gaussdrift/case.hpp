@@ -320,6 +320,12 @@ struct TracksSpec {
   std::vector<TrackFile> files{};                       ///< beside the table
 };
 
+/// Frames of the run on its page, which the page plays.
+struct PageSpec {
+  bool plays = true;     ///< else the page has pictures alone
+  double megabytes = 5;  ///< most of report.html; 10^6 bytes each
+};
+
 /// `[output]`: when to write, and what.
 struct OutputSpec {
   std::vector<double> times;         ///< elapsed, ascending, 0 <= t <= end
@@ -327,6 +333,7 @@ struct OutputSpec {
   std::vector<PictureStyle> images;  ///< pictures of every output
   std::vector<GridField> fields;     ///< in the files, beside the density
   bool report = true;                ///< report.html, report.json, summary.png
+  PageSpec page{};                   ///< what moves on that page
   double piece_particles = 4194304;  ///< most particles of a file: more are written in pieces
   /// Seconds between two checkpoints; 0: none; empty: about a minute in runs of more than five.
   std::optional<double> checkpoint{};
@@ -456,6 +463,7 @@ struct Case {
   std::string source;                  ///< text of that file
   std::string title;                   ///< one line for pictures and reports
   std::string cite;                    ///< where the case comes from
+  std::string label = "density";       ///< what pictures and pages call the density
   Params params;                       ///< `[params]`
   Domain domain;                       ///< `[domain]`
   std::vector<VelocitySpec> velocity;  ///< the fields add up

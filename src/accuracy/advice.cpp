@@ -130,7 +130,7 @@ std::vector<std::string> higher_cutoffs(const Case& spec) {
 }
 
 void give_advice(const Case& spec, const Scene& scene, const Better& better, int threads, Budget& budget) {
-  advise_steps(spec, scene, threads, budget);
+  // What makes the result better comes before what makes it cheaper.
   if (budget.dominates == "smoothing") advise_smoothing(spec, better, threads, budget);
   if (budget.dominates == "quadrature") advise_quadrature(spec, threads, budget);
   if (budget.dominates == "Gauss transform") advise_transform(spec, threads, budget);
@@ -139,6 +139,7 @@ void give_advice(const Case& spec, const Scene& scene, const Better& better, int
   if (budget.dominates == "particles left out" &&
       runs(spec, threads, [](Case& changed) { changed.particles.threshold = 0; }))
     budget.advice.push_back("particles.threshold = 0 leaves nothing out");
+  advise_steps(spec, scene, threads, budget);
 }
 
 }  // namespace gaussdrift::accuracy

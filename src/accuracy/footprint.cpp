@@ -158,6 +158,15 @@ double densities_for_pictures(const Case& spec, const Extent& extent) {
          (extent.compared_everywhere ? 2 : 1);
 }
 
+/// Bytes of the frames that the page of a run plays: a density and its error take some 0.3 bytes a point each, if they are
+/// smooth, and so do some of the particles.
+double frames_of_page(const Case& spec, double grid_points) {
+  if (!spec.output.report || !spec.output.page.plays) return 0;
+  const double frames = static_cast<double>(spec.output.times.size());
+  const double points = std::min(grid_points, spec.domain.dimension == 3 ? 64. * 64 * 64 : 512. * 512);
+  return std::min(frames * (0.6 * points + 8e3), 0.75e6 * spec.output.page.megabytes);
+}
+
 }  // namespace
 
 double most_disk_of_run(const Case& spec, const Extent& all, double seconds) {
@@ -171,6 +180,7 @@ double disk_of_run(const Case& spec, const Extent& all, double seconds) {
   double bytes = 1e4 + 250 * frames;
   for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
   for (const OutputFile& file : spec.output.files) bytes += frames * write::find_output_file(file.name).bytes(extent);
+  bytes += (1 + 4. / 3) * frames_of_page(spec, extent.grid_points);               // beside the page, and in it as text
   if (spec.output.report) bytes += 5e4 + (spec.output.images.empty() ? 0 : 5e5);  // the page and its picture
   if (keeps_checkpoints(spec, seconds))
     bytes +=
@@ -200,6 +210,8 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
            : RunMemory{};
   if (pictures)
     stays.pictures = std::min(frames * kept_for_pictures(spec, m), static_cast<double>(render::most_kept_bytes));
+
+  stays.pictures += frames_of_page(spec, m);
 
   // Lines of the lattice are seeded one by one and joined.
   const double lines = extent.lattice_points / std::max(1.0, std::pow(extent.lattice_points, 1 / d));

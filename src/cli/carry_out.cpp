@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "accuracy/footprint.hpp"
 #include "accuracy/ranks_memory.hpp"
 #include "base/counted.hpp"
+#include "base/has_one.hpp"
 #include "base/parallel.hpp"
 #include "base/printable.hpp"
 #include "base/process_stopwatch.hpp"
@@ -36,6 +38,7 @@
 #include "input/data_files.hpp"
 #include "input/same_past.hpp"
 #include "render/styles.hpp"
+#include "report/reel_series.hpp"
 #include "sim/scene.hpp"
 #include "write/atomic_file.hpp"
 #include "write/provenance.hpp"
@@ -178,6 +181,7 @@ class Run {
     const bool told = owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); });
     // The log before the page: `resume` makes the page of a run that was killed here, and cannot make the log.
     const std::string before_page = write_log("");
+    write_reel();
     const std::string without =
         told && spec_.output.report ? write_page(folder_, spec_, owed_, pictures_come_later()) : "";
     if (log_text(without) != before_page) write_log(without);
@@ -214,6 +218,7 @@ class Run {
     prepare_folder(simulation);
     note("{}", task_.told);
     add_observers(simulation, spec_, folder_, of_observers_);
+    observe_for_page(simulation);
     const auto& times = spec_.output.times;
     if (looks_back(spec_) && !times.empty()) {
       // One rank of several is not to need memory for all particles, however many there are.
@@ -224,6 +229,19 @@ class Run {
     }
     simulation.observe(own_folder_->watch());
     if (!input::data_files(spec_).empty()) past();  // a signal is not to wait for its hash
+  }
+
+  /// What the page plays. Particles are not brought together for it alone.
+  void observe_for_page(Simulation& simulation) {
+    if (!spec_.output.report || !spec_.output.page.plays) return;
+    reel_ = std::make_shared<report::Reel>(report::most_reel_bytes(spec_.output.page));
+    const bool has_particles = ranks_.size() == 1 || base::has_one(spec_.output.files, &OutputFile::needs_velocity);
+    simulation.observe(report::reel_series(reel_, spec_, has_particles));
+  }
+
+  void write_reel() {
+    if (reel_ && !reel_->frames().empty())
+      owed_.attempt([&] { write::write_text(folder_ / report::reel_file, reel_->text()); });
   }
 
   void keep_checkpoints() {
@@ -420,6 +438,7 @@ class Run {
   std::size_t outputs_in_summary_ = 0;  // as it was written last
   std::optional<CheckpointKeeper> keeper_;
   LastOutput last_;
+  std::shared_ptr<report::Reel> reel_;  // null: the page does not play
   RunSummary summary_;
   std::optional<accuracy::Budget> budget_;
   bool looked_back_ = true;                                  // or did not want to

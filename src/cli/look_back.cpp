@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "accuracy/accuracy_table.hpp"
+#include "accuracy/next_target.hpp"
 #include "base/json_file.hpp"
 #include "base/state_bytes.hpp"
 #include "base/stopwatch.hpp"
@@ -119,6 +120,16 @@ LookBack look_back(const Case& spec, double run_seconds, const accuracy::LastFra
                            {"predicted", accuracy::to_json(*predicted)},
                            {"measured", accuracy::to_json(*seen.measured)},
                            {"advice", seen.measured->advice}};
+  if (spec.output.report && last.numbers.error && seen.more.contains("budget"))
+    stage("next accuracy", [&] {
+      double seconds = stages.of("transport") + stages.of("density");
+      for (const EffectSpec& effect : spec.effects.list) seconds += stages.of("effect " + effect.name);
+      if (seconds == 0) return;  // an earlier process has taken them
+      const auto next = accuracy::next_target(spec, last.numbers.error->linf, last.particles.size(), seconds, threads);
+      if (!next) return;
+      seen.more["budget"]["more_accurate"] = {
+          {"target", next->target}, {"settings", next->settings}, {"seconds_more", next->seconds_more}};
+    });
   if (spec.output.report)
     stage("accuracy table",
           [&] { seen.more.update(accuracy::accuracy_table(spec, run_seconds + all.seconds(), last, threads)); });

@@ -20,9 +20,11 @@ std::string write_page(const fs::path& folder, const Case& spec, OwedFiles& owed
     without += fmt::format("page   without pictures for now: gaussdrift report {} draws them\n",
                            base::shell_word(folder.string()));
   try {
-    const report::ReportFiles page = report::write_report(folder, later      ? report::Pictures::later
-                                                                  : pictures ? report::Pictures::drawn
-                                                                             : report::Pictures::not_wanted);
+    const report::ReportFiles page = report::write_report(folder,
+                                                          later      ? report::Pictures::later
+                                                          : pictures ? report::Pictures::drawn
+                                                                     : report::Pictures::not_wanted,
+                                                          spec.output.page);
     for (const std::string& what : page.left_out) without += fmt::format("page   without {}\n", what);
     const bool there =
         std::find(page.written.begin(), page.written.end(), folder / "report.html") != page.written.end();

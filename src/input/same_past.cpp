@@ -14,6 +14,7 @@ namespace {
 Case without_future(Case spec) {
   spec.title.clear();
   spec.cite.clear();
+  spec.label = Case{}.label;
   // What particles remember, and where tracks began, are of the past.
   OutputSpec past;
   past.tracks = spec.output.tracks;

@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <fstream>
 #include <utility>
 
 #include "base/json_file.hpp"
 #include "base/shell_word.hpp"
 #include "gaussdrift/error.hpp"
 #include "report/html.hpp"
-#include "report/page_style.hpp"
+#include "report/player.hpp"
+#include "report/run_files.hpp"
 #include "report/sections.hpp"
 #include "report/summary_picture.hpp"
 #include "write/atomic_file.hpp"
@@ -21,19 +20,6 @@ namespace gaussdrift::report {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Of a run's folder, which may come from anybody: a link could bring any file of the reader onto the page, and a pipe
-/// or a device has no end.
-std::string read_text(const fs::path& file) {
-  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 28;
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(file, error))) return "";
-  const std::uintmax_t size = fs::file_size(file, error);
-  if (error || size > most_bytes) return "";
-  std::string text(size, '\0');
-  if (!std::ifstream(file, std::ios::binary).read(text.data(), static_cast<std::streamsize>(size))) return "";
-  return text;
-}
 
 /// A file that cannot be written is named at the end.
 void write_file(const fs::path& file, const std::string& text, ReportFiles& result) {
@@ -57,7 +43,7 @@ class Page {
     }
   }
 
-  ReportFiles write(Pictures pictures) {
+  ReportFiles write(Pictures pictures, const PageSpec& wish) {
     std::error_code ignored;
     fs::remove(folder_ / summary_picture, ignored);  // an older one must not pass for this
     if (pictures == Pictures::drawn)
@@ -70,6 +56,7 @@ class Page {
                                : "pictures: the case wants none (output.images); gaussdrift report draws them all the "
                                  "same");
     add_head();
+    if (const auto reel = reel_of_run(folder_, wish, by_choice_)) text_ += player_section(*reel, summary_);
     add_picture();
     add_errors();
     text_ += particles(summary_);
@@ -77,6 +64,7 @@ class Page {
     if (const json frames = summary_.at("frames"); !frames.empty())
       text_ += "<h2>Conservation</h2><div class=scroll>" + conservation(frames) + "</div>\n";
     if (const json checks = get(summary_, "checks"); !checks.empty()) text_ += checks_table(checks);
+    text_ += linked_files(folder_);
     const std::vector<std::string> absent = what_is_absent();
     add_absent(absent);
     add_origin();
@@ -100,9 +88,12 @@ class Page {
     text_ = fmt::format(
         "<!doctype html>\n<html lang=en><meta charset=utf-8><meta name=viewport "
         "content=\"width=device-width,initial-scale=1\">"
+        // Nothing on the page can ask anybody for anything.
+        "<meta http-equiv=Content-Security-Policy content=\"default-src 'none';img-src data:;style-src "
+        "'unsafe-inline';script-src 'unsafe-inline'\">"
         "<title>{0}</title><style>{1}</style>\n<h1>{0}</h1><p class=quiet>{2}, by gaussdrift {3}</p>\n<p "
-        "class=verdict>{4}</p>\n",
-        escaped(title.empty() ? name : title), page_style, escaped(name),
+        "class=verdict id=verdict>{4}</p>\n",
+        escaped(title.empty() ? name : title), page_file("page.css"), escaped(name),
         escaped(get(provenance_, "version").is_string() ? provenance_.at("version").get<std::string>() : ""),
         verdict(summary_));
     if (const json complete = get(summary_, "complete"); complete.is_boolean() && !complete.get<bool>())
@@ -116,7 +107,7 @@ class Page {
   void add_picture() {
     const fs::path file = folder_ / summary_picture;
     if (std::find(result_.written.begin(), result_.written.end(), file) == result_.written.end()) return;
-    const std::string picture = read_text(file);
+    const std::string picture = read_file_of_run(file);
     if (picture.empty()) return;
     text_ += fmt::format(
         "<p><img alt=\"the densities of the first and the last output, the exact one and the error where they are "
@@ -162,7 +153,7 @@ class Page {
 
   /// The case, and how the run was made.
   void add_origin() {
-    if (const std::string resolved = read_text(folder_ / "run.toml"); !resolved.empty())
+    if (const std::string resolved = read_file_of_run(folder_ / "run.toml"); !resolved.empty())
       text_ += "<h2>The case, with all defaults</h2><pre>" + escaped(resolved) + "</pre>\n";
     if (provenance_.is_object()) text_ += how_to_make_again(provenance_);
     text_ += "</html>\n";
@@ -178,7 +169,7 @@ class Page {
 
 }  // namespace
 
-ReportFiles write_report(const fs::path& folder, Pictures pictures) {
+ReportFiles write_report(const fs::path& folder, Pictures pictures, const PageSpec& wish) {
   constexpr const char* remedy = "run the case again";
   const fs::path file = folder / "summary.json";
   const auto summary = base::json_if_there(file, base::most_json_of_numbers, remedy);
@@ -191,7 +182,7 @@ ReportFiles write_report(const fs::path& folder, Pictures pictures) {
     if (!summary->contains(name))
       throw FileError(fmt::format("{} is damaged: it does not tell {}; {}", file.string(), name, remedy));
   try {
-    return Page(folder, *summary).write(pictures);
+    return Page(folder, *summary).write(pictures, wish);
   } catch (const json::exception&) {
     throw FileError(
         fmt::format("{} is damaged: a member of it has another type than it should; {}", file.string(), remedy));

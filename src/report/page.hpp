@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "gaussdrift/case.hpp"
+
 namespace gaussdrift::report {
 
 struct ReportFiles {
@@ -17,8 +19,8 @@ struct ReportFiles {
 /// The panel of initial, final, exact and error densities. `later`: there is no time to draw it now.
 enum class Pictures { drawn, not_wanted, later };
 
-/// From summary.json, provenance.json, run.toml, density/ and images/ of a run's folder. If one file cannot be written,
-/// the others still are. Throws FileError where the folder holds no run.
-ReportFiles write_report(const std::filesystem::path& folder, Pictures pictures);
+/// From summary.json, provenance.json, run.toml, report.frames, density/ and images/ of a run's folder. If one file cannot
+/// be written, the others still are. Throws FileError where the folder holds no run.
+ReportFiles write_report(const std::filesystem::path& folder, Pictures pictures, const PageSpec& wish = {});
 
 }  // namespace gaussdrift::report

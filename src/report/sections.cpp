@@ -12,49 +12,10 @@
 
 namespace gaussdrift::report {
 
-/// "72 (2020-01-06 00:00)"
-std::string time_of(const json& frame, const char* format = "{:.4g}") {
+std::string time_of(const json& frame, const char* format) {
   const std::string time = number(frame.at("t"), format);
   const json date = get(frame, "date");
   return date.is_string() ? fmt::format("{} ({})", time, escaped(date.get<std::string>())) : time;
-}
-
-std::string verdict(const json& summary) {
-  const json frames = get(summary, "frames"), checks = get(summary, "checks"), target = get(summary, "accuracy"),
-             budget = get(get(summary, "budget"), "measured"), advice = get(get(summary, "budget"), "advice");
-  const json last = frames.empty() ? json() : frames.back();
-  std::string text;
-  if (!last.contains("Linf"))
-    text += "The density was compared with nothing, so its error is not known.";
-  else if (!last.at("Linf").is_number())
-    text += fmt::format("At t = {} {}.", time_of(last),
-                        get(last, "no_norms").is_string() ? escaped(last.at("no_norms").get<std::string>())
-                                                          : "the error is not a number");
-  else
-    text += fmt::format("At t = {} the largest error is <b>{}</b> of the largest density (L1 {}, L2 {}).",
-                        time_of(last), number(last.at("Linf"), "{:.2e}"), number(last.at("L1"), "{:.2e}"),
-                        number(last.at("L2"), "{:.2e}"));
-  if (const json worst = get(summary, "worst"); worst.is_object() && worst.at("t") != get(last, "t"))
-    text += fmt::format(" The output with the largest L1 is that at t = {}: L1 {}, L2 {}, Linf {}.",
-                        number(worst.at("t"), "{:.4g}"), number(worst.at("L1"), "{:.2e}"),
-                        number(worst.at("L2"), "{:.2e}"), number(worst.at("Linf"), "{:.2e}"));
-  if (target.is_object())
-    text += fmt::format(" Target {}: {}.", number(target.at("target"), "{:g}"),
-                        !target.at("achieved").is_number() ? "not known whether it is met"
-                        : target.at("met") == json(true)   ? "<b>met</b>"
-                                                           : "<b class=bad>missed</b>");
-  if (budget.contains("dominates"))
-    text += fmt::format(" Most of it is {}.", escaped(budget.at("dominates").get<std::string>()));
-  std::size_t failed = 0;
-  for (const json& check : checks) failed += !check.at("passed").get<bool>();
-  if (!checks.empty())
-    text += failed && checks.size() == 1 ? " <b class=bad>The check failed.</b>"
-            : failed ? fmt::format(" <b class=bad>{} of {} checks failed.</b>", failed, checks.size())
-                     : fmt::format(" {} passed.", checks.size() == 1 ? "The check" : "All checks");
-  for (std::size_t i = 0; i < advice.size(); ++i)
-    text += (i == 0 ? "<br>Advice: " : "; ") + escaped(advice[i].get<std::string>());
-  if (!advice.empty()) text += ".";
-  return text;
 }
 
 std::string about_comparison(const json& summary, const json& last) {

@@ -1,13 +1,21 @@
 // The sections of the page about a run, each from the summary of the run, summary.json.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "report/html.hpp"
 
 namespace gaussdrift::report {
 
-/// The error at the end and at its worst, the target, the checks, in a few sentences.
+/// "72 (2020-01-06 00:00)"
+std::string time_of(const json& frame, const char* format = "{:.4g}");
+
+/// What the case calls the density. It is a stranger's word.
+std::string label_of(const json& summary);
+
+/// How right the run is and what would help, in one sentence; then the error at the end and at its worst, the target, the
+/// checks, the advice.
 std::string verdict(const json& summary);
 
 /// How the errors were measured, as far as a reader would otherwise guess wrongly.
@@ -34,5 +42,8 @@ std::string conservation(const json& frames);
 std::string checks_table(const json& checks);
 
 std::string how_to_make_again(const json& provenance);
+
+/// Links to the files that the run has left in its folder. Empty where there are none.
+std::string linked_files(const std::filesystem::path& folder);
 
 }  // namespace gaussdrift::report

@@ -41,8 +41,8 @@ struct Pieces {
 /// The files that a run writes: series of these kinds, `most` files each.
 OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<std::string>& picture_styles,
                       std::size_t most, const Pieces& pieces) {
-  OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.html", "report.json", "run.toml", series_name,
-                  "summary.json", "summary.png", "view.py"});
+  OwnFiles files({"case.toml", "log.txt", "provenance.json", "report.frames", "report.html", "report.json", "run.toml",
+                  series_name, "summary.json", "summary.png", "view.py"});
   for (const std::string& name : names_in_state(most)) files.add(name);
   for (const std::string& name : kinds) {
     files.add(name + ".pvd");

@@ -127,6 +127,7 @@ std::string summary_json(const Case& spec, const RunSummary& summary, const json
   json document{
       {"case", spec.name},
       {"title", spec.title},
+      {"label", spec.label},
       {"complete", summary.complete},
       {"effects", effects_of(summary)},
       {"particles", particles_of(spec, summary)},

@@ -17,7 +17,10 @@ Key version_key() {
 Section case_section() {
   return {Table{.name = "case", .required = false, .meaning = "the title of the case and where it comes from"},
           {{.name = "title", .meaning = "one line of text for pictures and reports"},
-           {.name = "cite", .meaning = "where the case comes from, for example a paper"}}};
+           {.name = "cite", .meaning = "where the case comes from, for example a paper"},
+           {.name = "label",
+            .fallback = "density",
+            .meaning = "what pictures and pages call the density, such as \"vorticity\""}}};
 }
 
 namespace {
@@ -34,6 +37,7 @@ std::string one_line(std::string text) {
 void read_heading(Reader& in, Case& spec) {
   spec.title = one_line(in.text("case", "title"));
   spec.cite = one_line(in.text("case", "cite"));
+  if (const std::string label = one_line(in.text("case", "label")); !label.empty()) spec.label = label;
 }
 
 void write_heading(Writer& out, const Case& spec) {
@@ -41,6 +45,7 @@ void write_heading(Writer& out, const Case& spec) {
   out.table("case");
   out.entry("title", written(spec.title));
   out.entry("cite", written(spec.cite));
+  if (spec.label != Case{}.label) out.entry("label", written(spec.label));
 }
 
 }  // namespace gaussdrift::input

@@ -90,9 +90,19 @@ Section output_section() {
        {.name = "report",
         .type = Type::choice,
         .fallback = "html",
-        .choices = {"html", "none"},
-        .meaning = "the page about the run. `html` writes report.html and its numbers, report.json. With pictures and "
-                   "density files it also writes summary.png"},
+        .choices = {"html", "still", "none"},
+        .meaning =
+            "the page about the run. `html` writes report.html and its numbers, report.json. The page plays the "
+            "outputs, from numbers that it keeps itself, report.frames. With pictures there is summary.png, too. "
+            "`still` leaves out what plays"},
+       {.name = "page_megabytes",
+        .type = Type::number,
+        .fallback = "5",
+        .range = {1, 1000},
+        .unit = "MB",
+        .meaning =
+            "most of report.html. Where the outputs would take more, the page plays every second, fourth, ... of "
+            "them, and then on a coarser grid"},
        {.name = "piece_particles",
         .type = Type::whole,
         .fallback = "4194304",
@@ -246,7 +256,10 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   for (const std::size_t k : in.choices("output", "vtk")) output.files.push_back(write::output_files()[k].about);
   for (const std::size_t k : in.choices("output", "images")) output.images.push_back(render::styles()[k].about);
   for (const std::size_t k : in.choices("output", "fields")) output.fields.push_back(grid_fields()[k].about);
-  output.report = in.choice("output", "report") == "html";
+  const std::string report = in.choice("output", "report");
+  output.report = report != "none";
+  output.page.plays = report == "html";
+  if (const auto most = in.number("output", "page_megabytes")) output.page.megabytes = most->number;
   output.checkpoint = in.duration("output", "checkpoint");
   if (const auto most = in.number("output", "piece_particles")) output.piece_particles = most->number;
   if (in.facts.dimension) check_images(in, output.images);
@@ -268,7 +281,8 @@ void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time) {
   out.entry("images", names(output.images));
   if (output.fields.size() != 1 || output.fields.front().name != grid_fields().front().about.name)
     out.entry("fields", names(output.fields));
-  out.entry("report", written(std::string(output.report ? "html" : "none")));
+  out.entry("report", written(std::string(!output.report ? "none" : output.page.plays ? "html" : "still")));
+  if (output.page.megabytes != PageSpec{}.megabytes) out.entry("page_megabytes", written(output.page.megabytes));
   if (output.checkpoint) out.entry("checkpoint", written(*output.checkpoint));
   if (output.piece_particles != OutputSpec{}.piece_particles)
     out.entry("piece_particles", fmt::format("{:.0f}", output.piece_particles));
