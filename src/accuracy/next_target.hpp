@@ -17,7 +17,8 @@ struct NextTarget {
 };
 
 /// `error`: of the run, relative to the largest density. `seconds`: what its steps and sums took with so many particles.
-/// Nothing where no settings are found with a fiftieth of the work of the run.
+/// Nothing where the error is above a tenth, or where no settings are found with a tenth of the work of the run or a
+/// second of it.
 std::optional<NextTarget> next_target(const Case& spec, double error, std::size_t particles, double seconds,
                                       int threads);
 
