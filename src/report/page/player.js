@@ -100,7 +100,7 @@ class Player {
       this.lookAgain();
     }
     if (extra.places) drawPoints(draw, box, extra.places);
-    if (extra.arrows) drawArrows(draw, box, extra.arrows, extra.most(box));
+    if (extra.arrows) drawArrows(draw, box, apart(extra.arrows, box, extra.apart), extra.most(box));
     const mark = this.markOf(plane);
     if (this.held) drawCross(draw, box, mark);
     this.shown = { plane, box, values, mark };
@@ -122,8 +122,8 @@ class Player {
         if ($("particles").checked) extra.places = points;
         const speeds = await Promise.all([a, b].map((axis) => column(`particles.${"uvw"[axis]}`)));
         if ($("arrows").checked && !reel.has("arrows.u") && speeds[0]) {
-          const every = Math.ceil(points.length / 300);
-          extra.arrows = points.map(([x, y], j) => [x, y, speeds[0][j], speeds[1][j]]).filter((_, j) => j % every === 0);
+          extra.arrows = points.map(([x, y], j) => [x, y, speeds[0][j], speeds[1][j]]);
+          extra.apart = 30;
           extra.most = () => 26;
         }
       }

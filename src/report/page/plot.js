@@ -173,6 +173,16 @@ function drawPoints(draw, box, places) {
   });
 }
 
+/// One of the arrows in each square of so many pixels; all without a number.
+function apart(arrows, box, pixels) {
+  if (!pixels) return arrows;
+  const taken = new Set();
+  return arrows.filter(([x, y]) => {
+    const square = `${Math.floor(box.x(x) / pixels)} ${Math.floor(box.y(y) / pixels)}`;
+    return !taken.has(square) && taken.add(square);
+  });
+}
+
 /// Arrows [x, y, u, v]; the longest is `most` pixels.
 function drawArrows(draw, box, arrows, most) {
   const largest = Math.max(...arrows.map(([, , u, v]) => Math.hypot(u, v)), 0);
