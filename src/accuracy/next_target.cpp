@@ -18,8 +18,7 @@ std::optional<NextTarget> next_target(const Case& spec, double error, std::size_
   const double target = std::pow(10, std::floor(std::log10(error / 3)));
   const Work now = work_of(spec, make_scene(spec, threads), particles);
   try {
-    const AccuracyChoice choice =
-        choose_for_accuracy(spec, target, threads, {}, std::min(0.1 * now.total(), a_second));
+    const AccuracyChoice choice = choose_for_accuracy(spec, target, threads, {}, std::min(0.1 * now.total(), a_second));
     const Work then = work_of(choice.spec, make_scene(choice.spec, threads), choice.predicted.particles);
     const double ratio = (then.transport + then.density) / (now.transport + now.density);
     return NextTarget{target, choice.settings, seconds * (ratio - 1)};
