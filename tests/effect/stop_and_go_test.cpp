@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
         Kind{"adaptive", {"time.method=dopri5", "time.step=0.01", "time.tolerance=1e-10"}},
         Kind{"reaction", {"time.step=0.0001", "effects.reaction.rate=x+1"}},
         Kind{"open_edges",
-             {"time.step=0.001", "domain.edges=[\"open\", [\"closed\", \"open\"]]", "effects.reaction.rate=1+x",
+             {"time.step=0.004", "domain.edges=[\"open\", [\"closed\", \"open\"]]", "effects.reaction.rate=1+x",
               "particles.per_axis=22", "velocity.u=[\"1-y\", \"2*x\"]"}},
         Kind{"adaptive_open_edges",
              {"time.method=dopri5", "time.step=0.01", "time.tolerance=1e-10", "domain.edges=[\"open\", \"open\"]",
