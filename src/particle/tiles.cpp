@@ -1,9 +1,11 @@
 #include "particle/tiles.hpp"
 
 #include <bit>
+#include <numbers>
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/sphere.hpp"
 
 namespace gaussdrift {
 
@@ -38,7 +40,8 @@ Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, 
   std::vector<std::int64_t> all{static_cast<std::int64_t>(particles.count)};
   if (sum) sum(all);
   const bool large = all[0] > limits.particles || static_cast<std::int64_t>(lattice.size()) > limits.points;
-  const double shortest = std::max(fewest_points, std::ceil(limits.reaches * reach / lattice.spacing));
+  const double shortest =
+      std::max(fewest_points, std::ceil(limits.reaches * reach / (lattice.spacing * lattice.unit())));
   std::size_t cells = 1;
   for (int k = 0; k < max_dimension; ++k) {
     const std::size_t points = lattice.points[k];
@@ -82,6 +85,16 @@ Tiles::Tiles(const Lattice& lattice, double reach, const PointsView& particles, 
   for (Tile& tile : list_) tile.sources = sources_of(tile, counts.back());
 }
 
+// A cap of the angle theta around the latitude y has longitudes up to asin(sin theta / cos y) to either side, or all of
+// them where it has a pole in it.
+Vector Tiles::extent(const Vector& x) const {
+  if (!(lattice_.sphere > 0)) return {reach_, reach_, reach_};
+  const double theta = 2 * std::asin(std::min(1.0, reach_ / (2 * lattice_.sphere)));
+  const double y = radians(x[1]), part = std::sin(theta) / std::cos(y);
+  const bool has_pole = !(std::abs(y) + theta < std::numbers::pi / 2);
+  return {has_pole ? 180 : degrees(std::asin(std::min(1.0, part))), degrees(theta), 0};
+}
+
 Tiles::Indices Tiles::cells_at(int level) const {
   Indices cells{};
   for (int k = 0; k < max_dimension; ++k) cells[k] = std::size_t{1} << halvings(k, level);
@@ -120,9 +133,9 @@ void Tiles::divide(const std::vector<std::vector<std::int64_t>>& counts, const T
 
 // As if particles were spread evenly over each of the smallest cells.
 double Tiles::sources_of(const Tile& tile, const std::vector<std::int64_t>& smallest) const {
-  const double reach = reach_ / lattice_.spacing;         // in grid points
-  Indices low{}, high{};                                  // cells that have a part within reach
-  std::array<std::vector<double>, max_dimension> within;  // that part of each of them
+  const double reach = reach_ / (lattice_.spacing * lattice_.unit());  // in grid points
+  Indices low{}, high{};                                               // cells that have a part within reach
+  std::array<std::vector<double>, max_dimension> within;               // that part of each of them
   for (int k = 0; k < max_dimension; ++k) {
     const double from = static_cast<double>(tile.first[k]) - reach;
     const double to = static_cast<double>(tile.first[k] + tile.points[k]) + std::max(0.0, reach - 1);

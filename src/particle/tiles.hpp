@@ -40,7 +40,8 @@ class Tiles {
   using SumOverProcesses = std::function<void(std::vector<std::int64_t>&)>;
 
   /// The tiles of this lattice for these particles, and for those of other processes where `sum` is given. A particle
-  /// counts where the grid point below it lies; one beyond the lattice counts at its rim. reach: how far a blob is felt.
+  /// counts where the grid point below it lies; one beyond the lattice counts at its rim. reach: how far a blob is felt, on a
+  /// sphere as a chord.
   Tiles(const Lattice& lattice, double reach, const PointsView& particles, const TileLimits& limits,
         const SumOverProcesses& sum = {});
 
@@ -56,7 +57,7 @@ class Tiles {
   void within_reach(const Vector& x, const Use& use) const;
 
   /// Calls use(tile) once for each tile where a particle within reach of x along every axis may count, one beyond the
-  /// lattice as well.
+  /// lattice as well. Not on a sphere.
   template <class Use>
   void near(const Vector& x, const Use& use) const;
 
@@ -75,6 +76,10 @@ class Tiles {
   void divide(const std::vector<std::vector<std::int64_t>>& counts, const TileLimits& limits, int level, Indices cell);
   template <class Use>
   void for_each_of(const Indices& low, const Indices& high, const Use& use) const;
+  // Half the lengths of the box of coordinates that has all places within reach of x.
+  Vector extent(const Vector& x) const;
+  // The cells with grid points in [from, to] of an axis; nothing if there are none.
+  bool cells_between(int axis, double from, double to, std::size_t& low, std::size_t& high) const;
   double sources_of(const Tile& tile, const std::vector<std::int64_t>& smallest) const;
   // Of the grid point at or below a coordinate; those beyond the lattice get the first or the last.
   std::size_t index_below(int axis, double x) const {
@@ -100,18 +105,36 @@ class Tiles {
   std::vector<Tile> list_;
 };
 
+inline bool Tiles::cells_between(int axis, double from, double to, std::size_t& low, std::size_t& high) const {
+  const double first = std::ceil((from - lattice_.origin[axis]) / lattice_.spacing);
+  const double last = std::floor((to - lattice_.origin[axis]) / lattice_.spacing);
+  const auto end = static_cast<double>(lattice_.points[axis] - 1);
+  if (!(first <= end && last >= 0 && first <= last)) return false;
+  low = cell_of_index_[axis][static_cast<std::size_t>(std::max(first, 0.0))];
+  high = cell_of_index_[axis][static_cast<std::size_t>(std::min(last, end))];
+  return true;
+}
+
 template <class Use>
 void Tiles::within_reach(const Vector& x, const Use& use) const {
+  const Vector half = extent(x);
   Indices low{}, high{};  // cells
-  for (int k = 0; k < lattice_.dimension; ++k) {
-    const double first = std::ceil((x[k] - reach_ - lattice_.origin[k]) / lattice_.spacing);
-    const double last = std::floor((x[k] + reach_ - lattice_.origin[k]) / lattice_.spacing);
-    const auto end = static_cast<double>(lattice_.points[k] - 1);
-    if (!(first <= end && last >= 0 && first <= last)) return;
-    low[k] = cell_of_index_[k][static_cast<std::size_t>(std::max(first, 0.0))];
-    high[k] = cell_of_index_[k][static_cast<std::size_t>(std::min(last, end))];
+  for (int k = lattice_.sphere > 0 ? 1 : 0; k < lattice_.dimension; ++k)
+    if (!cells_between(k, x[k] - half[k], x[k] + half[k], low[k], high[k])) return;
+  if (!(lattice_.sphere > 0)) return for_each_of(low, high, use);
+  // Longitudes come again after a turn: a tile that has been met before begins where those columns do, or before.
+  std::size_t met = 0;  // columns below this have been met
+  for (const double turn : {-360.0, 0.0, 360.0}) {
+    std::size_t first = 0, last = 0;
+    if (!cells_between(0, x[0] - half[0] + turn, x[0] + half[0] + turn, first, last)) continue;
+    const std::size_t before = met;
+    if (before > 0 && border_[0][last + 1] <= before) continue;
+    low[0] = first, high[0] = last;
+    for_each_of(low, high, [&](std::uint32_t tile) {
+      if (before == 0 || list_[tile].first[0] >= before) use(tile);
+    });
+    met = border_[0][last + 1];
   }
-  for_each_of(low, high, use);
 }
 
 template <class Use>

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "base/sphere.hpp"
 #include "base/stopwatch.hpp"
 #include "sim/blob_sum.hpp"
 #include "sim/transform_errors.hpp"
@@ -212,7 +213,10 @@ class SumsInDimension : public TileSums {
       std::vector<std::size_t> near;
       for (const std::size_t j : chosen) {
         bool within = true;
-        for (int k = 0; k < d; ++k) within = within && std::abs(particles_.coordinate(k, j) - x[k]) <= reach;
+        if (e != d)
+          within = lattice_.sphere * angle_between(particles_.place(j), x) <= 2 * reach;
+        else
+          for (int k = 0; k < d; ++k) within = within && std::abs(particles_.coordinate(k, j) - x[k]) <= reach;
         if (within) near.push_back(j);
       }
       fgtd::Points<d> target(d, 1);
@@ -265,6 +269,7 @@ class SumsInDimension : public TileSums {
 
   // Of the particles that reach the tile, those that reach this part of it.
   std::vector<std::size_t> within_reach(std::size_t tile, const LatticeBox& where) const {
+    if (e != d) return of_tile_[tile];  // of a sphere: longitudes of a box say little
     const double reach = reach_of_blob(cutoff_, options_);
     std::vector<std::size_t> near;
     for (const std::size_t j : of_tile_[tile]) {
@@ -324,12 +329,8 @@ std::string told_by_whom_it_concerns(base::Communicator& ranks, const std::strin
 
 }  // namespace
 
-// On a sphere the longitude runs round, and near a pole a short way crosses many of them: there a blob is taken to be felt
-// everywhere, so that a grid is one tile.
 // At that distance a second derivative is some hundred times larger, relative to its largest value, than the blob.
 double reach_of_blob(const Cutoff& cutoff, const DensityOptions& options) {
-  constexpr double whole_sphere = 360;
-  if (sphere_of(cutoff) > 0) return whole_sphere;
   return reach(cutoff, options.derivatives.empty() ? 1e-14 : 1e-17);
 }
 

@@ -21,8 +21,7 @@
 namespace gaussdrift {
 
 /// How far a blob is felt: what lies beyond is below the rounding of its largest value.
-/// Its derivatives, where options ask for any, are felt a little farther. In units of the coordinates: on a sphere in
-/// degrees.
+/// Its derivatives, where options ask for any, are felt a little farther. On a sphere it is a chord.
 double reach_of_blob(const Cutoff& cutoff, const DensityOptions& options);
 
 /// The particles that a process needs for its tiles.

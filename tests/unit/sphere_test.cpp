@@ -22,6 +22,7 @@
 #include "gaussdrift/particles.hpp"
 #include "particle/chord.hpp"
 #include "particle/seeding.hpp"
+#include "particle/tiles.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift {
@@ -135,6 +136,63 @@ TEST_P(OnTheSphere, TheDensityIsTheSumOfAllBlobsWrittenOut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cutoffs, OnTheSphere, testing::Values("gauss2", "gauss4", "gauss6", "gauss8", "two-gauss"));
+
+/// Particles all over the sphere but for the poles' surroundings, on a grid that meets itself at 180 degrees.
+TEST(TilesOfASphere, GetEveryParticleThatReachesThemOnce) {
+  Particles particles = scattered(3000);
+  for (std::size_t j = 0; j < particles.size(); ++j) {
+    particles.position[0][j] = std::remainder(360 * std::fmod(static_cast<double>(j) * std::numbers::phi, 1.0), 360.0);
+    particles.position[1][j] = -88 + 176 * (static_cast<double>(j) + 0.5) / 3000;
+  }
+  for (const Vector& corner : {Vector{-180, -85, 0}, Vector{-60, 20, 0}}) {
+    Lattice lattice = make_lattice(2, corner, {-corner[0], 85, 0}, 181);
+    lattice.sphere = radius;
+    for (const double reach : {3e5, 9e5, 2.5e6}) {
+      const Tiles tiles(lattice, reach, particles.view(), {.particles = 50, .points = 400, .reaches = 0.5});
+      ASSERT_GT(tiles.list().size(), 3u) << reach;
+      const auto gathered = tiles.gather(particles.view(), std::vector<char>(tiles.list().size(), 1), 1);
+      for (std::size_t t = 0; t < tiles.list().size(); ++t) {
+        const Tile& tile = tiles.list()[t];
+        EXPECT_TRUE(std::adjacent_find(gathered[t].begin(), gathered[t].end()) == gathered[t].end()) << "once";
+        std::vector<char> has(particles.size(), 0);
+        for (const std::size_t j : gathered[t]) has[j] = 1;
+        std::vector<Vector> points;
+        for (std::size_t i = 0; i < tile.size(); ++i)
+          points.push_back(on_unit_sphere(lattice.coordinate(0, tile.first[0] + i % tile.points[0]),
+                                          lattice.coordinate(1, tile.first[1] + i / tile.points[0])));
+        for (std::size_t j = t % 29; j < particles.size(); j += 29) {
+          const Vector x = on_unit_sphere(particles.position[0][j], particles.position[1][j]);
+          const bool reaches = std::any_of(points.begin(), points.end(), [&](const Vector& y) {
+            return radius * std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]) <= reach;
+          });
+          EXPECT_TRUE(has[j] || !reaches)
+              << reach << " " << particles.position[0][j] << " " << particles.position[1][j];
+        }
+      }
+    }
+  }
+}
+
+TEST(TilesOfASphere, SumToTheDensityOfTheWhole) {
+  const Particles particles = scattered(400);
+  const Cutoff cutoff = on_sphere(make_cutoff("gauss4", 2, 1e5), radius);
+  Lattice lattice = make_lattice(2, {-180, 40, 0}, {180, 89, 0}, 361);
+  lattice.sphere = radius;
+  constexpr double tolerance = 1e-8;
+  DensityReport report;
+  const DensityGrid whole = evaluate_at_once(particles, cutoff, lattice, {.tolerance = tolerance, .threads = 1}),
+                    tiled = evaluate_density(particles, cutoff, lattice,
+                                             {.tolerance = tolerance,
+                                              .threads = 1,
+                                              .tiles = TileLimits{.particles = 40, .points = 400, .reaches = 1}},
+                                             &report);
+  EXPECT_EQ(report.choice.find("1 tiles"), std::string::npos);
+  EXPECT_NE(report.choice.find(" tiles"), std::string::npos) << report.choice;
+  double largest = 0;
+  for (const double rho : whole.rho) largest = std::max(largest, std::abs(rho));
+  for (std::size_t i = 0; i < lattice.size(); ++i) EXPECT_NEAR(tiled.rho[i], whole.rho[i], 2 * tolerance * largest);
+  EXPECT_LT(report.measured_error, tolerance);
+}
 
 // --- velocities
 

@@ -116,7 +116,8 @@ std::vector<std::vector<double>> density_at_points(const Particles& particles, c
   base::Bytes bytes = base::to_bytes(points);
   ranks.broadcast(bytes);
   const auto wanted = base::from_bytes<double>(bytes);
-  const double side = reach_of_blob(cutoff, options);
+  constexpr double whole_sphere = 360;  // near a pole a short way crosses many longitudes
+  const double side = sphere_of(cutoff) > 0 ? whole_sphere : reach_of_blob(cutoff, options);
   std::map<Cell, Group> groups = groups_of(wanted, particles.dimension, side);
   std::vector<base::Bytes> arrived = ranks.gather(pack_bare(particles, fill(groups, particles, side)));
   std::vector<std::vector<double>> values;
