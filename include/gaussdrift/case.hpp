@@ -16,6 +16,8 @@
 #include <variant>
 #include <vector>
 
+#include "gaussdrift/pictures.hpp"
+
 /// The simulator: smoothed particles in a velocity field. Numbers are in the units of the case. Expressions keep their
 /// text, because every thread compiles its own. docs/cases.md explains every key.
 namespace gaussdrift {
@@ -337,7 +339,9 @@ struct OutputSpec {
   double piece_particles = 4194304;  ///< most particles of a file: more are written in pieces
   /// Seconds between two checkpoints; 0: none; empty: about a minute in runs of more than five.
   std::optional<double> checkpoint{};
-  std::optional<TracksSpec> tracks{};  ///< empty: nobody is followed
+  std::optional<TracksSpec> tracks{};        ///< empty: nobody is followed
+  PicturesSpec pictures{};                   ///< how they look
+  std::optional<AnimationSpec> animation{};  ///< empty: there is none
 };
 
 // --- what the results are compared with -------------------------------------------------------------------------

@@ -142,6 +142,9 @@ class Observer {
   /// Some more of the tracks, `output.tracks`: all that were looked at together, and those that have ended since. On
   /// rank 0.
   virtual void tracks(const TrackSamples& /*samples*/) {}
+  /// Called at each frame of an animation, `output.animation`, on rank 0. Of the frame only index, which counts these
+  /// frames, time, elapsed and density are there. At the time of an output it comes before frame().
+  virtual void moment(const Frame& /*frame*/) {}
   /// Bytes that restore() needs, beside what is known of the outputs.
   virtual std::string state() const { return {}; }
   /// The run goes on after these outputs, by the times that the clock showed, of an earlier process: files that hold all of them are made again. `state` is

@@ -20,6 +20,7 @@
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "particle/cutoff.hpp"
+#include "render/film_cost.hpp"
 #include "render/picture_series.hpp"
 #include "render/styles.hpp"
 #include "sim/borders/edges.hpp"
@@ -28,6 +29,7 @@
 #include "sim/fields_on_grid.hpp"
 #include "sim/follow/particle_fields.hpp"
 #include "sim/grid_pieces.hpp"
+#include "sim/moments.hpp"
 #include "sim/releases.hpp"
 #include "sim/scene.hpp"
 #include "write/checkpoint.hpp"
@@ -147,6 +149,11 @@ double particles_at_most(const Case& spec, Trial& trial) {
 
 namespace {
 
+render::FilmCost film_of(const Case& spec) {
+  return spec.output.animation ? render::film_cost(spec, lattice_of_moments(evaluation_lattice(spec)).size())
+                               : render::FilmCost{};
+}
+
 bool keeps_checkpoints(const Case& spec, double seconds) {
   return spec.output.checkpoint ? *spec.output.checkpoint > 0 : seconds >= write::long_run;
 }
@@ -179,6 +186,8 @@ double disk_of_run(const Case& spec, const Extent& all, double seconds) {
   const auto frames = static_cast<double>(spec.output.times.size());
   double bytes = 1e4 + 250 * frames;
   for (const PictureStyle& style : spec.output.images) bytes += frames * render::find_style(style.name).cost.bytes;
+  const render::FilmCost film = film_of(spec);
+  bytes += film.bytes + film.kept;
   for (const OutputFile& file : spec.output.files) bytes += frames * write::find_output_file(file.name).bytes(extent);
   bytes += (1 + 4. / 3) * frames_of_page(spec, extent.grid_points);               // beside the page, and in it as text
   if (spec.output.report) bytes += 5e4 + (spec.output.images.empty() ? 0 : 5e5);  // the page and its picture
@@ -196,7 +205,7 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
                at_once = in_pieces ? static_cast<double>(pieces.shown(0).size()) : extent.grid_points;
   const double n = extent.particles, d = spec.domain.dimension, frames = static_cast<double>(spec.output.times.size());
   const EffectMemory effects = memory_of_effects(spec);
-  const bool pictures = !spec.output.images.empty();
+  const bool pictures = !spec.output.images.empty() || spec.output.animation;
 
   // What stays: positions, weights, ids, integrals, volumes; a halo's and a remeshing's tables of nodes.
   const double particle = bytes_of_particle(spec, effects);

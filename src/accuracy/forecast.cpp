@@ -20,6 +20,7 @@
 #include "effect/catalogue.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
+#include "render/film_cost.hpp"
 #include "render/picture.hpp"
 #include "sim/borders/edges.hpp"
 #include "sim/borders/outside.hpp"
@@ -27,6 +28,7 @@
 #include "sim/comparison.hpp"
 #include "sim/grid_pieces.hpp"
 #include "sim/landings.hpp"
+#include "sim/moments.hpp"
 #include "sim/releases.hpp"
 #include "sim/tiled_density.hpp"
 #include "sim/work.hpp"
@@ -275,9 +277,14 @@ void describe_trial(const Case& spec, const Trial& trial, Forecast& result) {
 void add_up(const Case& spec, const Extent& extent, double most_memory, Forecast& result) {
   const auto frames = static_cast<double>(result.frames);
   result.picture_seconds = seconds_of_pictures(spec, shown_grid(spec).size(), redrawn(spec, result));
-  const double run = result.seed_seconds + static_cast<double>(result.steps) * result.step_seconds +
-                     frames * result.evaluate_seconds + result.reference_seconds + result.picture_seconds +
-                     result.file_seconds;
+  if (spec.output.animation) {
+    const render::FilmCost film = render::film_cost(spec, lattice_of_moments(evaluation_lattice(spec)).size());
+    result.animation_seconds = static_cast<double>(spec.output.animation->frames) * result.evaluate_seconds +
+                               slowness_of_this_machine() * film.seconds / result.threads;
+  }
+  const double run = result.animation_seconds + result.seed_seconds +
+                     static_cast<double>(result.steps) * result.step_seconds + frames * result.evaluate_seconds +
+                     result.reference_seconds + result.picture_seconds + result.file_seconds;
   result.report_seconds = time_report(spec, result, run);
   result.seconds = run + result.report_seconds;
   Extent largest = extent;

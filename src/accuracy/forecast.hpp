@@ -41,8 +41,9 @@ struct Forecast {
   // Predictions
   double seed_seconds = 0, step_seconds = 0, evaluate_seconds = 0;  // the latter two of one
   double reference_seconds = 0, picture_seconds = 0, file_seconds = 0, report_seconds = 0, seconds = 0;
-  double error_at_start = -1;   // largest, of rho_eps^h on the grid; negative: not known
-  double particles_at_end = 0;  // with those that diffusion and remeshing add, on the mean of the run
+  double animation_seconds = 0;  // densities of its frames, and the films
+  double error_at_start = -1;    // largest, of rho_eps^h on the grid; negative: not known
+  double particles_at_end = 0;   // with those that diffusion and remeshing add, on the mean of the run
   double particles_at_most = 0;
   double released = 0;             // particles, by sources
   std::size_t tried_in_steps = 0;  // particles whose steps were timed

@@ -93,13 +93,14 @@ std::string cost_text(const Forecast& r) {
   text += fmt::format(
       "cost       {} x {}, {} of {}: about {:.2g} s on {} (seeding {:.2g}, steps "
       "{:.2g}, density "
-      "{:.2g}, reference {:.2g}, files {:.2g}, pictures {:.2g}, report {:.2g}); memory {}; disk {}\n",
+      "{:.2g}, reference {:.2g}, files {:.2g}, pictures {:.2g}, {}report {:.2g}); memory {}; disk {}\n",
       base::counted(grouped(r.steps), "step"), base::counted(grouped(r.particles), "particle"),
       base::counted(r.frames, "frame"), base::counted(grouped(r.grid_points), "point"), r.seconds,
       base::counted(static_cast<std::size_t>(r.threads), "thread"), r.seed_seconds,
       static_cast<double>(r.steps) * r.step_seconds, static_cast<double>(r.frames) * r.evaluate_seconds,
-      r.reference_seconds, r.file_seconds, r.picture_seconds, r.report_seconds, base::size_text(r.memory_bytes()),
-      base::size_text(r.disk_bytes));
+      r.reference_seconds, r.file_seconds, r.picture_seconds,
+      r.animation_seconds > 0 ? fmt::format("animation {:.2g}, ", r.animation_seconds) : "", r.report_seconds,
+      base::size_text(r.memory_bytes()), base::size_text(r.disk_bytes));
   if (r.memory.all() >= r.memory_limit.left()) {
     const Extent extent{.particles = r.particles_at_most, .grid_points = static_cast<double>(r.grid_points)};
     text += fmt::format("           {} {} of memory, so `run` refuses this case: {}; {}\n", r.memory_limit.who,
@@ -124,17 +125,19 @@ std::string errors_text(const Forecast& r) {
 }
 
 nlohmann::ordered_json predicted_json(const Forecast& r) {
-  return {{"seconds", r.seconds},
-          {"seed_seconds", r.seed_seconds},
-          {"step_seconds", static_cast<double>(r.steps) * r.step_seconds},
-          {"density_seconds", static_cast<double>(r.frames) * r.evaluate_seconds},
-          {"reference_seconds", r.reference_seconds},
-          {"file_seconds", r.file_seconds},
-          {"picture_seconds", r.picture_seconds},
-          {"report_seconds", r.report_seconds},
-          {"memory_bytes", r.memory_bytes()},
-          {"disk_bytes", r.disk_bytes},
-          {"threads", r.threads}};
+  nlohmann::ordered_json told{{"seconds", r.seconds},
+                              {"seed_seconds", r.seed_seconds},
+                              {"step_seconds", static_cast<double>(r.steps) * r.step_seconds},
+                              {"density_seconds", static_cast<double>(r.frames) * r.evaluate_seconds},
+                              {"reference_seconds", r.reference_seconds},
+                              {"file_seconds", r.file_seconds},
+                              {"picture_seconds", r.picture_seconds},
+                              {"report_seconds", r.report_seconds},
+                              {"memory_bytes", r.memory_bytes()},
+                              {"disk_bytes", r.disk_bytes},
+                              {"threads", r.threads}};
+  if (r.animation_seconds > 0) told["animation_seconds"] = r.animation_seconds;
+  return told;
 }
 
 }  // namespace

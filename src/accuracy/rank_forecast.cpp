@@ -79,6 +79,7 @@ Case unexplained(Case spec) {
 /// The case as the ranks beside the first see it: they draw and explain nothing, and write their pieces alone.
 Case without_outputs(Case spec, bool particles_in_pieces) {
   spec.output.images.clear();
+  spec.output.animation.reset();
   const bool grid_in_pieces = pieces_of_grid(spec).count() > 1;
   std::erase_if(spec.output.files, [&](const OutputFile& file) {
     const write::FileKind& kind = write::find_output_file(file.name);

@@ -6,6 +6,7 @@
 #include "accuracy/target.hpp"
 #include "base/printable.hpp"
 #include "base/size_text.hpp"
+#include "cli/films.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "gaussdrift/error.hpp"
@@ -44,6 +45,7 @@ Case read(const CaseOptions& options) {
 }
 
 Case settled(Case spec, const CaseOptions& options) {
+  refuse_films_without_their_program(spec);
   if (!spec.accuracy.target) return spec;
   accuracy::AccuracyChoice choice;
   {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include "accuracy/footprint.hpp"
@@ -24,6 +25,7 @@
 #include "base/stopwatch.hpp"
 #include "cli/checkpoint_keeper.hpp"
 #include "cli/common_ground.hpp"
+#include "cli/films.hpp"
 #include "cli/look_back.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/progress.hpp"
@@ -179,6 +181,7 @@ class Run {
                               {"bytes", keeper_->last().bytes}};
     summary_text_ = write::summary_json(spec_, summary_, more_);
     const bool told = owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); });
+    make_films();
     // The log before the page: `resume` makes the page of a run that was killed here, and cannot make the log.
     const std::string before_page = write_log("");
     write_reel();
@@ -217,7 +220,9 @@ class Run {
   void prepare_to_write(Simulation& simulation) {
     prepare_folder(simulation);
     note("{}", task_.told);
-    add_observers(simulation, spec_, folder_, of_observers_);
+    const bool core_is_free = ranks_.size() == 1 && base::resolve_threads(task_.threads) <
+                                                        static_cast<int>(std::thread::hardware_concurrency());
+    add_observers(simulation, spec_, folder_, core_is_free, of_observers_);
     observe_for_page(simulation);
     const auto& times = spec_.output.times;
     if (looks_back(spec_) && !times.empty()) {
@@ -366,6 +371,7 @@ class Run {
             .bytes = disk_of(spec_, simulation, task_.threads),
             .particle_pieces =
                 accuracy::pieces_of_particles(spec_, simulation.particle_count()).value_or(write::most_pieces),
+            .films = film_names(spec_),
             .picture_styles = render::style_names()});
     if (provenance.empty()) return;
     // First, because it has the name of the case: a run that has a run.toml can be resumed, and pictures show the name.
@@ -373,11 +379,19 @@ class Run {
     write::write_run_inputs(folder_, spec_, case_text(spec_, folder_));
   }
 
+  /// Of a complete run. A signal ends it, and the frames stay.
+  void make_films() {
+    if (!complete() || !spec_.output.animation) return;
+    const base::AbandonWanted wanted = [this] { return stop_->by_signal(); };
+    const base::Abandonable while_it_lasts(&wanted);
+    films_ = cli::make_films(folder_, spec_, task_.threads, owed_);
+  }
+
   /// `without`: lines about the page.
   std::string log_text(const std::string& without) {
     ending_ = (complete() ? "" : stopped_text()) +
-              ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + without + state_text() +
-              shares_text(shares_, ranks_.hosts());
+              ending_text(spec_, summary_, budget_, task_.asked.accuracy.target, folder_) + films_ + without +
+              state_text() + shares_text(shares_, ranks_.hosts());
     std::string log;
     for (const std::string& warning : told_) log += "warning: " + warning + "\n";
     for (const std::string& warning : warnings_) log += "warning: " + warning + "\n";
@@ -447,7 +461,7 @@ class Run {
   std::vector<RankShare> shares_;                            // of all ranks, on rank 0
   // Members of summary.json beside those of the run.
   nlohmann::ordered_json more_ = nlohmann::ordered_json::object();
-  std::string summary_text_, ending_;
+  std::string summary_text_, ending_, films_;
   OwedFiles owed_;
   std::optional<write::RunFolder> own_folder_;
 };

@@ -29,6 +29,11 @@ Option& Option::separated_by(char separator) {
   return *this;
 }
 
+Option& Option::value_optional() {
+  option_->expected(0, 1)->default_str("true");
+  return *this;
+}
+
 Option& Option::within(int least, int most) {
   option_->check(CLI::Range(least, most));
   return *this;

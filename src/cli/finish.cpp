@@ -3,6 +3,7 @@
 
 #include "base/json_file.hpp"
 #include "cli/carry_out.hpp"
+#include "cli/films.hpp"
 #include "cli/owed_files.hpp"
 #include "cli/run_page.hpp"
 #include "cli/terminal.hpp"
@@ -27,8 +28,9 @@ bool has_failed_check(const fs::path& folder) {
 }  // namespace
 
 ExitCode finish(const Case& spec, const fs::path& folder) {
-  write::RunFolder own_folder(folder, spec, {.go_on = true});
+  write::RunFolder own_folder(folder, spec, {.go_on = true, .films = film_names(spec)});
   OwedFiles owed;
+  put(stdout, make_films(folder, spec, 0, owed));
   if (spec.output.report) put(stdout, write_page(folder, spec, owed));
   owed.attempt([&] { own_folder.complete(); });
   for (const std::string& why : owed.missing()) note("error: {}\n", why);

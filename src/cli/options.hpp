@@ -19,6 +19,8 @@ class Option {
   Option& repeatable();
   /// Several values in one word: --times 0,1,2.
   Option& separated_by(char separator);
+  /// The value may be left out, and is then "true".
+  Option& value_optional();
   Option& within(int least, int most);
   Option& within(double least, double most);
   Option& not_negative();

@@ -34,6 +34,7 @@ Case read_tables(Reader& in) {
   read_sources(in, spec);
   read_evaluate(in, spec.evaluate, spec.domain);
   read_output(in, spec.output, spec.time);
+  read_pictures(in, spec.output, spec.domain);
   read_effects(in, spec);
   read_tracks(in, spec);
   check_tracers(in, spec);

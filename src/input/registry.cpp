@@ -15,10 +15,10 @@ namespace gaussdrift::input {
 namespace {
 
 std::vector<Section> sections() {
-  std::vector<Section> all{case_section(),     params_section(),  domain_section(),    velocity_section(),
-                           density_section(),  sources_section(), particles_section(), time_section(),
-                           evaluate_section(), output_section(),  tracks_section(),    reference_section(),
-                           accuracy_section(), checks_section()};
+  std::vector<Section> all{case_section(),      params_section(),   domain_section(),    velocity_section(),
+                           density_section(),   sources_section(),  particles_section(), time_section(),
+                           evaluate_section(),  output_section(),   pictures_section(),  tracks_section(),
+                           reference_section(), accuracy_section(), checks_section()};
   for (const NamedEffect& effect : effects()) all.push_back(effect_section(effect));
   return all;
 }
@@ -137,7 +137,8 @@ std::string type_text(const Key& key) {
     case Type::expressions:
       return "a list of strings, one expression for each axis";
     case Type::choice:
-      return (key.choices.size() == 1 ? "" : "one of ") + quoted_list(key.choices);
+      return (key.choices.size() == 1 ? "" : "one of ") + quoted_list(key.choices) +
+             (key.or_flag ? ", or true or false" : "");
     case Type::choices:
       return "a list of some of " + quoted_list(key.choices);
     case Type::ends:

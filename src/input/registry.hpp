@@ -36,6 +36,7 @@ struct Key {
   std::string_view fallback = {};  // the default as it would be written, lists separated by ", "; empty: none
   Range range = {};
   std::vector<std::string_view> choices = {};
+  bool or_flag = false;  // a choice: true is the first one, false none
   std::string_view unit = {};
   std::string_view symbol = {};  // in the thesis
   std::string meaning = {};

@@ -20,6 +20,9 @@ Case without_future(Case spec) {
   past.tracks = spec.output.tracks;
   for (const GridField& field : spec.output.fields)
     if (field.is_of_particles) past.fields.push_back(field);
+  // The frames so far are those that an animation wants; what is made of them is of the future.
+  if (const auto& animation = spec.output.animation)
+    past.animation = AnimationSpec{.kind = "any", .frames = animation->frames};
   spec.output = past;
   spec.time.end = spec.time.backwards ? 1 : 0;  // the direction belongs to the past
   spec.accuracy = {};

@@ -56,6 +56,7 @@ Json value_schema(const Key& key) {
       return list;
     }
     case Type::choice:
+      if (key.or_flag) return {{"anyOf", Json::array({Json{{"enum", key.choices}}, Json{{"type", "boolean"}}})}};
       return {{"enum", key.choices}};
     case Type::choices: {
       Json list = list_of({{"enum", key.choices}});

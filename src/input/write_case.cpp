@@ -18,6 +18,7 @@ std::string case_text(const Case& spec, const std::filesystem::path& folder) {
   write_time(out, spec.time);
   write_evaluate(out, spec.evaluate);
   write_output(out, spec.output, spec.time);
+  write_pictures(out, spec.output.pictures);
   write_tracks(out, spec.output);
   write_effects(out, spec.effects);
   write_reference(out, spec.reference);

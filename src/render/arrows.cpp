@@ -1,4 +1,5 @@
 // The velocity over the density: arrows, or lines along the flow.
+#include <algorithm>
 #include <string_view>
 
 #include "render/flow.hpp"
@@ -29,35 +30,37 @@ void draw_lines(Canvas& canvas, const Rectangle& panel, const FlowPlane& flow,
   canvas.lines(dark, scale(1.3));
 }
 
-template <class Lines>
-Painting over_the_map(const DensityGrid& density, const ColourRange& range, const PictureOptions& options,
-                      const Lines& lines_of) {
-  return [map = make_height_field(density, range, most_plane_points), flow = FlowPlane(density, shown), range, options,
-          lines_of](Canvas& canvas) {
-    const Rectangle panel = draw_map(canvas, map, range, options);
-    draw_lines(canvas, panel, flow, lines_of(flow));
-  };
-}
-
-Painting painted_arrows(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
-  return over_the_map(density, range, options, [](const FlowPlane& flow) { return arrows(flow, along_longer_side); });
-}
-
-Painting painted_streamlines(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
-  return over_the_map(density, range, options, [](const FlowPlane& flow) {
-    return streamlines(flow, std::max(flow.width(), flow.height()) / along_longer_side);
-  });
+Painting with_velocity(const DensityGrid& density, const ColourRange& range, PictureOptions options,
+                       std::string_view how) {
+  options.looks.velocity = how;
+  return heatmap(density, range, options);
 }
 
 }  // namespace
+
+VelocityPainter velocity_over(const DensityGrid& density, std::string_view how) {
+  if (how.empty()) return [](Canvas&, const Rectangle&) {};
+  return [flow = FlowPlane(density, shown), as_arrows = how == "arrows"](Canvas& canvas, const Rectangle& map) {
+    draw_lines(canvas, map, flow,
+               as_arrows ? arrows(flow, along_longer_side)
+                         : streamlines(flow, std::max(flow.width(), flow.height()) / along_longer_side));
+  };
+}
+
+const std::vector<VelocityStyle>& velocity_styles() {
+  static const std::vector<VelocityStyle> all{{{"arrows", "as arrows"}}, {{"streamlines", "as lines along it"}}};
+  return all;
+}
 
 Style arrows_style() {
   return {.about = {.name = "arrows",
                     .meaning = "the density in colours from above, and the velocity as arrows",
                     .most_dimension = 2,
                     .needs_field = shown},
-          .cost = {.seconds = 0.15, .a_point = 0.7e-8},
-          .painting = painted_arrows};
+          .cost = {.seconds = 0.045, .a_point = 0.7e-8},
+          .painting = [](const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
+            return with_velocity(density, range, options, "arrows");
+          }};
 }
 
 Style streamlines_style() {
@@ -65,8 +68,10 @@ Style streamlines_style() {
                     .meaning = "the density in colours from above, and lines along the velocity at that time",
                     .most_dimension = 2,
                     .needs_field = shown},
-          .cost = {.seconds = 0.2, .a_point = 1.5e-8},
-          .painting = painted_streamlines};
+          .cost = {.seconds = 0.055, .a_point = 1.5e-8},
+          .painting = [](const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
+            return with_velocity(density, range, options, "streamlines");
+          }};
 }
 
 }  // namespace gaussdrift::render

@@ -2,6 +2,7 @@
 // pixels and grow with it.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -28,15 +29,19 @@ struct Axis {
   std::string name;
   double min = 0, max = 1;
   Ticks ticks;
+  bool log = false;  // by the logarithm; 0 < min
 
   Axis(std::string what, double from, double to, int intervals)
       : name(std::move(what)), min(from), max(to), ticks(make_ticks(from, to, intervals)) {}
-  double position(double at) const { return (at - min) / (max - min); }
+  double position(double at) const { return log ? std::log(at / min) / std::log(max / min) : (at - min) / (max - min); }
   std::string title() const { return ticks.title(name); }
 };
 
 /// An axis with at least two ticks if the numbers allow it: short sides get finer ones.
 Axis short_axis(const std::string& name, double min, double max, int intervals);
+
+/// The axis of values, with powers of ten where the range is by the logarithm.
+Axis value_axis(const std::string& quantity, const ColourRange& range, int intervals);
 
 /// k, if every k-th tick of an axis gets its number and no two numbers come nearer than `gap`. `numbers` has the places
 /// of all numbers. Ticks keep their marks.

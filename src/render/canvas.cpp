@@ -9,33 +9,10 @@
 
 #include "gaussdrift/error.hpp"
 #include "render/drawing_library.hpp"
+#include "render/text.hpp"
 
 namespace gaussdrift::render {
 namespace {
-
-/// One line of well-formed UTF-8, with plain minus signs where the font has no others.
-std::string drawable(const std::string& text) {
-  std::string clean;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t length = byte < 0x80                   ? 1
-                               : byte >= 0xC2 && byte < 0xE0 ? 2
-                               : byte >= 0xE0 && byte < 0xF0 ? 3
-                               : byte >= 0xF0 && byte < 0xF5 ? 4
-                                                             : 0;
-    bool whole = length > 0 && i + length <= text.size();
-    for (std::size_t k = 1; whole && k < length; ++k) whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
-    if (!whole) {
-      clean += '?';
-      ++i;
-      continue;
-    }
-    const std::string letter = text.substr(i, length);
-    clean += byte < 0x20 || byte == 0x7F ? " " : letter == "\u2212" && !drawing().has_font() ? "-" : letter;
-    i += length;
-  }
-  return clean;
-}
 
 /// Where the middle of an upright or level line has to be so that the line fills whole pixels.
 double on_grid(double x, double line_width) {
@@ -81,16 +58,30 @@ std::pair<std::vector<Point>, std::vector<Point>> edges(const std::vector<Point>
 
 }  // namespace
 
-Canvas::Canvas(int width, int height) : width_(width), height_(height), sheet_(drawing().sheet(width, height)) {}
+Scene& Canvas::scene() {
+  if (!scene_) {
+    lock_ = std::unique_lock(drawing_mutex());
+    scene_ = drawing().scene(width_, height_);
+  }
+  return *scene_;
+}
+
+void Canvas::show_scene() {
+  try {
+    const bool transparent = !image_.opacity.empty();
+    image_ = scene().image();
+    if (!transparent) image_.opacity.clear();
+  } catch (const std::runtime_error& error) {
+    throw Error(ExitCode::internal, fmt::format("VTK could not draw the picture: {}", error.what()));
+  }
+}
 
 void Canvas::lines(const std::vector<Polyline>& list, double line_width) {
-  std::vector<Strip> strips;
   for (const Polyline& line : list) {
     const std::vector<Point> way = line.points.size() == 2 ? crisp(line.points, line_width) : line.points;
     auto [left, right] = edges(way, line_width / 2);
-    if (left.size() > 1) strips.push_back({std::move(left), std::move(right), line.colour});
+    if (left.size() > 1) strips_.put(image_, {std::move(left), std::move(right), line.colour});
   }
-  if (!strips.empty()) sheet_->strips(strips);
 }
 
 void Canvas::frame(const Rectangle& box, const Colour& colour, double line_width) {
@@ -109,22 +100,14 @@ void Canvas::area(const Rectangle& box, const Colour& colour) {
 }
 
 void Canvas::image(int left, int bottom, int columns, int rows, const std::vector<Colour>& colours) {
-  sheet_->image(left, bottom, columns, rows, colours);
+  put_colours(image_, left, bottom, columns, rows, colours);
 }
 
 void Canvas::text(Point at, const std::string& text, const TextStyle& style) {
-  const std::string clean = drawable(text);
-  if (clean.find_first_not_of(' ') != std::string::npos) sheet_->text(at, clean, style);
+  const auto mask = text_mask(text, style);
+  put_mask(image_, static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)), *mask, style.colour);
 }
 
-double Canvas::text_width(const std::string& text, int size) { return drawing().text_width(drawable(text), size); }
-
-std::string Canvas::png() {
-  try {
-    return sheet_->png();
-  } catch (const std::runtime_error& error) {
-    throw Error(ExitCode::internal, fmt::format("VTK could not draw the picture: {}", error.what()));
-  }
-}
+double Canvas::text_width(const std::string& text, int size) { return width_of_text(text, size); }
 
 }  // namespace gaussdrift::render

@@ -1,8 +1,9 @@
 // A white picture in pixels, the origin at the lower left: lines, areas, images and text, with a scene in three
-// dimensions behind them if wanted. Later things cover earlier ones.
+// dimensions behind them if wanted. Later things cover earlier ones. Only the scene needs OpenGL.
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,17 @@ struct Polyline {
 
 class Canvas {
  public:
-  Canvas(int width, int height);
+  /// `type`: how many times as large as usual letters, lines and margins are.
+  Canvas(int width, int height, bool transparent = false, double type = 1)
+      : width_(width), height_(height), type_(type), image_(blank_image(width, height, transparent)) {}
 
   int width() const { return width_; }
   int height() const { return height_; }
+  double type() const { return type_; }
   /// For what is drawn in three dimensions.
-  Sheet& scene() { return *sheet_; }
+  Scene& scene();
+  /// Puts it on the picture, with all that is in it. Throws Error(ExitCode::internal).
+  void show_scene();
 
   void lines(const std::vector<Polyline>& list, double line_width);
   void line(Point from, Point to, const Colour& colour, double line_width) {
@@ -43,12 +49,16 @@ class Canvas {
   /// Width of a text in pixels.
   static double text_width(const std::string& text, int size);
 
-  /// The finished picture as a PNG file in memory.
-  std::string png();
+  /// The picture.
+  const Image& picture() const { return image_; }
 
  private:
   int width_, height_;
-  std::unique_ptr<Sheet> sheet_;
+  double type_;
+  Image image_;
+  StripPainter strips_;
+  std::unique_lock<std::recursive_mutex> lock_;  // of the drawing library, as long as there is a scene
+  std::unique_ptr<Scene> scene_;
 };
 
 }  // namespace gaussdrift::render

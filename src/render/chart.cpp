@@ -30,15 +30,6 @@ double on_axis(const ChartAxis& axis, double value) {
   return value;
 }
 
-/// "1000" for 3, "0.01" for -2, "1e-7" as 10 to the -7 beyond three digits.
-std::string power_of_ten(int exponent) {
-  if (exponent >= -2 && exponent <= 3) return number(std::pow(10., exponent), 5);
-  static const std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "10⁻" : "10";
-  for (const char digit : std::to_string(std::abs(exponent))) text += raised[static_cast<std::size_t>(digit - '0')];
-  return text;
-}
-
 Axis logarithmic_axis(const std::string& name, double min, double max, int intervals) {
   Axis axis(name, min, max, intervals);
   axis.ticks = {};

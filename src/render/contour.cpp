@@ -40,7 +40,7 @@ std::vector<Polyline> outline(const HeightField& field, const Rectangle& window,
   std::vector<Polyline> lines(2);
   const auto add = [&](double x, double low, double high) {
     for (const auto& [line, position] : {std::pair{&lines[0], low}, {&lines[1], high}}) {
-      const double at = range.min + position * (range.max - range.min);
+      const double at = range.value(position);
       line->points.push_back({panel.x + panel.width * (x - window.x) / window.width,
                               panel.y + panel.height * std::clamp(height.position(at), 0., 1.)});
     }
@@ -90,7 +90,7 @@ Curves curves(const std::vector<ContourLine>& contours, const Rectangle& window,
   Curves drawn;
   const auto seen = [&](double y) { return from_below ? 1 - y : y; };
   for (const auto& [level, points] : contours) {
-    const Colour colour = viridis(level);
+    const Colour colour = range.map(level);
     Polyline line{{}, colour};
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Point& p : points) {
@@ -100,7 +100,7 @@ Curves curves(const std::vector<ContourLine>& contours, const Rectangle& window,
       high = std::max(high, p.x);
     }
     drawn.from_above.push_back(std::move(line));
-    const double z = side.y + side.height * upwards.position(range.min + level * (range.max - range.min));
+    const double z = side.y + side.height * upwards.position(range.value(level));
     const auto x = [&](double at) { return side.x + side.width * (at - window.x) / window.width; };
     drawn.from_side.push_back({{{x(low), z}, {x(high), z}}, colour});
   }
@@ -120,10 +120,11 @@ void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, co
   std::vector<double> positions;
   for (const double level : levels) positions.push_back(range.position(level));
   const auto contours = contour_lines(field, positions);
-  const Rectangle window = window_around(contours, field);
+  const Rectangle window = options.whole ? Rectangle{0, 0, field.width, field.depth} : window_around(contours, field);
 
-  const double margin = 0.05 * (range.max - range.min);
-  const Axis upwards{options.quantity, range.min - margin, range.max + margin, 6};
+  ColourRange with_margins = range;
+  with_margins.min = range.value(-0.05), with_margins.max = range.value(1.05);
+  const Axis upwards = value_axis(options.quantity, with_margins, 6);
   // From below x still runs to the right, so y runs downwards.
   Axis across = x_axis(field, window, above.width, scale, options),
        aside = y_axis(field, window, above.height, scale, options);
@@ -148,7 +149,7 @@ void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, co
     canvas.text({above.x + above.width / 2, above.y + above.height / 2}, "no contour lines",
                 {.size = scale.font(18), .colour = grey});
   draw_colour_bar(canvas, {canvas.width() / 2 - scale(310), scale(58), scale(620), scale(22)}, false,
-                  {options.quantity, range.min, range.max, 10}, levels);
+                  value_axis(options.quantity, range, 10), levels, range.map);
   draw_heading(canvas, options, field);
 }
 
@@ -164,7 +165,7 @@ Style contour_style() {
   return {.about = {.name = "contour",
                     .meaning = "contour lines from above, and the same lines from the side",
                     .most_dimension = 2},
-          .cost = {.seconds = 0.117, .a_point = 2.5e-8},
+          .cost = {.a_point = 2.5e-8},
 
           .painting = contour};
 }

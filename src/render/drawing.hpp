@@ -1,5 +1,4 @@
-// What VTK and OSMesa do for pictures: a sheet with a scene behind it, texts, lines and surfaces of equal values. They are
-// in a shared library (vtk/), which is loaded for the first picture (drawing_library.hpp). Only types of this file and of the
+// What VTK and OSMesa do for pictures: scenes, texts, lines and surfaces of equal values. They are in a shared library (vtk/), which is loaded for the first picture (drawing_library.hpp). Only types of this file and of the
 // standard library pass between the two, and errors are those of the standard library.
 #pragma once
 
@@ -12,12 +11,9 @@
 #include <vector>
 
 #include "render/colour.hpp"
+#include "render/image.hpp"
 
 namespace gaussdrift::render {
-
-struct Point {
-  double x = 0, y = 0;
-};
 
 using Place = std::array<double, 3>;  // in a scene
 
@@ -30,12 +26,6 @@ struct TextStyle {
   Across across = Across::centre;
   Along along = Along::centre;
   bool upwards = false;  // written from below to above
-  Colour colour = ink;
-};
-
-/// A thick line: the points of its two sides, equally many.
-struct Strip {
-  std::vector<Point> left, right;
   Colour colour = ink;
 };
 
@@ -61,45 +51,29 @@ struct Field {
   const float* values = nullptr;
 };
 
-struct Image {
-  int width = 0, height = 0;
-  std::vector<Colour> pixels;  // from the lower left, x fastest
-
-  const Colour& at(int x, int y) const {
-    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
-};
-
-/// A white picture in pixels, the origin at the lower left. Later things cover earlier ones, and all cover the scene.
-class Sheet {
+/// What is seen in perspective. Places are in a box of one's own.
+class Scene {
  public:
-  virtual ~Sheet() = default;
+  virtual ~Scene() = default;
 
-  virtual void strips(const std::vector<Strip>& list) = 0;
-  /// columns x rows colours from the lower left, x fastest; one pixel each.
-  virtual void image(int left, int bottom, int columns, int rows, const std::vector<Colour>& colours) = 0;
-  /// One line of well-formed UTF-8.
-  virtual void text(Point at, const std::string& line, const TextStyle& style) = 0;
-
-  /// The scene is seen from `eye`, under an angle of 20 degrees from below to above, z upwards.
+  /// From `eye`, under an angle of 20 degrees from below to above, z upwards.
   virtual void look(const Place& eye, const Place& towards) = 0;
   /// Moves what is seen, in halves of the picture.
-  virtual void shift_scene(Point by) = 0;
-  /// Where a place of the scene is in the picture.
+  virtual void shift(Point by) = 0;
+  /// Where a place is in the picture.
   virtual Point pixel(const Place& place) const = 0;
   /// Distance from the plane of the eye, growing away from it.
   virtual double depth(const Place& place) const = 0;
-  virtual void scene_lines(const std::vector<std::vector<Place>>& lines, const Colour& colour, double width) = 0;
+  virtual void lines(const std::vector<std::vector<Place>>& lines, const Colour& colour, double width) = 0;
   /// Lines as tubes, which do not flicker through a surface.
-  virtual void scene_tubes(const std::vector<std::vector<Place>>& lines, const Colour& colour, double radius) = 0;
-  virtual void scene_mesh(const Mesh& mesh, const Material& material) = 0;
-  /// After all of the scene.
-  virtual void light_scene() = 0;
+  virtual void tubes(const std::vector<std::vector<Place>>& lines, const Colour& colour, double radius) = 0;
+  virtual void mesh(const Mesh& mesh, const Material& material) = 0;
 
-  /// The finished picture as a PNG file in memory. Throws std::runtime_error.
-  virtual std::string png() = 0;
+  /// All of it, over white, with its opacity. After that nothing is added. Throws std::runtime_error.
+  virtual Image image() = 0;
 };
 
+/// One thread at a time (drawing_library.hpp).
 class Drawing {
  public:
   virtual ~Drawing() = default;
@@ -111,8 +85,9 @@ class Drawing {
   /// Before the process ends, and after that nothing.
   virtual void finish() = 0;
 
-  /// One at a time.
-  virtual std::unique_ptr<Sheet> sheet(int width, int height) = 0;
+  virtual std::unique_ptr<Scene> scene(int width, int height) = 0;
+  /// One line of well-formed UTF-8, put where its point is.
+  virtual Mask text(const std::string& line, const TextStyle& style) const = 0;
   /// In pixels.
   virtual double text_width(const std::string& line, int size) const = 0;
   /// Whether the font has Greek letters, superscripts and the true minus sign.

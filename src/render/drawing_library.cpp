@@ -47,6 +47,11 @@ struct Loaded {
 
 }  // namespace
 
+std::recursive_mutex& drawing_mutex() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 const std::string& missing_drawing() { return Loaded::only().missing; }
 
 Drawing& drawing() {

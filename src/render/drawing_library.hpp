@@ -1,6 +1,7 @@
 // The library that draws: loaded for the first picture, until the process ends.
 #pragma once
 
+#include <mutex>
 #include <string>
 
 #include "render/drawing.hpp"
@@ -11,7 +12,11 @@ namespace gaussdrift::render {
 /// is too short for it.
 const std::string& missing_drawing();
 
-/// Throws Error(ExitCode::internal) where pictures cannot be drawn.
+/// Throws Error(ExitCode::internal) where pictures cannot be drawn. Whoever calls what it has, or has one of its scenes,
+/// holds drawing_mutex().
 Drawing& drawing();
+
+/// VTK and GLEW share their state between all windows. The same thread may lock it again.
+std::recursive_mutex& drawing_mutex();
 
 }  // namespace gaussdrift::render

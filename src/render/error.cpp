@@ -21,6 +21,7 @@ Style error_style() {
           .range = symmetric_range,
           .cost = {.a_point = 0.8e-8, .a_point_in_space = 1.4e-8},
           .in_panels = true,
+          .takes_velocity = true,
           .painting = error};
 }
 

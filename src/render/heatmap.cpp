@@ -14,9 +14,8 @@ Rectangle draw_map(Canvas& canvas, const HeightField& field, const ColourRange& 
   const int columns = static_cast<int>(panel.width), rows = static_cast<int>(panel.height);
 
   const HeightField pixels = resample(field, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows));
-  std::vector<Colour> colours(pixels.value.size());
-  std::transform(pixels.value.begin(), pixels.value.end(), colours.begin(), range.map);
-  canvas.image(static_cast<int>(panel.x), static_cast<int>(panel.y), columns, rows, colours);
+  canvas.image(static_cast<int>(panel.x), static_cast<int>(panel.y), columns, rows,
+               colours_of(pixels.value, range.map));
 
   const Rectangle whole{0, 0, field.width, field.depth};
   draw_axes(canvas, panel, x_axis(field, whole, panel.width, scale, options),
@@ -24,22 +23,22 @@ Rectangle draw_map(Canvas& canvas, const HeightField& field, const ColourRange& 
   const double bar_height = std::clamp(panel.height, room.height / 2, room.height) - scale(50);
   const Rectangle bar{panel.right() + scale(44), panel.y + (panel.height - bar_height - scale(50)) / 2, scale(26),
                       bar_height};
-  draw_colour_bar(canvas, bar, true, {options.quantity, range.min, range.max, 6}, {}, range.map);
+  draw_colour_bar(canvas, bar, true, value_axis(options.quantity, range, 6), {}, range.map);
   draw_heading(canvas, options, field);
   return panel;
 }
 
 Painting heatmap(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
-  return [field = make_height_field(density, range, most_plane_points), range, options](Canvas& canvas) {
-    draw_map(canvas, field, range, options);
-  };
+  return [field = make_height_field(density, range, most_plane_points),
+          velocity = velocity_over(density, options.looks.velocity), range,
+          options](Canvas& canvas) { velocity(canvas, draw_map(canvas, field, range, options)); };
 }
 
 Style heatmap_style() {
   return {.about = {.name = "heatmap", .meaning = "colours from above", .most_dimension = 2},
-          .cost = {.seconds = 0.133, .a_point = 0.7e-8},
-
+          .cost = {.a_point = 0.7e-8},
           .in_panels = true,
+          .takes_velocity = true,
           .painting = heatmap};
 }
 

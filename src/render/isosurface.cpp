@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <vector>
 
@@ -51,6 +52,7 @@ Solid solid_of(const DensityGrid& density, double longest) {
 class Surfaces {
  public:
   void add(const Field& field, const Level& level, const Colour& colour) {
+    const std::lock_guard lock(drawing_mutex());
     const Mesh surface = drawing().level_surface(field, level.value);
     const auto first = static_cast<std::int64_t>(mesh_.points.size());
     mesh_.points.insert(mesh_.points.end(), surface.points.begin(), surface.points.end());
@@ -62,7 +64,7 @@ class Surfaces {
 
   bool empty() const { return mesh_.triangles.empty(); }
 
-  void show(Sheet& scene, const View& view, bool translucent) {
+  void show(Scene& scene, const View& view, bool translucent) {
     const auto& triangles = mesh_.triangles;
     std::vector<float> depth(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -79,11 +81,11 @@ class Surfaces {
     sorted.reserve(order.size());
     for (const std::size_t t : order) sorted.push_back(triangles[t]);
     mesh_.triangles = std::move(sorted);
-    scene.scene_mesh(mesh_, {.ambient = 0.45,
-                             .diffuse = translucent ? 0.75 : 0.6,
-                             .specular = 0.15,
-                             .specular_power = 25,
-                             .translucent = translucent});
+    scene.mesh(mesh_, {.ambient = 0.45,
+                       .diffuse = translucent ? 0.75 : 0.6,
+                       .specular = 0.15,
+                       .specular_power = 25,
+                       .translucent = translucent});
   }
 
  private:
@@ -125,27 +127,40 @@ void draw(Canvas& canvas, const DensityGrid& full, const ColourRange& range, con
 
   const double right = scale(160) + Canvas::text_width(y.title(), scale.font(21));
   const View view(canvas, box,
-                  {scale(128), scale(96), canvas.width() - scale(128) - right, canvas.height() - scale(96 + 130)});
-  Sheet& scene = canvas.scene();
-  add_walls(scene, box, x, y, z, true);
+                  {scale(128), scale(96), canvas.width() - scale(128) - right, canvas.height() - scale(96 + 130)},
+                  options.looks.view);
+  Scene& scene = canvas.scene();
+  add_walls(scene, view, box, x, y, z, true);
   const Solid values = solid_of(density, longest);
+  const ValueFacts facts = facts_of(full.rho);
   Surfaces solid, clear;
   std::vector<double> marks;
-  for (const Level& level : levels_of(range)) {
-    (level.opacity < 1 ? clear : solid).add(values.field, level, range.colour(level.value));
-    marks.push_back(level.value);
-  }
+  const auto add = [&](const ColourRange& of) {
+    marks.clear();
+    for (const Level& level : levels_of(of)) {
+      (level.opacity < 1 ? clear : solid).add(values.field, level, range.colour(level.value));
+      marks.push_back(level.value);
+    }
+    return !solid.empty() || !clear.empty();
+  };
+  ColourRange own = range;
+  own.min = std::min(0., facts.minimum), own.max = std::max(0., facts.maximum);
+  const bool by_range = add(range);
+  const bool by_own = !by_range && own.min < own.max && add(own);
   if (!solid.empty()) solid.show(scene, view, false);
   if (!clear.empty()) clear.show(scene, view, true);
-  scene.light_scene();
+  canvas.show_scene();
 
   draw_edges(canvas, view, box, x, y, z);
-  if (solid.empty() && clear.empty())
-    canvas.text({(canvas.width() - right + scale(128)) / 2, scale(400)}, "no surface: the density is below all levels",
-                {.size = scale.font(18), .colour = grey});
-  draw_colour_bar(canvas, {canvas.width() - scale(134), scale(250), scale(26), scale(460)}, true,
-                  {options.quantity, range.min, range.max, 6}, marks, range.map);
-  draw_heading(canvas, options, facts_of(full.rho));
+  if (by_own)
+    canvas.text({(canvas.width() - right + scale(128)) / 2, scale(64)},
+                "levels of this picture alone: 15, 45 and 75 % of its largest value",
+                {.size = scale.font(17), .colour = {105, 105, 105}});
+  if (!by_range && !by_own)
+    canvas.text({(canvas.width() - right + scale(128)) / 2, scale(400)},
+                "no surface: the density is the same everywhere", {.size = scale.font(18), .colour = grey});
+  draw_colour_bar(canvas, bar_beside_scene(canvas), true, value_axis(options.quantity, range, 6), marks, range.map);
+  draw_heading(canvas, options, facts);
 }
 
 Painting isosurface(const DensityGrid& density, const ColourRange& range, const PictureOptions& options) {
@@ -157,9 +172,11 @@ Painting isosurface(const DensityGrid& density, const ColourRange& range, const 
 
 Style isosurface_style() {
   return {.about = {.name = "isosurface",
-                    .meaning = "surfaces of equal density in perspective, at 15, 45 and 75 % of the range",
+                    .meaning = "surfaces of equal density in perspective, at 15, 45 and 75 % of the range; where none "
+                               "would be seen, of "
+                               "the largest value of the picture",
                     .least_dimension = 3},
-          .cost = {.seconds = 0.17, .a_point_in_space = 3e-8},
+          .cost = {.seconds = 0.09, .a_point_in_space = 3e-8},
 
           .painting = isosurface};
 }

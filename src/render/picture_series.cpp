@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -13,6 +14,7 @@
 #include "base/seam.hpp"
 #include "base/state_bytes.hpp"
 #include "gaussdrift/error.hpp"
+#include "render/beside.hpp"
 #include "render/height_field.hpp"
 #include "render/kept_densities.hpp"
 #include "render/styles.hpp"
@@ -35,20 +37,21 @@ struct Drawn {
   Style style;
   std::optional<RunningRange> range;  // none before the first frame
 
-  void include(std::uint64_t frame, double low, double high) {
+  void include(std::uint64_t frame, const PicturesSpec& looks, double low, double high) {
     if (!range) {
-      const auto [min, max] = style.range(low, high);
+      const auto [min, max] = range_of(style, looks, low, high);
       range = RunningRange{frame, min, max, low, high};
     }
     range->lowest = std::min(range->lowest, low), range->highest = std::max(range->highest, high);
   }
 
-  /// If values have left the range by more than a hundredth.
-  std::optional<std::pair<double, double>> wider() const {
-    if (!range) return std::nullopt;
+  /// If values have left the range by more than a hundredth; by the logarithm small ones may.
+  std::optional<std::pair<double, double>> wider(const PicturesSpec& looks) const {
+    if (!range || looks.range || looks.per_frame) return std::nullopt;
     const double margin = 0.01 * (range->max - range->min);
-    if (range->lowest >= range->min - margin && range->highest <= range->max + margin) return std::nullopt;
-    return style.range(range->lowest, range->highest);
+    const bool low = !looks.log && range->lowest < range->min - margin;
+    if (!low && range->highest <= range->max + margin) return std::nullopt;
+    return range_of(style, looks, range->lowest, range->highest);
   }
 };
 
@@ -60,12 +63,16 @@ class PictureSeries : public Observer {
         warn_(std::move(options.warn)),
         date_(std::move(options.date)),
         tracer_(std::move(options.tracer)),
-        // Of a named density none are written for pictures alone.
-        kept_(folder, options.most_bytes, options.run_writes_densities || !tracer_.empty(), tracer_) {
+        looks_(std::move(options.looks)),
+        beside_wanted_(options.beside),
+        // Of a named density, and of fields, none are written for pictures alone.
+        kept_(folder, options.most_bytes, options.run_writes_densities || !array().empty(), array()) {
     for (const PictureStyle& about : styles)
-      if (tracer_.empty() || !about.shows_error) styles_.push_back({find_style(about.name), {}});
+      if (array().empty() || !about.shows_error) styles_.push_back({find_style(about.name), {}});
     options_.title = std::move(title);
     kept_.lattice.sphere = options.sphere;
+    options_.looks = looks_;
+    options_.width = looks_.size[0], options_.height = looks_.size[1];
   }
   std::string name() const override { return tracer_.empty() ? "pictures" : "pictures of " + tracer_; }
   bool needs_particles(double /*time*/) const override { return false; }
@@ -73,7 +80,7 @@ class PictureSeries : public Observer {
   void frame(const Frame& frame) override {
     times_.resize(static_cast<std::size_t>(frame.index));
     times_.push_back(frame.time);
-    if (!tracer_.empty()) return show_tracer(frame);
+    if (!array().empty()) return show_array(frame);
     show(frame, *frame.density, {frame.numbers.minimum, frame.numbers.maximum}, false);
     if (!frame.exact ||
         std::none_of(styles_.begin(), styles_.end(), [](const Drawn& drawn) { return drawn.style.about.shows_error; }))
@@ -84,6 +91,7 @@ class PictureSeries : public Observer {
   }
 
   std::string state() const override {
+    beside_.wait();  // a run that goes on from here does not draw it again
     base::StateBytes bytes;
     Lattice lattice = kept_.lattice;
     Ranges ranges;
@@ -106,6 +114,7 @@ class PictureSeries : public Observer {
   }
 
   void finish() override {
+    beside_.wait();
     draw_again(false);
     draw_again(true);
     kept_.remove_files(times_.size());
@@ -126,32 +135,41 @@ class PictureSeries : public Observer {
       throw std::out_of_range("its grid is wrong");
   }
 
-  static DensityGrid error_of(const Frame& frame) {
+  DensityGrid error_of(const Frame& frame) const {
     DensityGrid error{.lattice = frame.density->lattice, .rho = frame.density->rho};
+    if (!looks_.velocity.empty()) error.fields = frame.density->fields;
     for (std::size_t i = 0; i < error.rho.size(); ++i) error.rho[i] -= (*frame.exact)[i];
     return error;
   }
 
-  void show_tracer(const Frame& frame) {
-    DensityGrid density{.lattice = frame.density->lattice, .rho = {}};
-    for (const FieldOnGrid& field : frame.density->fields)
-      if (field.name == tracer_)
-        density.rho = field.values;
-      else
-        density.fields.push_back(field);
-    const auto [low, high] = std::minmax_element(density.rho.begin(), density.rho.end());
-    show(frame, density, {*low, *high}, false);
+  /// What is drawn in place of the density: a named one or a field; empty: nothing.
+  const std::string& array() const { return tracer_.empty() ? looks_.field : tracer_; }
+
+  void show_array(const Frame& frame) {
+    DensityGrid density = *frame.density;
+    show_field(density, array());
+    const ValueFacts facts = facts_of(density.rho);
+    show(frame, density, {facts.minimum, facts.maximum}, false);
   }
 
   /// By the styles that show the density, or those that show its error.
   void show(const Frame& frame, const DensityGrid& density, std::pair<double, double> extremes, bool error) {
     const auto index = static_cast<std::size_t>(frame.index);
     kept_.keep(error, index, frame.time, density);
+    std::vector<std::function<void(const DensityGrid&)>> pictures;
     for (Drawn& drawn : styles_) {
       if (drawn.style.about.shows_error != error) continue;
-      drawn.include(index, extremes.first, extremes.second);
-      draw_one(drawn.style, {drawn.range->min, drawn.range->max}, index, density);
+      drawn.include(index, looks_, extremes.first, extremes.second);
+      pictures.push_back(picture(drawn.style, {drawn.range->min, drawn.range->max}, index));
     }
+    if (pictures.empty()) return;
+    if (!beside_wanted_) {
+      for (const auto& draw_it : pictures) draw_it(density);
+      return;
+    }
+    beside_.begin([copy = density, pictures = std::move(pictures)] {
+      for (const auto& draw_it : pictures) draw_it(copy);
+    });
   }
 
   using Wide = std::vector<std::pair<const Drawn*, std::pair<double, double>>>;
@@ -160,7 +178,8 @@ class PictureSeries : public Observer {
   std::vector<FieldOnGrid> fields_needed(const Wide& wide, std::size_t index) {
     std::vector<FieldOnGrid> fields;
     for (const auto& [drawn, range] : wide) {
-      const std::string_view needed = drawn->style.about.needs_field;
+      const bool over = drawn->style.takes_velocity && !looks_.velocity.empty();
+      const std::string_view needed = over ? "velocity" : drawn->style.about.needs_field;
       const bool there = needed.empty() || std::any_of(fields.begin(), fields.end(),
                                                        [&](const FieldOnGrid& field) { return field.name == needed; });
       if (!there) fields.push_back(kept_.field(needed, index, times_[index]));
@@ -172,7 +191,7 @@ class PictureSeries : public Observer {
   void draw_again(bool error) {
     Wide wide;
     for (const Drawn& drawn : styles_)
-      if (const auto range = drawn.wider(); range && drawn.style.about.shows_error == error)
+      if (const auto range = drawn.wider(looks_); range && drawn.style.about.shows_error == error)
         wide.emplace_back(&drawn, *range);
     std::size_t first = times_.size(), missing = 0;
     for (const auto& [drawn, range] : wide) first = std::min<std::size_t>(first, drawn->range->first);
@@ -187,7 +206,7 @@ class PictureSeries : public Observer {
         continue;
       }
       for (const auto& [drawn, range] : wide)
-        if (index >= drawn->range->first) draw_one(drawn->style, range, index, density);
+        if (index >= drawn->range->first) picture(drawn->style, range, index)(density);
     }
     if (missing > 0 && warn_)
       warn_(
@@ -195,24 +214,35 @@ class PictureSeries : public Observer {
                       error ? "error" : "density", missing, missing == 1 ? "" : "s", why));
   }
 
-  void draw_one(const Style& style, std::pair<double, double> range, std::size_t index, const DensityGrid& density) {
-    base::seam();
-    options_.time = times_[index];
-    if (date_) options_.date = date_(times_[index]);
-    options_.quantity = tracer_.empty() ? std::string(style.quantity) : tracer_;
-    std::tie(options_.range_min, options_.range_max) = range;
-    draw(style, density, options_,
-         folder_ / fmt::format("{}{}{}_{:04}.png", tracer_, tracer_.empty() ? "" : "_", style.about.name, index));
+  /// One that is to be drawn. It knows all that it needs, so that another thread may draw it.
+  std::function<void(const DensityGrid&)> picture(const Style& style, std::pair<double, double> range,
+                                                  std::size_t index) {
+    PictureOptions options = options_;
+    options.time = times_[index];
+    if (date_) options.date = date_(times_[index]);
+    options.quantity = array().empty() ? std::string(style.quantity) : array();
+    std::tie(options.range_min, options.range_max) = looks_.range ? std::pair((*looks_.range)[0], (*looks_.range)[1])
+                                                     : looks_.per_frame ? std::pair(0., 0.)
+                                                                        : range;
+    const fs::path file =
+        folder_ / fmt::format("{}{}{}_{:04}.png", array(), array().empty() ? "" : "_", style.about.name, index);
+    return [style, options = std::move(options), file](const DensityGrid& density) {
+      base::seam();
+      draw(style, density, options, file);
+    };
   }
 
   fs::path folder_;
   std::function<void(const std::string&)> warn_;
   std::function<std::string(double t)> date_;
   std::string tracer_;  // empty: the density
+  PicturesSpec looks_;
+  bool beside_wanted_;
   std::vector<Drawn> styles_;
   PictureOptions options_;
   std::vector<double> times_;  // of all outputs so far, those of earlier processes too
   KeptDensities kept_;
+  mutable Beside beside_;  // what is drawn at the moment
 };
 
 }  // namespace

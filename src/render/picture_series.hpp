@@ -21,11 +21,13 @@ struct SeriesOptions {
   std::function<std::string(double t)> date{};     // of an output, shown beside its time; empty: there is none
   std::string tracer{};  // the pictures show this named density, not that of all: images/A_surface_0000.png, ...
   double sphere = 0;     // of the lattice of every density
+  PicturesSpec looks{};  // a zoom or a velocity where all styles can show them
+  bool beside = false;   // drawn by another thread while the run goes on, of copies of the densities
   std::size_t most_bytes = most_kept_bytes;
   bool run_writes_densities = false;  // in its density files
 };
 
-/// images/surface_0000.png, ... The range is that of the first frame, with round ends. If a later frame leaves it by
+/// images/surface_0000.png, ... The range is the given one, or that of the first frame, with round ends. If a later frame leaves that by
 /// more than a hundredth, all pictures are drawn again at the end, with the wider range (in 3D from every second,
 /// third, ... point where an axis has more than 128). Errors have a range of their own, as far below 0 as above;
 /// styles that show them need frames with an exact density. What is drawn again and is no longer in memory, because there

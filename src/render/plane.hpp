@@ -1,6 +1,10 @@
 // The layout of pictures that look straight at a density on a plane.
 #pragma once
 
+#include <functional>
+#include <string_view>
+#include <vector>
+
 #include "render/axes.hpp"
 #include "render/styles.hpp"
 
@@ -22,7 +26,12 @@ Rectangle panel_in(const Rectangle& room, const HeightField& field);
 /// Draws colours from above, with axes, colour bar and heading; returns where the plane lies on the canvas.
 Rectangle draw_map(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options);
 
-/// Colours from above.
+/// The velocity over a map on a canvas: "arrows", "streamlines", or nothing for an empty name. The density must have it among
+/// its fields. Throws Error(ExitCode::internal) where it has not.
+using VelocityPainter = std::function<void(Canvas&, const Rectangle& map)>;
+VelocityPainter velocity_over(const DensityGrid& density, std::string_view how);
+
+/// Colours from above, with the velocity over them where options.looks says so.
 Painting heatmap(const DensityGrid& density, const ColourRange& range, const PictureOptions& options);
 
 }  // namespace gaussdrift::render

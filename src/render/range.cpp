@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/picture.hpp"
+#include "render/styles.hpp"
 
 namespace gaussdrift::render {
 
@@ -49,6 +51,22 @@ std::pair<double, double> rounded_range(double minimum, double maximum) {
   if (low < 0 && minimum > -step && maximum > 0) low = -rounded_up(-minimum, -low);
   if (high > 0 && maximum < step && minimum < 0) high = rounded_up(maximum, high);
   return {low, high};
+}
+
+std::pair<double, double> logarithmic_range(double minimum, double maximum) {
+  if (!(maximum > 0) || !std::isfinite(maximum)) return {0.1, 1};
+  constexpr double most = 1e6;
+  const double high = rounded_up(maximum, std::numeric_limits<double>::max());
+  // Rounded down as the inverse is rounded up.
+  double low = minimum > high / most ? 1 / rounded_up(1 / minimum, std::numeric_limits<double>::max()) : high / most;
+  if (low >= high) low = high / 10;
+  return {low, high};
+}
+
+std::pair<double, double> range_of(const Style& style, const PicturesSpec& looks, double minimum, double maximum) {
+  if (looks.log) return logarithmic_range(minimum, maximum);
+  const bool has_middle = !looks.colour_map.empty() && find_colour_map(looks.colour_map).map == blue_white_red;
+  return has_middle ? symmetric_range(minimum, maximum) : style.range(minimum, maximum);
 }
 
 std::pair<double, double> symmetric_range(double minimum, double maximum) {

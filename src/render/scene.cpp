@@ -6,8 +6,10 @@
 
 namespace gaussdrift::render {
 
-View::View(Canvas& canvas, const Place& box, const Rectangle& room) : canvas_(canvas) {
-  constexpr double azimuth = -62 * std::numbers::pi / 180, elevation = 31 * std::numbers::pi / 180;
+View::View(Canvas& canvas, const Place& box, const Rectangle& room, const std::array<double, 2>& angles)
+    : canvas_(canvas) {
+  const double azimuth = angles[0] * std::numbers::pi / 180, elevation = angles[1] * std::numbers::pi / 180;
+  sees_end_ = {std::cos(azimuth) > 0, std::sin(azimuth) > 0};
   const Place centre{box[0] / 2, box[1] / 2, box[2] / 2};
   double distance = 4;
   for (int round = 0; round < 8; ++round) {
@@ -19,8 +21,8 @@ View::View(Canvas& canvas, const Place& box, const Rectangle& room) : canvas_(ca
     distance *= std::max(seen.width / room.width, seen.height / room.height);
   }
   const Rectangle seen = extent(box);
-  canvas.scene().shift_scene({2 * (seen.x + seen.width / 2 - room.x - room.width / 2) / canvas.width(),
-                              2 * (seen.y + seen.height / 2 - room.y - room.height / 2) / canvas.height()});
+  canvas.scene().shift({2 * (seen.x + seen.width / 2 - room.x - room.width / 2) / canvas.width(),
+                        2 * (seen.y + seen.height / 2 - room.y - room.height / 2) / canvas.height()});
 }
 
 Point View::pixel(const Place& place) const { return canvas_.scene().pixel(place); }
@@ -37,34 +39,38 @@ Rectangle View::extent(const Place& box) const {
   return {low.x, low.y, high.x - low.x, high.y - low.y};
 }
 
-void add_walls(Sheet& scene, const Place& box, const Axis& x, const Axis& y, const Axis& z, bool floor) {
+void add_walls(Scene& scene, const View& view, const Place& box, const Axis& x, const Axis& y, const Axis& z,
+               bool floor) {
   const auto [w, d, height] = box;
-  std::vector<std::vector<Place>> grid, walls{{{0, 0, 0},
-                                               {0, 0, height},
-                                               {0, d, height},
-                                               {w, d, height},
-                                               {w, d, 0},
-                                               {0, d, 0},
-                                               {0, 0, 0},
-                                               {w, 0, 0},
-                                               {w, d, 0}},
-                                              {{0, d, 0}, {0, d, height}}};
+  // Behind, as seen; and in front.
+  const double back_x = view.sees_end(0) ? 0 : w, front_x = w - back_x;
+  const double back_y = view.sees_end(1) ? 0 : d, front_y = d - back_y;
+  std::vector<std::vector<Place>> grid, walls{{{back_x, front_y, 0},
+                                               {back_x, front_y, height},
+                                               {back_x, back_y, height},
+                                               {front_x, back_y, height},
+                                               {front_x, back_y, 0},
+                                               {back_x, back_y, 0},
+                                               {back_x, front_y, 0},
+                                               {front_x, front_y, 0},
+                                               {front_x, back_y, 0}},
+                                              {{back_x, back_y, 0}, {back_x, back_y, height}}};
   for (const Tick& t : x.ticks.list) {
     const double at = x.position(t.at) * w;
-    grid.push_back({{at, d, 0}, {at, d, height}});
+    grid.push_back({{at, back_y, 0}, {at, back_y, height}});
     if (floor) grid.push_back({{at, 0, 0}, {at, d, 0}});
   }
   for (const Tick& t : y.ticks.list) {
     const double at = y.position(t.at) * d;
-    grid.push_back({{0, at, 0}, {0, at, height}});
+    grid.push_back({{back_x, at, 0}, {back_x, at, height}});
     if (floor) grid.push_back({{0, at, 0}, {w, at, 0}});
   }
   for (const Tick& t : z.ticks.list) {
     const double level = z.position(t.at) * height;
-    grid.push_back({{0, 0, level}, {0, d, level}, {w, d, level}});
+    grid.push_back({{back_x, front_y, level}, {back_x, back_y, level}, {front_x, back_y, level}});
   }
-  scene.scene_lines(grid, pale_grey, 1);
-  scene.scene_lines(walls, grey, 1);
+  scene.lines(grid, pale_grey, 1);
+  scene.lines(walls, grey, 1);
 }
 
 void draw_edge(Canvas& canvas, const View& view, const Axis& axis, const Place& from, const Place& to,
@@ -111,11 +117,25 @@ void draw_edge(Canvas& canvas, const View& view, const Axis& axis, const Place& 
   canvas.text(centre(at, direction, beyond, width, title_size), axis.title(), {.size = title_size, .upwards = upwards});
 }
 
+Rectangle bar_beside_scene(const Canvas& canvas) {
+  const Scale scale(canvas);
+  const double heading_and_title = scale(96 + 60),
+               height = std::min(scale(460), canvas.height() - 2 * heading_and_title);
+  return {canvas.width() - scale(134), (canvas.height() - height) / 2, scale(26), height};
+}
+
 void draw_edges(Canvas& canvas, const View& view, const Place& box, const Axis& x, const Axis& y, const Axis& z) {
   const auto [w, d, height] = box;
-  draw_edge(canvas, view, x, {0, 0, 0}, {w, 0, 0}, {0, -1, 0});
-  draw_edge(canvas, view, y, {w, 0, 0}, {w, d, 0}, {1, 0, 0});
-  draw_edge(canvas, view, z, {0, 0, 0}, {0, 0, height}, {-1, 0, 0});
+  const double near_x = view.sees_end(0) ? w : 0, near_y = view.sees_end(1) ? d : 0;
+  const double out_x = view.sees_end(0) ? 1 : -1, out_y = view.sees_end(1) ? 1 : -1;
+  draw_edge(canvas, view, x, {0, near_y, 0}, {w, near_y, 0}, {0, out_y, 0});
+  draw_edge(canvas, view, y, {near_x, 0, 0}, {near_x, d, 0}, {out_x, 0, 0});
+  // Of the two edges that are seen beside what is in the box, the left one.
+  const Place one{w - near_x, near_y, 0}, other{near_x, d - near_y, 0};
+  const bool first = view.pixel(one).x < view.pixel(other).x;
+  const auto [at_x, at_y, ground] = first ? one : other;
+  draw_edge(canvas, view, z, {at_x, at_y, ground}, {at_x, at_y, height},
+            first ? Place{-out_x, 0, 0} : Place{0, -out_y, 0});
 }
 
 }  // namespace gaussdrift::render

@@ -6,6 +6,9 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
+#include <mutex>
+#include <vector>
 
 #include "gaussdrift/error.hpp"
 
@@ -18,6 +21,12 @@ constexpr std::size_t room_for_drawing = std::size_t{720} << 20;
 constexpr std::size_t next_to_nothing = std::size_t{64} << 20;  // the largest piece that the libraries ask for at once
 
 constexpr std::array signals{SIGSEGV, SIGBUS, SIGABRT};  // LLVM aborts
+
+struct {
+  std::mutex mutex;
+  int wanted_by = 0;
+  std::vector<struct sigaction> before;
+} handlers;
 
 /// Async-signal-safe.
 bool is_there(std::size_t bytes) {
@@ -53,16 +62,22 @@ void check_room_for_drawing() {
                             room_for_drawing >> 20));
 }
 
+// Pictures may be drawn by several threads: the first one changes what signals do, and the last one changes it back.
 WhileDrawing::WhileDrawing() {
   errno = 0;  // what it says is of this drawing
+  const std::lock_guard lock(handlers.mutex);
+  if (handlers.wanted_by++ > 0) return;
   struct sigaction action {};
   action.sa_handler = end_in_order;
   sigemptyset(&action.sa_mask);
-  for (const int signal : signals) sigaction(signal, &action, &before_.emplace_back());
+  for (const int signal : signals) sigaction(signal, &action, &handlers.before.emplace_back());
 }
 
 WhileDrawing::~WhileDrawing() {
-  for (std::size_t k = 0; k < before_.size(); ++k) sigaction(signals[k], &before_[k], nullptr);
+  const std::lock_guard lock(handlers.mutex);
+  if (--handlers.wanted_by > 0) return;
+  for (std::size_t k = 0; k < handlers.before.size(); ++k) sigaction(signals[k], &handlers.before[k], nullptr);
+  handlers.before.clear();
 }
 
 }  // namespace gaussdrift::render

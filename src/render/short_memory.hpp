@@ -2,10 +2,6 @@
 // they start, and a crash for want of memory ends the program in order.
 #pragma once
 
-#include <csignal>
-#include <cstddef>
-#include <vector>
-
 namespace gaussdrift::render {
 
 /// Throws Error (exit code 3) unless the process may have as much address space more as the libraries take.
@@ -19,9 +15,6 @@ class WhileDrawing {
   ~WhileDrawing();
   WhileDrawing(const WhileDrawing&) = delete;
   WhileDrawing& operator=(const WhileDrawing&) = delete;
-
- private:
-  std::vector<struct sigaction> before_;
 };
 
 }  // namespace gaussdrift::render

@@ -18,10 +18,10 @@ double height_of(double position, double height) {
   return std::isnan(position) ? 0 : height * std::clamp(position, -stick_out, 1 + stick_out);
 }
 
-Mesh mesh_of(const HeightField& field, double height) {
+Mesh mesh_of(const HeightField& field, double height, const ColourRange& range) {
   Mesh mesh;
   mesh.shade = field.value;
-  for (int i = 0; i < 256; ++i) mesh.shades.push_back(viridis(i / 255.));
+  for (int i = 0; i < 256; ++i) mesh.shades.push_back(range.map(i / 255.));
   mesh.points.reserve(field.nx * field.ny), mesh.normals.reserve(field.nx * field.ny);
   const auto z = [&](std::size_t i, std::size_t j) { return height_of(field.at(i, j), height); };
   for (std::size_t j = 0; j < field.ny; ++j)
@@ -48,7 +48,7 @@ Mesh mesh_of(const HeightField& field, double height) {
   return mesh;
 }
 
-void add_contours(Sheet& scene, const HeightField& field, double height, const ColourRange& range) {
+void add_contours(Scene& scene, const HeightField& field, double height, const ColourRange& range) {
   std::vector<double> levels;
   for (const double level : contour_levels(range)) levels.push_back(range.position(level));
   std::vector<std::vector<Place>> lines;
@@ -56,7 +56,7 @@ void add_contours(Sheet& scene, const HeightField& field, double height, const C
     auto& line = lines.emplace_back();
     for (const Point& p : points) line.push_back({p.x, p.y, level * height});
   }
-  if (!lines.empty()) scene.scene_tubes(lines, {20, 20, 26}, 0.0011);
+  if (!lines.empty()) scene.tubes(lines, {20, 20, 26}, 0.0011);
 }
 
 void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, const PictureOptions& options) {
@@ -65,23 +65,23 @@ void draw(Canvas& canvas, const HeightField& field, const ColourRange& range, co
   const double w = field.width, d = field.depth;
   const Axis x{options.axes[0], field.x_min, field.x_min + w * field.length, w > 0.4 ? 5 : 2};
   const Axis y{options.axes[1], field.y_min, field.y_min + d * field.length, d > 0.4 ? 5 : 2};
-  const Axis z{options.quantity, range.min, range.max, 5};
+  const Axis z = value_axis(options.quantity, range, 5);
 
   // Room at the right for the title of y and the colour bar.
   const double right = scale(160) + Canvas::text_width(y.title(), scale.font(21));
   const View view(canvas, {w, d, height},
-                  {scale(128), scale(96), canvas.width() - scale(128) - right, canvas.height() - scale(96 + 130)});
+                  {scale(128), scale(96), canvas.width() - scale(128) - right, canvas.height() - scale(96 + 130)},
+                  options.looks.view);
 
-  Sheet& scene = canvas.scene();
-  add_walls(scene, {w, d, height}, x, y, z, false);
-  scene.scene_mesh(mesh_of(field, height), {.ambient = 0.35, .diffuse = 0.68, .specular = 0.06, .specular_power = 20});
+  Scene& scene = canvas.scene();
+  add_walls(scene, view, {w, d, height}, x, y, z, false);
+  scene.mesh(mesh_of(field, height, range), {.ambient = 0.35, .diffuse = 0.68, .specular = 0.06, .specular_power = 20});
   add_contours(scene, field, height, range);
 
-  scene.light_scene();
+  canvas.show_scene();
 
   draw_edges(canvas, view, {w, d, height}, x, y, z);
-  draw_colour_bar(canvas, {canvas.width() - scale(134), scale(250), scale(26), scale(460)}, true,
-                  {options.quantity, range.min, range.max, 6}, {});
+  draw_colour_bar(canvas, bar_beside_scene(canvas), true, value_axis(options.quantity, range, 6), {}, range.map);
   draw_heading(canvas, options, field);
 }
 
@@ -101,7 +101,9 @@ Style surface_style() {
                     .meaning = "a surface in perspective, seen from above at an angle, with contour lines on it",
                     .most_dimension = 2,
                     .by_default = true},
-          .cost = {.a_point = 1.6e-6, .most_points = most_points * most_points},  // a triangle for every point
+          .cost = {.seconds = 0.065,
+                   .a_point = 1e-6,
+                   .most_points = most_points * most_points},  // a triangle for every point
 
           .painting = surface};
 }

@@ -51,9 +51,7 @@ void draw_view(Canvas& canvas, const PlaneView& view, const Plane& plane, const 
   const int columns = static_cast<int>(room.width), rows = static_cast<int>(room.height);
   const HeightField field = make_height_field(plane, range);
   const HeightField pixels = resample(field, static_cast<std::size_t>(columns), static_cast<std::size_t>(rows));
-  std::vector<Colour> colours(pixels.value.size());
-  std::transform(pixels.value.begin(), pixels.value.end(), colours.begin(), range.map);
-  canvas.image(static_cast<int>(room.x), static_cast<int>(room.y), columns, rows, colours);
+  canvas.image(static_cast<int>(room.x), static_cast<int>(room.y), columns, rows, colours_of(pixels.value, range.map));
 
   const auto intervals = [&](double length) { return std::clamp(static_cast<int>(length / scale(75)), 1, 6); };
   draw_axes(canvas, room,
@@ -73,7 +71,7 @@ void draw_around(Canvas& canvas, const std::array<PlaneView, 3>& views, const De
   const double height = std::max(above.top() - first.y - scale(60), scale(300));
   const double middle = (first.y + above.top()) / 2 - scale(20);
   draw_colour_bar(canvas, {beside.right() + scale(46), middle - height / 2, scale(26), height}, true,
-                  {options.quantity, range.min, range.max, 6}, {}, range.map);
+                  value_axis(options.quantity, range, 6), {}, range.map);
   double widest = 0;
   for (const std::string& note : notes) widest = std::max(widest, Canvas::text_width(note, scale.font(18)));
   const double line = scale(28), tall = line * static_cast<double>(notes.size());

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 
 namespace gaussdrift::render {
 namespace {
@@ -30,6 +33,14 @@ double round_step(double length, int intervals) {
 }
 
 std::string number(double value, int digits) { return tidy(fmt::format("{:.{}g}", value, digits)); }
+
+std::string power_of_ten(int exponent) {
+  if (exponent >= -2 && exponent <= 3) return number(std::pow(10., exponent), 5);
+  static const std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += raised[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
 
 std::string Ticks::title(const std::string& name) const {
   std::string text = name;

@@ -28,6 +28,9 @@ struct Ticks {
 
 Ticks make_ticks(double min, double max, int intervals);
 
+/// "1000" for 3, "0.01" for -2, "1e-7" as 10 to the -7 beyond three digits.
+std::string power_of_ten(int exponent);
+
 /// Shortest form with up to `digits` significant digits, with a true minus sign.
 std::string number(double value, int digits);
 

@@ -1,8 +1,10 @@
 #include "sim/landings.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "effect/catalogue.hpp"
+#include "sim/moments.hpp"
 #include "sim/releases.hpp"
 #include "time/schedule.hpp"
 #include "time/tableau.hpp"
@@ -21,7 +23,7 @@ std::vector<double> outputs_and_end(const Case& spec) {
 
 double rounding_of_times(const Case& spec) { return 1e-12 * spec.time.end; }
 
-std::vector<double> landings(const Case& spec) {
+std::vector<double> landings_without_moments(const Case& spec) {
   const std::vector<double> kept = outputs_and_end(spec);
   if (spec.sources.empty()) return kept;
   const double rounding = rounding_of_times(spec);
@@ -35,6 +37,15 @@ std::vector<double> landings(const Case& spec) {
     last = time;
   }
   std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<double> landings(const Case& spec) {
+  std::vector<double> all = landings_without_moments(spec);
+  const auto count = static_cast<std::ptrdiff_t>(all.size());
+  for (const double time : moments(spec, all))
+    if (time > 0 && !std::binary_search(all.begin(), all.begin() + count, time)) all.push_back(time);
+  std::inplace_merge(all.begin(), all.begin() + count, all.end());
   return all;
 }
 

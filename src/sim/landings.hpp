@@ -8,8 +8,12 @@
 
 namespace gaussdrift {
 
-/// The elapsed times on which steps land exactly: outputs, time.end, and those at which sources release something.
+/// The elapsed times on which steps land exactly: outputs, time.end, those at which sources release something, and the
+/// frames of an animation.
 std::vector<double> landings(const Case& spec);
+
+/// The same without the frames.
+std::vector<double> landings_without_moments(const Case& spec);
 
 /// Releases this near to a landing happen then.
 double rounding_of_times(const Case& spec);

@@ -20,6 +20,7 @@
 #include "sim/fields_on_grid.hpp"
 #include "sim/follow/particle_fields.hpp"
 #include "sim/grid_fields.hpp"
+#include "sim/moments.hpp"
 #include "sim/particle_pieces.hpp"
 #include "sim/piece_comparison.hpp"
 #include "sim/run_parts.hpp"
@@ -122,14 +123,15 @@ void pass(base::StateBytes& bytes, FrameNumbers& n, Counted counted) {
 DensityOptions Simulation::Parts::density_options() const {
   const EvaluateSpec& evaluate = case_.evaluate;
   DensityOptions options;
-  options.tolerance = evaluate.tolerance;
+  options.tolerance = showing_moment_ ? tolerance_of_moments(case_) : evaluate.tolerance;
   options.method = evaluate.method;
   options.hermite = evaluate.hermite;
   options.threads = threads_;
   options.tiles = usual_tiles(case_.domain.dimension);
   if (evaluate.tile_particles > 0) options.tiles->particles = static_cast<std::int64_t>(evaluate.tile_particles);
   options.tiles->pieces = pieces_.halvings();
-  if (!tracer_alone_) options.derivatives = derivatives_of(case_.output, case_.domain.dimension);
+  if (!tracer_alone_ && (!showing_moment_ || moment_has_fields()))
+    options.derivatives = derivatives_of(case_.output, case_.domain.dimension);
   return options;
 }
 

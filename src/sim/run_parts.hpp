@@ -114,6 +114,16 @@ class Simulation::Parts {
   ReferenceReport compare_thinned(const DensityGrid& density, Frame& frame, std::vector<double>& exact);
   void judge_norms(const std::vector<double>& exact, FrameNumbers& numbers) const;
 
+  // run_moments.cpp: frames of an animation.
+  void plan_moments();
+  bool is_moment(double time) const;
+  bool is_landing_of_case(double time) const;
+  bool moment_has_fields() const;
+  DensityGrid sum_moment(DensityReport& report);
+  void add_tracers_of_moment(DensityGrid& density);  // tracer_outputs.cpp
+  void show_moment(double time);
+  bool show_moment_or_abandon(double time);
+
   // run_follow.cpp: tracks, and fields of the particles.
   void look_at_tracks(bool landed);
   void check_particle_fields() const;
@@ -148,8 +158,12 @@ class Simulation::Parts {
   Releases releases_;
   Tracks tracks_;
   std::vector<double> landings_;
-  bool tracer_alone_ = false;  // what is summed now is a named density, without derivatives
-  LatticePieces pieces_;       // of the evaluation lattice
+  std::vector<double> of_case_, moments_;  // landings without frames of an animation, and these
+  std::uint64_t moments_shown_ = 0;
+  double last_moment_ = -1;      // elapsed
+  bool showing_moment_ = false;  // what is summed now is a frame
+  bool tracer_alone_ = false;    // what is summed now is a named density, without derivatives
+  LatticePieces pieces_;         // of the evaluation lattice
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
   bool shares_reference_ = false;

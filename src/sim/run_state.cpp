@@ -123,6 +123,7 @@ void Simulation::Parts::pass_state(base::StateBytes& bytes, std::uint64_t format
   if (releases_.possible()) releases_.pass_state(bytes);
   if (carrier_.memory().wanted()) carrier_.memory().pass_gone(bytes);
   if (tracks_.wanted()) tracks_.pass_state(bytes);
+  if (!moments_.empty()) bytes(moments_shown_, last_moment_);
   bytes(summary_.transform_choice, summary_.transform_achievable);
   if (format == 1)
     pass_outputs(bytes);
@@ -185,6 +186,7 @@ void Simulation::Parts::plan_landings() {
     summary_.frames.pop_back();
     --index_;
   }
+  if (arrived && moments_shown_ > 0 && last_moment_ >= leg_.to) --moments_shown_;  // it is shown again
   landings_.assign(1, leg_.to);
   for (const double landing : later)
     if (landing > leg_.to) landings_.push_back(landing);

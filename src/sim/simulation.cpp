@@ -75,6 +75,7 @@ Simulation::Parts::Parts(const Case& spec, int threads, base::Communicator* rank
       tracks_(case_, scene_, threads_, ranks_),
       landings_(landings(case_)),
       pieces_(scene_.evaluation, case_.evaluate.piece_points) {
+  plan_moments();
   if (tracks_.wanted()) {
     carrier_.pause_every(tracks_.steps());
     carrier_.departures().watch([this](std::int64_t id) { return tracks_.follows(id); });
@@ -201,8 +202,9 @@ RunSummary Simulation::Parts::run() {
     wanted = carry();
     if (leg_.now < leg_.to) break;
     release(leg_.to);
-    look_at_tracks(true);
-    if (is_output(leg_.to)) shown = show_or_abandon(leg_.to);
+    if (is_landing_of_case(leg_.to)) look_at_tracks(true);
+    if (is_moment(leg_.to)) shown = show_moment_or_abandon(leg_.to);
+    if (shown && is_output(leg_.to)) shown = show_or_abandon(leg_.to);
     if (!shown) break;
     if (++landed_ == landings_.size()) break;
     steps_before_ += leg_.steps;

@@ -83,4 +83,15 @@ void Simulation::Parts::sum_tracers(double time, DensityGrid& density, std::vect
   }
 }
 
+void Simulation::Parts::add_tracers_of_moment(DensityGrid& density) {
+  for (std::size_t k = 0; k < case_.tracers.size(); ++k) {
+    DensityReport report;
+    const InPlaceOfWeights weights(particles_, k);
+    tracer_alone_ = true;
+    DensityGrid own = sum_moment(report);
+    tracer_alone_ = false;
+    on_first([&] { density.fields.push_back({case_.tracers[k].name, 1, std::move(own.rho)}); });
+  }
+}
+
 }  // namespace gaussdrift

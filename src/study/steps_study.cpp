@@ -102,6 +102,7 @@ Case with_steps(Case spec, const time::Tableau& tableau, double step, double tol
 std::string why_it_does_not_finish(Case spec, int threads) {
   spec.output.files.clear();
   spec.output.images.clear();
+  spec.output.animation.reset();
   spec.output.times = {spec.output.times.back()};
   spec.checks.clear();
   spec.reference = {};

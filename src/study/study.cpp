@@ -104,6 +104,7 @@ Sample measure_run(const Case& spec, const StudyOptions& options) {
   Case bare = spec;
   bare.output.files.clear();
   bare.output.images.clear();
+  bare.output.animation.reset();
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};
   bare.checks.clear();
   try {

@@ -32,6 +32,7 @@ Case bare_case(const Case& spec) {
   Case bare = spec;
   bare.output.files.clear();
   bare.output.images.clear();
+  bare.output.animation.reset();
   bare.checks.clear();
   bare.reference = {};
   if (!bare.output.times.empty()) bare.output.times = {bare.output.times.back()};

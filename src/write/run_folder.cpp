@@ -59,15 +59,20 @@ OwnFiles files_of_run(const std::vector<std::string>& kinds, const std::vector<s
   return files;
 }
 
-OwnFiles files_of(const Case& spec, std::size_t particle_pieces) {
+OwnFiles files_of(const Case& spec, const RunFolderOptions& options) {
   std::vector<std::string> kinds, styles;
   for (const OutputFile& file : spec.output.files) kinds.emplace_back(file.name);
   for (const PictureStyle& style : spec.output.images) {
-    styles.emplace_back(style.name);
+    const std::string& field = spec.output.pictures.field;
+    styles.push_back(field.empty() ? std::string(style.name) : fmt::format("{}_{}", field, style.name));
     for (const TracerSpec& tracer : spec.tracers) styles.push_back(fmt::format("{}_{}", tracer.name, style.name));
   }
   OwnFiles files =
-      files_of_run(kinds, styles, spec.output.times.size(), {pieces_of_grid(spec).count(), particle_pieces});
+      files_of_run(kinds, styles, spec.output.times.size(), {pieces_of_grid(spec).count(), options.particle_pieces});
+  for (const std::string& film : options.films) files.add(film);
+  if (spec.output.animation)
+    files.add(
+        numbered_names("state/animation/frame_", static_cast<std::size_t>(spec.output.animation->frames), ".raw"));
   for (const std::string& name : track_file_names(spec.output)) files.add(name);
   return files;
 }
@@ -203,7 +208,7 @@ std::string view_script(const Case& spec) {
 }  // namespace
 
 RunFolder::RunFolder(fs::path folder, const Case& spec, const RunFolderOptions& options)
-    : folder_(std::move(folder)), own_(files_of(spec, options.particle_pieces)) {
+    : folder_(std::move(folder)), own_(files_of(spec, options)) {
   std::error_code problem;
   const fs::file_status status = fs::status(folder_, problem);
   if (fs::exists(status) && !fs::is_directory(status)) refuse(folder_, "it is a file");

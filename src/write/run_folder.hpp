@@ -21,6 +21,7 @@ struct RunFolderOptions {
   bool go_on = false;                         // the run in the folder goes on: nothing is replaced
   double bytes = 0;                           // that the run will write, as predicted
   std::size_t particle_pieces = 1;            // of an output, at most
+  std::vector<std::string> films{};           // of an animation, "images/surface.gif"
   std::vector<std::string> picture_styles{};  // that there are: runs of versions without status.json are known by them
 };
 

@@ -52,7 +52,7 @@ std::string meaning_of_images() {
 }  // namespace
 
 Section output_section() {
-  return {
+  Section section{
       Table{.name = "output",
             .required = false,
             .meaning = "what is written, and when. The times are given by `times` or by `frames`"},
@@ -118,6 +118,8 @@ Section output_section() {
         .meaning = "time between two checkpoints, such as 60 or \"10 min\"; 0: none. `gaussdrift resume` goes on from "
                    "the last one. Without this key a run that takes more than five minutes writes one about every "
                    "minute, and spends at most a fiftieth of its time on them"}}};
+  for (Key& key : animation_keys()) section.keys.push_back(std::move(key));
+  return section;
 }
 
 using Kind = Value::Kind;
@@ -265,6 +267,7 @@ void read_output(Reader& in, OutputSpec& output, const TimeSpec& time) {
   if (in.facts.dimension) check_images(in, output.images);
   check_fields_of_images(in, output);
   check_files_of_fields(in, output);
+  read_animation(in, output);
 }
 
 void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time) {
@@ -283,6 +286,7 @@ void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time) {
     out.entry("fields", names(output.fields));
   out.entry("report", written(std::string(!output.report ? "none" : output.page.plays ? "html" : "still")));
   if (output.page.megabytes != PageSpec{}.megabytes) out.entry("page_megabytes", written(output.page.megabytes));
+  write_animation(out, output);
   if (output.checkpoint) out.entry("checkpoint", written(*output.checkpoint));
   if (output.piece_particles != OutputSpec{}.piece_particles)
     out.entry("piece_particles", fmt::format("{:.0f}", output.piece_particles));

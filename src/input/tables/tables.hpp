@@ -60,6 +60,16 @@ Section output_section();
 void read_output(Reader& in, OutputSpec& output, const TimeSpec& time);
 void write_output(Writer& out, const OutputSpec& output, const TimeSpec& time);
 
+/// Keys of [output] about the animation.
+std::vector<Key> animation_keys();
+void read_animation(Reader& in, OutputSpec& output);
+void write_animation(Writer& out, const OutputSpec& output);
+
+Section pictures_section();
+/// After [output].
+void read_pictures(Reader& in, OutputSpec& output, const Domain& domain);
+void write_pictures(Writer& out, const PicturesSpec& pictures);
+
 Section tracks_section();
 /// After the effects: some do not go with tracks.
 void read_tracks(Reader& in, Case& spec);

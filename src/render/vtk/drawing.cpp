@@ -1,4 +1,4 @@
-// The drawing library: its one function, and what it does besides sheets.
+// The drawing library: its one function, and what it does besides scenes.
 #include "render/drawing.hpp"
 
 #include <vtkCellArray.h>
@@ -21,7 +21,8 @@
 #include <stdexcept>
 
 #include "render/vtk/osmesa_window.hpp"
-#include "render/vtk/sheet.hpp"
+#include "render/vtk/scene.hpp"
+#include "render/vtk/text.hpp"
 
 namespace gaussdrift::render {
 namespace {
@@ -59,7 +60,8 @@ class VtkDrawing : public Drawing {
   std::string start() override { return open_window(); }
   void finish() override { close_window(); }
 
-  std::unique_ptr<Sheet> sheet(int width, int height) override { return std::make_unique<VtkSheet>(width, height); }
+  std::unique_ptr<Scene> scene(int width, int height) override { return std::make_unique<VtkScene>(width, height); }
+  Mask text(const std::string& line, const TextStyle& style) const override { return mask_of(line, style); }
   double text_width(const std::string& line, int size) const override { return width_of(line, {.size = size}); }
   bool has_font() const override { return has_own_font(); }
 

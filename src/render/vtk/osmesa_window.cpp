@@ -154,7 +154,8 @@ OsmesaWindow* the_window = nullptr;
 std::string open_window() {
   if (std::string reason = wrong_library(); !reason.empty()) return reason;
   the_window = OsmesaWindow::New();
-  the_window->SetMultiSamples(4);  // what llvmpipe offers
+  the_window->SetMultiSamples(0);  // scene.cpp has a cheaper way
+  the_window->AlphaBitPlanesOn();
   the_window->Initialize();
   if (!the_window->ready())
     return "pictures cannot be drawn: OSMesa gives no OpenGL 3.2 context; is libosmesa6 of Mesa 22 installed?";

@@ -1,5 +1,7 @@
-// The scene behind a sheet: camera, light, lines, meshes.
+#include "render/vtk/scene.hpp"
+
 #include <vtkActor.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
@@ -12,17 +14,24 @@
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkTubeFilter.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
-#include "render/vtk/sheet.hpp"
+#include "render/vtk/osmesa_window.hpp"
 
 namespace gaussdrift::render {
 namespace {
+
+/// Edges are smooth because scenes are drawn so many times as wide and high, and pixels are means. The several samples a
+/// pixel that OpenGL offers for that take three times as long with llvmpipe.
+constexpr int finer = 2;
 
 vtkNew<vtkPolyData> polylines(const std::vector<std::vector<Place>>& lines) {
   vtkNew<vtkPoints> points;
@@ -84,18 +93,33 @@ vtkNew<vtkLookupTable> table_of(const std::vector<Colour>& shades) {
 
 }  // namespace
 
-vtkCamera* VtkSheet::camera() const { return renderer_->GetActiveCamera(); }
+VtkScene::VtkScene(int width, int height) : width_(width), height_(height), renderer_(vtkRenderer::New()) {
+  renderer_->SetBackground(1, 1, 1);
+  renderer_->SetBackgroundAlpha(0);
+  renderer_->SetUseFXAA(false);
+  offscreen_window(finer * width, finer * height)->AddRenderer(renderer_);
+}
 
-void VtkSheet::look(const Place& eye, const Place& towards) {
+VtkScene::~VtkScene() {
+  vtkRenderWindow* window = offscreen_window(finer * width_, finer * height_);
+  renderer_->ReleaseGraphicsResources(window);
+  window->RemoveRenderer(renderer_);
+  renderer_->Delete();
+  release_window();
+}
+
+vtkCamera* VtkScene::camera() const { return renderer_->GetActiveCamera(); }
+
+void VtkScene::look(const Place& eye, const Place& towards) {
   camera()->SetViewAngle(20);
   camera()->SetViewUp(0, 0, 1);
   camera()->SetFocalPoint(towards.data());
   camera()->SetPosition(eye.data());
 }
 
-void VtkSheet::shift_scene(Point by) { camera()->SetWindowCenter(by.x, by.y); }
+void VtkScene::shift(Point by) { camera()->SetWindowCenter(by.x, by.y); }
 
-Point VtkSheet::pixel(const Place& place) const {
+Point VtkScene::pixel(const Place& place) const {
   vtkMatrix4x4* projection =
       camera()->GetCompositeProjectionTransformMatrix(static_cast<double>(width_) / height_, -1, 1);
   const double from[4] = {place[0], place[1], place[2], 1};
@@ -104,7 +128,7 @@ Point VtkSheet::pixel(const Place& place) const {
   return {(to[0] / to[3] + 1) / 2 * width_, (to[1] / to[3] + 1) / 2 * height_};
 }
 
-double VtkSheet::depth(const Place& place) const {
+double VtkScene::depth(const Place& place) const {
   double position[3], direction[3];
   camera()->GetPosition(position);
   camera()->GetDirectionOfProjection(direction);
@@ -113,22 +137,22 @@ double VtkSheet::depth(const Place& place) const {
   return distance;
 }
 
-void VtkSheet::scene_lines(const std::vector<std::vector<Place>>& lines, const Colour& colour, double width) {
+void VtkScene::lines(const std::vector<std::vector<Place>>& lines, const Colour& colour, double width) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(polylines(lines));
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   set_colour(actor, colour);
   actor->GetProperty()->LightingOff();
-  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  actor->GetProperty()->SetLineWidth(static_cast<float>(finer * width));
   renderer_->AddActor(actor);
 }
 
-void VtkSheet::scene_tubes(const std::vector<std::vector<Place>>& lines, const Colour& colour, double radius) {
+void VtkScene::tubes(const std::vector<std::vector<Place>>& lines, const Colour& colour, double radius) {
   vtkNew<vtkTubeFilter> tubes;
   tubes->SetInputData(polylines(lines));
   tubes->SetRadius(radius);
-  tubes->SetNumberOfSides(6);
+  tubes->SetNumberOfSides(4);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(tubes->GetOutputPort());
   mapper->ScalarVisibilityOff();
@@ -139,7 +163,7 @@ void VtkSheet::scene_tubes(const std::vector<std::vector<Place>>& lines, const C
   renderer_->AddActor(actor);
 }
 
-void VtkSheet::scene_mesh(const Mesh& mesh, const Material& material) {
+void VtkScene::mesh(const Mesh& mesh, const Material& material) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data_of(mesh));
   if (!mesh.shades.empty()) {
@@ -157,13 +181,43 @@ void VtkSheet::scene_mesh(const Mesh& mesh, const Material& material) {
   renderer_->AddActor(actor);
 }
 
-void VtkSheet::light_scene() {
+Image VtkScene::image() {
   renderer_->AutomaticLightCreationOff();
   vtkNew<vtkLight> light;
   light->SetLightTypeToCameraLight();
   light->SetPosition(-0.6, 0.7, 1);
   renderer_->AddLight(light);
   renderer_->ResetCameraClippingRange();
+  vtkRenderWindow* window = offscreen_window(finer * width_, finer * height_);
+  std::string messages;
+  vtkNew<vtkCallbackCommand> collect;
+  collect->SetClientData(&messages);
+  collect->SetCallback([](vtkObject*, unsigned long, void* list, void* text) {
+    *static_cast<std::string*>(list) += static_cast<const char*>(text);
+  });
+  const unsigned long observer = window->AddObserver("ErrorEvent", collect);
+  window->Render();
+  vtkNew<vtkUnsignedCharArray> bytes;
+  const int failed = window->GetRGBACharPixelData(0, 0, finer * width_ - 1, finer * height_ - 1, /*front=*/0, bytes);
+  window->RemoveObserver(observer);
+  const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  Image image{width_, height_, std::vector<Colour>(count), std::vector<std::uint8_t>(count)};
+  if (!messages.empty() || failed == VTK_ERROR ||
+      static_cast<std::size_t>(bytes->GetNumberOfValues()) != 4 * finer * finer * image.pixels.size())
+    throw std::runtime_error(messages);
+  const auto width = static_cast<std::size_t>(width_), row = 4 * finer * width;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height_); ++y) {
+    const unsigned char* below = bytes->GetPointer(0) + finer * y * row;
+    const unsigned char* above = below + row;
+    for (std::size_t x = 0; x < width; ++x, below += 4 * finer, above += 4 * finer) {
+      const auto mean = [&](std::size_t k) {
+        return static_cast<std::uint8_t>((below[k] + below[k + 4] + above[k] + above[k + 4] + 2) / 4);
+      };
+      image.pixels[y * width + x] = {mean(0), mean(1), mean(2)};
+      image.opacity[y * width + x] = mean(3);
+    }
+  }
+  return image;
 }
 
 }  // namespace gaussdrift::render
