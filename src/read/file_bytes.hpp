@@ -46,6 +46,7 @@ class ByteStream {
  private:
   bool refill();
   bool next_group();
+  std::size_t read_whole_groups(unsigned char* to, std::size_t count);
 
   FileBytes* file_;
   std::uint64_t at_, end_;
