@@ -110,6 +110,8 @@ struct GridFileSpec {
   std::string outside;                   ///< what holds outside of the grid: error | clamp | zero
   std::string missing;                   ///< what holds where the file has no value
   std::optional<double> missing_value;   ///< a number that marks missing data, besides those that are recognised
+  std::string mask;                      ///< of an array that says where there is water; empty: none
+  std::string mask_is;                   ///< what its numbers other than 0 are: water | land; empty: as the file says
   std::optional<FileClock> clock;        ///< the times of the scene
   std::optional<double> level;           ///< of a fourth dimension, the layer that is read
   std::string gaps;                      ///< what happens where a snapshot is missing: warn | error | bridge
@@ -120,8 +122,8 @@ struct GridFileSpec {
   bool operator==(const GridFileSpec& other) const {
     return file == other.file && arrays == other.arrays && interpolation == other.interpolation &&
            time_interpolation == other.time_interpolation && outside == other.outside && missing == other.missing &&
-           missing_value == other.missing_value && clock == other.clock && level == other.level && gaps == other.gaps &&
-           duplicates == other.duplicates;
+           missing_value == other.missing_value && mask == other.mask && mask_is == other.mask_is &&
+           clock == other.clock && level == other.level && gaps == other.gaps && duplicates == other.duplicates;
   }
 };
 /// A velocity on a grid.
@@ -177,6 +179,7 @@ struct TracerSpec {
   std::string gain{};                 ///< in a unit of time: an expression in tracers, place and time; empty: none
   std::optional<double> half_life{};  ///< after which half of it is gone
   std::string exact{};                ///< its exact density, an expression in place and time; empty: not given
+  std::optional<double> diffusion{};  ///< its own coefficient of diffusion; empty: that of [effects.diffusion]
 };
 
 // --- what enters during the run ---------------------------------------------------------------------------------
@@ -371,14 +374,19 @@ struct CheckSpec {
     inside,    ///< the sum of the weights of particles inside the domain
     left,      ///< of those that have left the run
     released,  ///< of those that sources have released, not relative to anything
-    stopped    ///< of those that lie on land
+    stopped,   ///< of those that lie on land
+    largest,   ///< value of a field of the particles
+    mean       ///< of its values
   };
   /// True if it is a norm of the error, which needs a reference.
   bool is_error() const { return what == Quantity::linf || what == Quantity::l1 || what == Quantity::l2; }
+  /// True if it is of a field of the particles.
+  bool is_of_field() const { return what == Quantity::largest || what == Quantity::mean; }
 
   Quantity what = Quantity::linf;  ///< what is bounded
   std::string by{};                ///< of what has left: the reason; empty: any
   std::string tracer{};            ///< of which tracer; empty: of all together
+  std::string field{};             ///< of the particles, whose largest value or mean it is
   std::optional<double> max{};     ///< upper bound; there is this one, the lower one, or both
   std::optional<double> min{};     ///< lower bound
   std::optional<double> at{};      ///< one of the output times, elapsed; none: all of them

@@ -44,6 +44,14 @@ struct TracerNumbers {
   std::optional<double> left{};       ///< of its weights, with what has left the run; only where particles can leave
 };
 
+/// Values of a field of the particles that a check asks for.
+struct FieldNumbers {
+  std::string name;          ///< as in output.fields
+  double largest = 0;        ///< NaN where no particle has a value
+  double mean = 0;           ///< over particles that have a value
+  std::uint64_t values = 0;  ///< their number
+};
+
 /// Numbers of one output, a row of series.csv.
 struct FrameNumbers {
   double mass = 0;     ///< sum_j alpha_j, the exact integral of rho_eps^h over all space
@@ -75,6 +83,7 @@ struct FrameNumbers {
   /// What lies on land; only where domain.coast is "stop".
   std::optional<Stopped> stopped{};
   std::vector<TracerNumbers> tracers{};  ///< in the order of the case; empty: its densities have no names
+  std::vector<FieldNumbers> fields{};    ///< those that checks name; others are not counted
 };
 
 /// One output. What it points at belongs to the run and stays as it is until the observer returns.

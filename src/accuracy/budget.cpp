@@ -31,6 +31,8 @@ void pass(base::StateBytes& bytes, Budget& b) {
         b.advice, b.probes, b.outside, b.particles, b.lowest, b.highest, b.not_covered, b.too_dear);
 }
 
+void pass_noise(base::StateBytes& bytes, Budget& b) { bytes(b.noise, b.others, b.only_some); }
+
 void LastFrame::frame(const Frame& frame) {
   if (frame.elapsed != last_) return;
   kept_.any = true;
@@ -41,15 +43,21 @@ void LastFrame::frame(const Frame& frame) {
   kept_.numbers = frame.numbers;
 }
 
-std::string to_text(const Budget& budget) {
-  std::string text;
+std::vector<std::pair<double, std::string>> told_causes(const Budget& budget) {
+  std::vector<std::pair<double, std::string>> told;
   for (const Cause& cause : causes) {
     const double error = budget.*cause.error;
-    const bool is_rare = cause.error == &Budget::left_out || cause.error == &Budget::fit;
-    if (is_rare && error <= 0) continue;  // most cases leave nothing out, and fit nothing
-    text +=
-        fmt::format("  {:<17} {:<8.2g}{}\n", cause.name, error, budget.dominates == cause.name ? " <- dominates" : "");
+    if (!is_told(budget, cause)) continue;
+    if (cause.error == &Budget::left_out && error <= 0) continue;  // most cases leave nothing out
+    told.emplace_back(error, cause.name);
   }
+  return told;
+}
+
+std::string to_text(const Budget& budget) {
+  std::string text;
+  for (const auto& [error, name] : told_causes(budget))
+    text += fmt::format("  {:<17} {:<8.2g}{}\n", name, error, budget.dominates == name ? " <- dominates" : "");
   if (budget.interpolation > 0)
     text += fmt::format("  {:<17} {:<8.2g} of the data, which the exact density does not know\n", "interpolation",
                         budget.interpolation);
@@ -61,11 +69,11 @@ nlohmann::ordered_json to_json(const Budget& budget) {
   if (!budget.known()) return {{"not_covered", budget.not_covered}};
   auto json = nlohmann::ordered_json::object();
   for (const Cause& cause : causes)
-    if (cause.error != &Budget::fit || budget.fit > 0) json[cause.key] = budget.*cause.error;
-  json["total"] = budget.total;
+    if (is_told(budget, cause)) json[cause.key] = budget.*cause.error;
+  if (!budget.only_some || budget.total > 0) json["total"] = budget.total;
   if (budget.interpolation > 0) json["interpolation"] = budget.interpolation;
   json["dominates"] = budget.dominates;
-  json["probes"] = budget.probes;
+  if (!budget.only_some) json["probes"] = budget.probes;
   json["advice"] = budget.advice;
   return json;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,6 +28,9 @@ struct Budget {
   double fit = 0;            // what samples leave open that density or velocity are fitted to; 0 without such
   double total = 0;
   double interpolation = 0;  // of data of a velocity on a grid: what they miss, which is not in the total; 0: none
+  double noise = 0;          // what chance does in a random walk; 0: there is none
+  double others = 0;         // with such noise: what else there is of the total, where that is known
+  bool only_some = false;    // with such noise: time stepping, smoothing and quadrature are not told apart
   std::string dominates;     // "smoothing", ...
   std::vector<std::string> advice;  // what could be saved, what would help
   std::size_t probes = 0;           // points at which the causes were told apart
@@ -39,8 +43,9 @@ struct Budget {
   bool known() const { return not_covered.empty(); }
 };
 
-/// To bytes and from bytes, all but `fit`.
+/// To bytes and from bytes, all but `fit`, and what belongs to noise.
 void pass(base::StateBytes& bytes, Budget& budget);
+void pass_noise(base::StateBytes& bytes, Budget& budget);
 
 /// Why a case has no budget: effects that move weight between particles, ...; empty if it has one.
 std::string budget_not_covered(const Case& spec);
@@ -95,10 +100,15 @@ class LastFrame : public Observer {
 /// After the run, at the points with the largest errors; how many follows from what the run cost.
 Budget measure_budget(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads);
 
+/// Does an effect of the case move particles by chance? Then its budget has the noise of that, whatever else is not covered.
+bool moves_by_chance(const Case& spec);
+
+/// The causes that are told of it, by their names; those that most cases lack only where they are not 0.
+std::vector<std::pair<double, std::string>> told_causes(const Budget& budget);
 /// A line a cause, the dominating one marked, and the advice.
 std::string to_text(const Budget& budget);
-/// {"time_stepping", "smoothing", "quadrature", "transform", "left_out", "total", "dominates"}, with samples "fit" too, or
-/// {"not_covered"}.
+/// {"time_stepping", "smoothing", "quadrature", "transform", "left_out", "total", "dominates"}, with samples "fit" too; of a random
+/// walk {"noise", "others", "transform", ...}; or {"not_covered"}.
 nlohmann::ordered_json to_json(const Budget& budget);
 
 }  // namespace gaussdrift::accuracy

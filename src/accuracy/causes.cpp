@@ -72,6 +72,16 @@ double fit_of_samples(const Scene& scene, const Particles& start, const Particle
   return error;
 }
 
+bool is_told(const Budget& budget, const Cause& cause) {
+  const auto is = [&](std::initializer_list<double Budget::*> some) {
+    return std::find(some.begin(), some.end(), cause.error) != some.end();
+  };
+  if (is({&Budget::time_stepping, &Budget::smoothing, &Budget::quadrature, &Budget::left_out}))
+    return !budget.only_some;
+  if (is({&Budget::noise})) return budget.only_some;
+  return !is({&Budget::fit, &Budget::others}) || budget.*cause.error > 0;
+}
+
 void find_dominating(Budget& budget) {
   budget.dominates = std::max_element(causes.begin(), causes.end(), [&](const Cause& a, const Cause& b) {
                        return budget.*a.error < budget.*b.error;

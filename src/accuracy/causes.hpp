@@ -18,12 +18,18 @@ struct Cause {
   const char* key;   // in JSON
   double Budget::*error;
 };
-constexpr std::array<Cause, 6> causes{{{"time stepping", "time_stepping", &Budget::time_stepping},
+constexpr const char* name_of_noise = "noise of the walk";
+constexpr std::array<Cause, 8> causes{{{"time stepping", "time_stepping", &Budget::time_stepping},
                                        {"smoothing", "smoothing", &Budget::smoothing},
                                        {"quadrature", "quadrature", &Budget::quadrature},
                                        {"Gauss transform", "transform", &Budget::transform},
                                        {"particles left out", "left_out", &Budget::left_out},
-                                       {"fit of samples", "fit", &Budget::fit}}};
+                                       {"fit of samples", "fit", &Budget::fit},
+                                       {name_of_noise, "noise", &Budget::noise},
+                                       {"other causes", "others", &Budget::others}}};
+
+/// Is it a cause of errors of this case?
+bool is_told(const Budget& budget, const Cause& cause);
 
 /// Sets Budget::dominates to the name of the largest.
 void find_dominating(Budget& budget);

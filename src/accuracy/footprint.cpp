@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "accuracy/budget.hpp"
@@ -69,7 +70,7 @@ double most_pieces(const Case& spec, double particles) {
 /// What files hold: pieces of a density show layers that others have, too, and of exact densities formulas alone.
 Extent in_files(const Case& spec, Extent extent) {
   extent.particle_pieces = most_pieces(spec, extent.particles);
-  extent.particle_numbers = particle_field_numbers(spec.output);
+  extent.particle_numbers = particle_field_numbers(spec.output) + static_cast<double>(spec.tracers.size());
   extent.field_numbers = field_numbers(spec.output, spec.domain.dimension);
   const LatticePieces pieces = pieces_of_grid(spec);
   if (pieces.count() == 1) return extent;
@@ -90,6 +91,8 @@ EffectMemory memory_of_effects(const Case& spec) {
     const EffectMemory one = effect->memory(written, spec.domain.dimension);
     effects.integrals += one.integrals, effects.columns += one.columns;
     effects.kept += one.kept, effects.step += one.step;
+    if (effect->traits.adds_particles.of(written, spec.domain.dimension))  // it exchanges each named density
+      effects.step += 6 * number * static_cast<double>(spec.tracers.size());
   }
   effects.columns += static_cast<double>(spec.tracers.size());
   if (tracers_react(spec)) effects.integrals += static_cast<double>(spec.tracers.size());
@@ -103,7 +106,12 @@ double bytes_of_particle(const Case& spec, const EffectMemory& effects) {
 
 /// What is summed, of what is carried: with the images of particles beyond periodic and closed edges.
 double summed_with_images(const Case& spec) {
-  const Domain& domain = spec.domain;
+  Domain domain = spec.domain;
+  for (const SourceSpec& source : spec.sources)  // some time all that let something in
+    if (const auto* face = std::get_if<FaceSourceSpec>(&source.what)) {
+      const auto axis = static_cast<std::size_t>(face->axis);
+      domain.edges[axis][face->upper ? 1 : 0] = domain_of_sum(spec, source.from).edges[axis][face->upper ? 1 : 0];
+    }
   const Folding folding = folding_of(domain);
   if (!folding.folds() || domain.on_sphere()) return 1;
   const double eps = spec.particles.overlap * seeding_lattice(domain, spec.particles.per_axis).spacing;

@@ -12,6 +12,7 @@
 #include "accuracy/causes.hpp"
 #include "accuracy/interpolation.hpp"
 #include "accuracy/known_density.hpp"
+#include "accuracy/noise.hpp"
 #include "accuracy/other_lattices.hpp"
 #include "accuracy/probes.hpp"
 #include "particle/subset.hpp"
@@ -255,6 +256,7 @@ class Measurement {
 }  // namespace
 
 Budget measure_budget(const Case& spec, const Scene& scene, const LastFrame::Kept& last, Effort effort, int threads) {
+  if (moves_by_chance(spec)) return budget_of_walk(spec, scene, last, threads);
   return covered_or_why([&] { return Measurement(spec, scene, last, effort, threads).run(); });
 }
 

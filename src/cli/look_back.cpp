@@ -18,7 +18,8 @@ namespace gaussdrift::cli {
 namespace {
 
 bool budgeted(const Case& spec) {
-  return spec.accuracy.budget != AccuracySpec::Budget::none && spec.reference.kind != ReferenceSpec::Kind::none;
+  return spec.accuracy.budget != AccuracySpec::Budget::none &&
+         (spec.reference.kind != ReferenceSpec::Kind::none || accuracy::moves_by_chance(spec));
 }
 
 void pass(base::StateBytes& bytes, LookBack& seen) {
@@ -30,7 +31,9 @@ void pass(base::StateBytes& bytes, LookBack& seen) {
   bytes(more, seen.warnings);
   if (bytes.reading()) seen.more = base::json_in(more);
   // Written by runs with samples alone, so that the bytes of all others stay what they were.
-  if (there && (bytes.reading() ? bytes.has_more() : seen.measured->fit > 0)) bytes(seen.measured->fit);
+  const bool noisy = there && seen.measured->only_some;
+  if (there && (bytes.reading() ? bytes.has_more() : seen.measured->fit > 0 || noisy)) bytes(seen.measured->fit);
+  if (there && (bytes.reading() ? bytes.has_more() : noisy)) accuracy::pass_noise(bytes, *seen.measured);
 }
 
 class KeepLastOutput : public accuracy::LastFrame {
@@ -88,7 +91,8 @@ class KeepLastOutput : public accuracy::LastFrame {
 bool looks_back(const Case& spec) {
   // It needs the density as a whole.
   if (pieces_of_grid(spec).count() > 1) return false;
-  return (budgeted(spec) && accuracy::budget_not_covered(spec).empty()) || spec.output.report;
+  return (budgeted(spec) && (accuracy::budget_not_covered(spec).empty() || accuracy::moves_by_chance(spec))) ||
+         spec.output.report;
 }
 
 LookBack look_back(const Case& spec, double run_seconds, const accuracy::LastFrame::Kept& last, StageTimes& stages,

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/number.hpp"
 #include "cli/drawable.hpp"
 #include "cli/laid_out.hpp"
 #include "cli/looks.hpp"
@@ -33,10 +34,10 @@ namespace {
 
 struct RenderOptions {
   fs::path folder;
-  std::string style;          // empty: the default of the dimension and field
-  std::string field = "rho";  // an array of the density files
-  std::vector<double> times;  // empty: all
-  fs::path out;               // empty: images/ of the folder
+  std::string style;               // empty: the default of the dimension and field
+  std::string field = "rho";       // an array of the density files
+  std::vector<std::string> times;  // numbers or dates; empty: all
+  fs::path out;                    // empty: images/ of the folder
   LookOptions looks;
   std::string animation;  // a kind; "true" for the first; empty: pictures
   double seconds = 0;     // that it takes; 0: chosen
@@ -56,7 +57,7 @@ void declare(OptionList& options, RenderOptions& given) {
   options.add("--style", given.style, "NAME", fmt::format("{}", fmt::join(render::style_names(), ", ")));
   options.add("--field", given.field, "NAME",
               fmt::format("{}; of vectors the length. rho by default", fmt::join(arrays_of_outputs(), ", ")));
-  options.add("--times", given.times, "T,...", "only these output times").separated_by(',');
+  options.add("--times", given.times, "T,...", "only these output times, or their dates").separated_by(',');
   declare_looks(options, given.looks);
   options
       .add("--animation", given.animation, "KIND",
@@ -89,6 +90,20 @@ std::size_t output_at(double wanted, const Drawable& drawable, const fs::path& f
     throw CommandLineError(fmt::format("--times {:g}: no output of {} is within a thousandth of it; there are {:.6g}",
                                        wanted, folder.string(), fmt::join(times, ", ")));
   return *nearest;
+}
+
+/// The one at a time, or of that date; "2020-01-03" is midnight.
+std::size_t output_named(const std::string& wanted, const Drawable& drawable, const fs::path& folder) {
+  if (const auto time = base::read_number<double>(wanted)) return output_at(*time, drawable, folder);
+  std::vector<std::string> dates;
+  for (std::size_t i = 0; drawable.date && i < drawable.times.size(); ++i) {
+    dates.push_back(drawable.times[i] ? drawable.date(*drawable.times[i]) : "");
+    if (dates.back() == wanted || dates.back() == wanted + " 00:00") return i;
+  }
+  throw CommandLineError(dates.empty() ? fmt::format("--times {} is no number, and the outputs of {} have no dates",
+                                                     wanted, folder.string())
+                                       : fmt::format("--times {}: no output of {} has this date; there are {}", wanted,
+                                                     folder.string(), fmt::join(dates, ", ")));
 }
 
 const render::Style& style_called(const std::string& name) {
@@ -158,7 +173,7 @@ Plan plan_of(const RenderOptions& options, bool locked) {
                                           : outputs_to_draw(options.folder, locked);
   plan.looks = looks_of(options.looks);
   std::set<std::size_t> wanted;
-  for (const double time : options.times) wanted.insert(output_at(time, plan.drawable, options.folder));
+  for (const std::string& time : options.times) wanted.insert(output_named(time, plan.drawable, options.folder));
   for (std::size_t i = 0; options.times.empty() && i < plan.drawable.times.size(); ++i) wanted.insert(i);
   plan.wanted.assign(wanted.begin(), wanted.end());
   if (!options.style.empty()) plan.style = &style_called(options.style);

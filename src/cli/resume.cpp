@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/lies_in.hpp"
+#include "base/number.hpp"
 #include "base/text_file.hpp"
 #include "cli/asked_case.hpp"
 #include "cli/carry_out.hpp"
@@ -16,6 +17,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/read_case.hpp"
+#include "input/case_dates.hpp"
 #include "input/same_past.hpp"
 #include "write/folder_facts.hpp"
 
@@ -29,7 +31,7 @@ constexpr std::size_t largest_case = 4'000'000;  // bytes
 
 struct ResumeOptions {
   fs::path folder{};
-  std::optional<double> until{};         // a new time.end
+  std::string until{};                   // a new time.end, a number or a date; empty: the old one
   std::vector<std::string> overrides{};  // --set key=value
   std::string stop_after{};              // a length of time; empty: never
   std::string memory{};                  // --memory
@@ -40,7 +42,7 @@ struct ResumeOptions {
 
 void declare(OptionList& options, ResumeOptions& given) {
   options.add("folder", given.folder, "DIR", "folder of a run").required();
-  options.add("--until", given.until, "T", "a new end, time.end. Outputs go on at the same distance");
+  options.add("--until", given.until, "T", "a new end, time.end, a time or a date. Outputs go on at the same distance");
   options
       .add("--set", given.overrides, "KEY=VALUE",
            "change a key that does not change the past, such as output.times. Repeatable")
@@ -137,6 +139,16 @@ struct Asked {
   double stop_after = 0, most_memory = 0;
 };
 
+/// A time of the clock, as a number or a date of the case's data.
+double time_named(const std::string& text, const Case& spec) {
+  if (const auto number = base::read_number<double>(text)) return *number;
+  if (const auto time = input::time_of_date(spec, text)) return *time;
+  throw CommandLineError(fmt::format(
+      "--until {} is no number{}", text,
+      spec.time.date ? fmt::format(", and no date such as \"{}\"", spec.time.date(spec.time.at(spec.time.end)))
+                     : ", and no data of this run have dates"));
+}
+
 Asked asked_for(const ResumeOptions& options) {
   Asked asked;
   asked.stop_after = stop_after_seconds(options.stop_after);
@@ -147,10 +159,10 @@ Asked asked_for(const ResumeOptions& options) {
     return set.starts_with("output.times") || set.starts_with("output.frames");
   });
   Case spec = case_in(options.folder, options.overrides, options.threads);
-  if (options.until) {
-    const double end = spec.time.elapsed(*options.until);
+  if (!options.until.empty()) {
+    const double end = spec.time.elapsed(time_named(options.until, spec));
     if (!std::isfinite(end) || end < 0)
-      throw CommandLineError(fmt::format("--until {:g} is no time of this run, which goes from {} {}", *options.until,
+      throw CommandLineError(fmt::format("--until {} is no time of this run, which goes from {} {}", options.until,
                                          spec.time.start, spec.time.backwards ? "backwards" : "on"));
     spec.time.end = end;
     std::erase_if(spec.output.times, [&](double time) { return time > spec.time.end; });

@@ -19,12 +19,7 @@ namespace {
 
 /// "smoothing 0.024 dominates, quadrature 4e-07, ..."
 std::string one_line(const accuracy::Budget& budget) {
-  std::vector<std::pair<double, std::string>> causes{{budget.time_stepping, "time stepping"},
-                                                     {budget.smoothing, "smoothing"},
-                                                     {budget.quadrature, "quadrature"},
-                                                     {budget.transform, "Gauss transform"}};
-  if (budget.left_out > 0) causes.emplace_back(budget.left_out, "particles left out");
-  if (budget.fit > 0) causes.emplace_back(budget.fit, "fit of samples");
+  std::vector<std::pair<double, std::string>> causes = accuracy::told_causes(budget);
   std::stable_sort(causes.begin(), causes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (const auto& [value, name] : causes)

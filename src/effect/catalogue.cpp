@@ -81,6 +81,13 @@ double spreading(const EffectsSpec& named) {
   return rate;
 }
 
+std::vector<double> spreading_of_tracers(const Case& spec) {
+  for (const auto& [effect, values] : effects_of(spec.effects))
+    if (effect->spreading_of_tracers)
+      if (std::vector<double> parts = effect->spreading_of_tracers(values, spec); !parts.empty()) return parts;
+  return {};
+}
+
 std::optional<Tensor> spreading_shape(const EffectsSpec& named, int dimension) {
   for (const auto& [effect, spec] : effects_of(named))
     if (effect->spreading_shape)

@@ -127,6 +127,8 @@ struct NamedEffect {
   double (*spreading)(const EffectSpec& effect) = nullptr;
   /// How that is along other directions than the fastest, see spread_cutoff(); null: all are alike.
   std::optional<Tensor> (*spreading_shape)(const EffectSpec& effect, int dimension) = nullptr;
+  /// Which part of it each named density of the case has; empty: all spread alike.
+  std::vector<double> (*spreading_of_tracers)(const EffectSpec& effect, const Case& spec) = nullptr;
   /// Work of a particle in a step besides stages, in evaluations of a velocity (sim/work.hpp, Work).
   double (*work)(const EffectSpec& effect, const Case& spec) = nullptr;
   EffectMemory (*memory)(const EffectSpec& effect, int dimension) = nullptr;
@@ -166,6 +168,9 @@ double spreading(const EffectsSpec& named);
 
 /// How blobs are longer along some directions; empty: all effects leave them round.
 std::optional<Tensor> spreading_shape(const EffectsSpec& named, int dimension);
+
+/// Which part of that rate the width of each named density has; empty: all blobs are alike.
+std::vector<double> spreading_of_tracers(const Case& spec);
 
 /// Why the errors of a case with these effects are not predicted: the causes that a budget knows are those of transport
 /// and of weights that decay along their paths. Empty: they are.

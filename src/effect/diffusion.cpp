@@ -98,6 +98,53 @@ void check_coefficient(const EffectSpec& effect, int dimension, std::vector<Comp
          "no eigenvalue of a matrix of diffusion is negative, and one is positive"});
 }
 
+bool has_own_diffusion(const Case& spec) {
+  return std::any_of(spec.tracers.begin(), spec.tracers.end(),
+                     [](const TracerSpec& tracer) { return tracer.diffusion.has_value(); });
+}
+
+/// Which part of D each named density has.
+std::vector<double> parts_of_tracers(const EffectSpec& effect, const Case& spec) {
+  std::vector<double> parts;
+  for (const TracerSpec& tracer : spec.tracers)
+    parts.push_back(tracer.diffusion ? *tracer.diffusion / effect.number("D") : 1);
+  return parts;
+}
+
+std::vector<double> spreading_of_tracers(const EffectSpec& effect, const Case& spec) {
+  return spreads(effect, 0) && has_own_diffusion(spec) ? parts_of_tracers(effect, spec) : std::vector<double>();
+}
+
+/// What does not go with coefficients that named densities have of their own.
+void check_tracers(const EffectSpec& effect, const Case& spec, std::vector<Complaint>& found) {
+  if (!has_own_diffusion(spec)) return;
+  if (!effect.has("D")) {
+    found.push_back({"D", "has no D, and named densities have a diffusion of their own",
+                     "D = 0.01 is the largest coefficient; those of densities are parts of it"});
+    return;
+  }
+  const int dimension = spec.domain.dimension;
+  for (const TracerSpec& tracer : spec.tracers) {
+    if (tracer.diffusion && *tracer.diffusion > effect.number("D"))
+      found.push_back({"D",
+                       fmt::format("D = {:g} is less than the diffusion of {}, {:g}", effect.number("D"), tracer.name,
+                                   *tracer.diffusion),
+                       "D is the largest of all; a density that spreads less has its own"});
+    if (walks(effect, dimension) && tracer.diffusion && *tracer.diffusion != effect.number("D"))
+      found.push_back({"method",
+                       fmt::format("a particle that walks carries all named densities along, and {} has a diffusion "
+                                   "of its own",
+                                   tracer.name),
+                       "method = \"particle-exchange\" or \"core-spreading\""});
+    if (spreads(effect, dimension) && !tracer.gain.empty())
+      found.push_back({"method",
+                       fmt::format("blobs of each named density have a width of their own, and what {} gains from "
+                                   "others has been spread as they are",
+                                   tracer.name),
+                       "method = \"particle-exchange\"; half_life goes with core spreading too"});
+  }
+}
+
 /// What does not go with the method.
 void check_method(const EffectSpec& effect, const Case& spec, std::vector<Complaint>& found) {
   const int dimension = spec.domain.dimension;
@@ -128,6 +175,7 @@ std::vector<Complaint> problems(const EffectSpec& effect, const Case& spec) {
   std::vector<Complaint> found;
   check_coefficient(effect, spec.domain.dimension, found);
   if (found.empty()) check_method(effect, spec, found);
+  if (found.empty()) check_tracers(effect, spec, found);
   return found;
 }
 
@@ -153,7 +201,8 @@ double work(const EffectSpec& effect, const Case& spec) {
   if (walks(effect, spec.domain.dimension)) return effect.has("D_field") || effect.has("file") ? 10 : 4;
   if (!exchanges(effect, spec.domain.dimension)) return 0;
   const double halo = 2 * spec.particles.overlap * std::sqrt(std::log(1 / effect.number("tolerance"))) + 1;
-  return 0.2 * std::pow(halo, spec.domain.dimension) + 60;
+  const auto columns = static_cast<double>(std::max<std::size_t>(1, spec.tracers.size()));
+  return 0.2 * std::pow(halo, spec.domain.dimension) + 20 * (1 + 2 * columns);
 }
 
 /// The volumes, the table of nodes with particles, and what three sums hold.
@@ -207,10 +256,15 @@ std::unique_ptr<Effect> make_walk(const EffectSpec& effect, const EffectScene& s
 
 std::unique_ptr<Effect> make_exchange(const EffectSpec& effect, const EffectScene& scene) {
   ParticleExchange::Options options{.coefficient = scene.field ? 1 : effect.number("D"),
+                                    .of_tracers = {},
                                     .field = scene.field,
                                     .end = scene.spec.time.end,
                                     .tolerance = effect.number("tolerance"),
                                     .threads = scene.threads};
+  if (has_own_diffusion(scene.spec))
+    options.of_tracers = parts_of_tracers(effect, scene.spec);
+  else
+    options.of_tracers.assign(scene.spec.tracers.size(), 1);
   options.tiles.particles = scene.spec.evaluate.tile_particles > 0
                                 ? static_cast<std::int64_t>(scene.spec.evaluate.tile_particles)
                                 : usual_tiles(scene.spec.domain.dimension).particles;
@@ -331,6 +385,7 @@ NamedEffect diffusion() {
           .problems = problems,
           .spreading = spreading,
           .spreading_shape = spreading_shape,
+          .spreading_of_tracers = spreading_of_tracers,
           .work = work,
           .memory = memory,
           .coarsen = coarsen,

@@ -157,11 +157,7 @@ void ParticleExchange::settle(Particles& particles, const double* integral, doub
 // lies one of these, and it is nearer to that node. So a halo that is there is complete, whoever looks at it again.
 void ParticleExchange::grow_halo(Particles& particles) {
   if (!known_) find_nodes(particles);
-  double largest = 0;
-  for (std::size_t j = 0; j < particles.size(); ++j)
-    largest = std::max(largest, std::abs(particles.alpha[j]) / particles.volume[j]);
-  ranks_.max(std::span(&largest, 1));
-  const std::vector<char> counts = above(particles, options_.tolerance * largest);
+  const std::vector<char> counts = that_count(particles);
   const std::vector<std::size_t> at_edge = edge(particles, counts);
   const std::size_t count = count_of_all(particles);
   std::set<std::int64_t> missing;  // in ascending order, so that the new particles' order is always the same
@@ -176,11 +172,32 @@ void ParticleExchange::grow_halo(Particles& particles) {
   if (made > 0) ranks_.agree_on([&] { add(missing, particles); });
 }
 
-std::vector<char> ParticleExchange::above(const Particles& particles, double density) {
+// Those with more than the tolerance of the largest density, of one tracer at least.
+std::vector<char> ParticleExchange::that_count(const Particles& particles) const {
+  std::vector<const std::vector<double>*> weights{&particles.alpha};
+  if (!options_.of_tracers.empty()) {
+    weights.clear();
+    for (const std::vector<double>& tracer : particles.tracers) weights.push_back(&tracer);
+  }
+  std::vector<double> largest(std::max<std::size_t>(1, options_.of_tracers.size()), 0.0);
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    for (std::size_t j = 0; j < particles.size(); ++j)
+      largest[k] = std::max(largest[k], std::abs((*weights[k])[j]) / particles.volume[j]);
+  ranks_.max(std::span(largest));
   std::vector<char> counts(particles.size(), 0);
-  for (std::size_t j = 0; j < particles.size(); ++j)
-    counts[j] = std::abs(particles.alpha[j]) > density * particles.volume[j];
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    for (std::size_t j = 0; j < particles.size(); ++j)
+      counts[j] = counts[j] || std::abs((*weights[k])[j]) > options_.tolerance * largest[k] * particles.volume[j];
   return counts;
+}
+
+// What is exchanged: the weights, or those of each tracer.
+std::vector<std::vector<double>*> ParticleExchange::weights_of(Particles& particles) const {
+  if (options_.of_tracers.empty()) return {&particles.alpha};
+  particles.tracers.resize(options_.of_tracers.size());  // a rank without particles may have none
+  std::vector<std::vector<double>*> weights;
+  for (std::vector<double>& tracer : particles.tracers) weights.push_back(&tracer);
+  return weights;
 }
 
 template <class Use>
@@ -306,6 +323,7 @@ void ParticleExchange::add(const std::set<std::int64_t>& missing, Particles& par
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   for (int k = 0; k < fresh.dimension; ++k) append(particles.position[k], fresh.position[k]);
   append(particles.alpha, fresh.alpha);
+  for (std::size_t k = 0; k < options_.of_tracers.size(); ++k) append(*weights_of(particles)[k], fresh.alpha);
   append(particles.id, fresh.id);
   append(particles.volume, fresh.volume);
   for (auto& integral : particles.path) integral.resize(particles.size(), 0.0);
@@ -366,12 +384,16 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   ScatteredSums<d> sums(fmt::format("diffusion by particle exchange at t = {:.6g}", time), particles, nodes_.lattice(),
                         eps, options_.tiles, sum_options(1e-3 * options_.tolerance, options_.threads), ranks_);
   const Eigen::ArrayXd g = roots(particles, time), volume = g * column(particles.volume).array();
-  Eigen::VectorXd alpha = column(particles.alpha);
-  Eigen::MatrixXd weights(alpha.size(), 2);
+  const std::vector<std::vector<double>*> exchanging = weights_of(particles);
+  const auto columns = static_cast<Eigen::Index>(exchanging.size());
+  Eigen::MatrixXd alpha(volume.size(), columns), weights(volume.size(), 1 + columns);
   weights.col(0) = volume;
-  weights.col(1) = g * alpha.array();
-  const Eigen::MatrixXd both = sums.of(weights);
-  const Eigen::ArrayXd kv = g * both.col(0).array();
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    alpha.col(k) = column(*exchanging[static_cast<std::size_t>(k)]);
+    weights.col(1 + k) = g * alpha.col(k).array();
+  }
+  const Eigen::MatrixXd sum = sums.of(weights);
+  const Eigen::ArrayXd kv = g * sum.col(0).array();
   const double rate = factor * largest(kv);
   ranks_.agree_on([&] {
     if (length * rate > 2 * (1 + 1e-6))  // 1e-6: the tolerance of largest_rate()
@@ -382,19 +404,28 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   });
   // L applied to weights w whose sum K g w is known. What one particle gives another receives; the tolerance of the sums
   // breaks that, and what is too much or too little is spread over all exchanges, so that the mass stays.
-  const auto exchanged = [&](const Eigen::VectorXd& w, const Eigen::ArrayXd& kw) {
+  const auto exchanged = [&](const Eigen::VectorXd& w, const Eigen::ArrayXd& kw, Eigen::Index k) {
     const Eigen::ArrayXd gained = volume * kw, given = w.array() * kv;
     Eigen::ArrayXd change = gained - given;
     const Eigen::ArrayXd size = gained.abs() + given.abs();
     const auto [too_much, all] = sums_of(change, size);
     if (all > 0) change -= too_much / all * size;
-    return Eigen::VectorXd((factor * change).matrix());
+    const double part = options_.of_tracers.empty() ? 1 : options_.of_tracers[static_cast<std::size_t>(k)];
+    return Eigen::VectorXd((part * factor * change).matrix());
   };
   // Heun's method; L does not change as long as positions stand: alpha + t L alpha + t^2/2 L^2 alpha.
-  const Eigen::VectorXd first = exchanged(alpha, both.col(1).array());
-  const Eigen::VectorXd second = exchanged(first, sums.of((g * first.array()).matrix()).col(0).array());
-  alpha += length * first + length * length / 2 * second;
-  Eigen::Map<Eigen::VectorXd>(particles.alpha.data(), alpha.size()) = alpha;
+  Eigen::MatrixXd first(alpha.rows(), columns), of_first(alpha.rows(), columns);
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    first.col(k) = exchanged(alpha.col(k), sum.col(1 + k).array(), k);
+    of_first.col(k) = g * first.col(k).array();
+  }
+  const Eigen::MatrixXd sum_of_first = sums.of(of_first);
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const Eigen::VectorXd second = exchanged(first.col(k), sum_of_first.col(k).array(), k);
+    const Eigen::VectorXd after = alpha.col(k) + length * first.col(k) + length * length / 2 * second;
+    Eigen::Map<Eigen::VectorXd>(exchanging[static_cast<std::size_t>(k)]->data(), after.size()) = after;
+  }
+  add_up_tracers(particles);
 }
 
 // Over all ranks, exactly: bits do not depend on who has what.

@@ -27,6 +27,7 @@ class ParticleExchange : public Effect, private PlainIntegral {
  public:
   struct Options {
     double coefficient = 0;              // D > 0; 1 where a field has it
+    std::vector<double> of_tracers{};    // of named densities: which part of it each has; empty: there are none
     const ScalarField* field = nullptr;  // D as a number of place and time; null: constant. It must outlive the effect
     double end = 0;                      // until when a field counts
     double tolerance = 1e-6;  // particles with more than this part of the largest density are surrounded by others
@@ -75,7 +76,8 @@ class ParticleExchange : public Effect, private PlainIntegral {
   std::size_t count_of_all(const Particles& particles) const;
 
   void grow_halo(Particles& particles);
-  static std::vector<char> above(const Particles& particles, double density);
+  std::vector<char> that_count(const Particles& particles) const;
+  std::vector<std::vector<double>*> weights_of(Particles& particles) const;
   template <class Use>
   void for_each_neighbour(std::int64_t id, const Use& use) const;
   std::vector<std::size_t> edge(const Particles& particles, const std::vector<char>& counts);

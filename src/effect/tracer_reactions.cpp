@@ -68,13 +68,14 @@ bool tracers_react_linearly(const Case& spec) {
   });
 }
 
-TracerReactions::TracerReactions(const Case& spec, const VelocityField& velocity, double cell)
+TracerReactions::TracerReactions(const Case& spec, const VelocityField& velocity, double cell, bool volumes_are_kept)
     : velocity_(velocity),
       clock_(spec.time),
       dimension_(spec.domain.dimension),
       cell_(cell),
       unit_(cell),
       follows_volume_(!velocity.is_solenoidal() && !tracers_react_linearly(spec)),
+      volumes_are_kept_(volumes_are_kept),
       stable_step_(std::numeric_limits<double>::infinity()) {
   for (const TracerSpec& tracer : spec.tracers) {
     names_.push_back(tracer.name);
@@ -103,7 +104,7 @@ void TracerReactions::look_at(const Particles& sample) {
 
 // Steps of every method here are stable where its length times the largest rate is below 2, on the negative axis.
 void TracerReactions::begin(Particles& particles, double time) {
-  if (follows_volume_) particles.volume.assign(particles.size(), cell_);
+  if (follows_volume_ && !volumes_are_kept_) particles.volume.assign(particles.size(), cell_);
   constexpr std::size_t most = 1000;
   const std::size_t stride = (particles.size() + most - 1) / most, tracers = names_.size();
   double fastest = 0;
@@ -161,6 +162,7 @@ void TracerReactions::add_rates(double t, const Particles& particles, std::size_
 }
 
 void TracerReactions::settle(Particles& particles, const double* /*integral*/, double time) {
+  if (particles.tracers.empty()) return;  // carried without weight, to where new particles stand
   const std::size_t first = particles.path.size() - rows(), tracers = names_.size();
   for (std::size_t k = 0; k < tracers; ++k) {
     const std::vector<double>& change = particles.path[first + k];
@@ -174,7 +176,7 @@ void TracerReactions::settle(Particles& particles, const double* /*integral*/, d
                         names_[k], particles.id[j], clock_.at(time)));
     }
   }
-  if (follows_volume_)
+  if (follows_volume_ && !volumes_are_kept_)
     for (std::size_t j = 0; j < particles.size(); ++j)
       particles.volume[j] *= std::exp(particles.path[first + tracers][j]);
   add_up_tracers(particles);

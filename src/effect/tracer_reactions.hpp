@@ -26,7 +26,8 @@ bool tracers_react_linearly(const Case& spec);
 class TracerReactions : public Effect, private PathIntegral {
  public:
   /// cell: the volume of a particle at the start. The case and the velocity must outlive it.
-  TracerReactions(const Case& spec, const VelocityField& velocity, double cell);
+  /// `volumes_are_kept`: another effect keeps Particles::volume.
+  TracerReactions(const Case& spec, const VelocityField& velocity, double cell, bool volumes_are_kept = false);
 
   std::string name() const override { return "tracers"; }
   std::string describe() const override;
@@ -56,7 +57,7 @@ class TracerReactions : public Effect, private PathIntegral {
   std::vector<double> decay_;                   // of each tracer
   double cell_;
   double unit_;  // of the rows: the largest weight
-  bool follows_volume_;
+  bool follows_volume_, volumes_are_kept_;
   double stable_step_;
 };
 

@@ -69,7 +69,9 @@ std::string array_remedy(const std::vector<ArrayInfo>& arrays, const GridRequest
 
 /// The arrays that are asked for. Throws if they do not exist or do not fit.
 std::vector<ArrayInfo> chosen(const StoredGrid& grid, const std::filesystem::path& file, const GridRequest& request) {
-  const std::vector<ArrayInfo>& arrays = grid.arrays();
+  std::vector<ArrayInfo> arrays = grid.arrays();
+  if (!request.mask.empty() && request.arrays.empty())
+    std::erase_if(arrays, [&](const ArrayInfo& array) { return array.name == request.mask; });
   constexpr std::size_t most_shown = 20;
   std::vector<std::string> shown;
   for (std::size_t i = 0; i < std::min(arrays.size(), most_shown); ++i) shown.push_back(with_components(arrays[i]));
@@ -120,6 +122,21 @@ std::vector<ArrayInfo> chosen(const StoredGrid& grid, const std::filesystem::pat
                         : fmt::format("{} or {}", request.least_components, request.most_components)),
         array_remedy(arrays, request));
   return found;
+}
+
+/// The mask, which lies where the arrays do.
+ArrayInfo chosen_mask(const StoredGrid& grid, const std::filesystem::path& file, const GridRequest& request,
+                      bool on_cells) {
+  const ArrayInfo* other = nullptr;
+  for (const ArrayInfo& array : grid.arrays()) {
+    if (array.name != request.mask) continue;
+    if (array.on_cells == on_cells && array.components == 1) return array;
+    other = &array;
+  }
+  if (!other) throw GridFileError(fmt::format("{} has no array \"{}\", which mask names", name_of(file), request.mask));
+  throw GridFileError(fmt::format("the mask of {} is {}, and the data belong to {}", name_of(file),
+                                  with_components(*other), on_cells ? "cells" : "points"),
+                      "a mask has one component, at the same places as the data");
 }
 
 void check_shape(const StoredGrid& grid, const std::filesystem::path& file, int dimension) {
@@ -264,21 +281,33 @@ void check_size(const StoredGrid& grid, std::size_t components, std::size_t time
 }
 
 /// What a grid holds in the order of the result, whose axes are known: the numbers of all points, and which are hidden.
+/// With a mask that is the last array.
 std::pair<std::vector<double>, std::vector<std::uint8_t>> in_order(const StoredGrid& grid, const Layout& layout,
-                                                                   bool on_cells, const GridData& result) {
+                                                                   bool on_cells, const GridData& result,
+                                                                   bool has_mask) {
   std::vector<double> values(result.points() * result.components);
+  const std::size_t arrays = grid.values().size() - (has_mask ? 1 : 0);
   const std::vector<std::uint8_t>& mask = grid.hidden(on_cells);
   std::vector<std::uint8_t> hides(mask.empty() ? 0 : result.points());
   for (std::size_t p = 0; p < result.points(); ++p) {
     const std::size_t source = layout.source(p, result.dimension);
     double* at = values.data() + p * result.components;
-    for (const ArrayValues& array : grid.values()) {
-      const std::size_t count = grid.values().size() == 1 ? result.components : 1;
-      at = std::copy_n(array.numbers.data() + source * count, count, at);
+    for (std::size_t i = 0; i < arrays; ++i) {
+      const std::size_t count = arrays == 1 ? result.components : 1;
+      at = std::copy_n(grid.values()[i].numbers.data() + source * count, count, at);
     }
     if (!hides.empty()) hides[p] = mask[source];
   }
   return {std::move(values), std::move(hides)};
+}
+
+/// The same of the points that the mask names, the last array.
+std::vector<std::uint8_t> land_in_order(const StoredGrid& grid, const Layout& layout, const GridData& result,
+                                        const GridRequest& request, const std::filesystem::path& file) {
+  std::vector<double> numbers(result.points());
+  for (std::size_t p = 0; p < numbers.size(); ++p)
+    numbers[p] = grid.values().back().numbers[layout.source(p, result.dimension)];
+  return points_on_land(numbers, request.mask_is == MaskIs::land, fmt::format("{} of {}", request.mask, name_of(file)));
 }
 
 }  // namespace
@@ -393,7 +422,8 @@ std::shared_ptr<const GridData> read_matrix(const std::filesystem::path& file, c
   if (request.dimension != 2)
     throw GridFileError(fmt::format("{} has two dimensions, the domain has {}", name, request.dimension));
   const bool is_picture = file.extension() == ".png";
-  if (!request.arrays.empty()) throw GridFileError(fmt::format("{} has no arrays with names", name), "leave array out");
+  if (!request.arrays.empty() || !request.mask.empty())
+    throw GridFileError(fmt::format("{} has no arrays with names", name), "leave array and mask out");
   auto data = std::make_shared<GridData>(
       in_frame(is_picture ? read_grey_png(file) : read_csv_matrix(file), *request.frame, name));
   std::vector<double> named;
@@ -422,8 +452,10 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
     std::size_t components = 0;
     for (const ArrayInfo& array : arrays) components += array.components;
     check_size(grid, components, entries.size(), file);
-    grid.load(arrays);
-    const bool cells = arrays[0].on_cells;
+    const bool cells = arrays[0].on_cells, has_mask = !request.mask.empty();
+    std::vector<ArrayInfo> wanted = arrays;
+    if (has_mask) wanted.push_back(chosen_mask(grid, entry.file, request, cells));
+    grid.load(wanted);
     Layout layout = layout_of(grid, dimension, cells);
     if (result->times.empty()) {
       result->name = fmt::format("{} of {}", title_of(arrays), name_of(file));
@@ -438,9 +470,10 @@ std::shared_ptr<const GridData> read_grid(const std::filesystem::path& file, con
       throw GridFileError(
           fmt::format("the grid of {} differs from that of {}", name_of(entry.file), name_of(entries.front().file)),
           "all times of a series share one grid");
-    auto [values, hides] = in_order(grid, layout, cells, *result);
-    for (const ArrayValues& array : grid.values())
-      fills.insert(fills.end(), array.fill_values.begin(), array.fill_values.end());
+    auto [values, hides] = in_order(grid, layout, cells, *result, has_mask);
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+      fills.insert(fills.end(), grid.values()[i].fill_values.begin(), grid.values()[i].fill_values.end());
+    if (has_mask) hides = hidden_by_either(std::move(hides), land_in_order(grid, layout, *result, request, entry.file));
     result->times.push_back(entry.time);
     result->values.push_back(std::move(values));
     hidden.push_back(std::move(hides));

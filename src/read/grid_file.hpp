@@ -12,6 +12,7 @@
 
 #include "field/gridded/grid_data.hpp"
 #include "read/grid_file_error.hpp"
+#include "read/land_mask.hpp"
 #include "read/missing_data.hpp"
 #include "read/time_series.hpp"
 
@@ -40,8 +41,10 @@ struct GridRequest {
   std::size_t least_components = 1, most_components = 1;
   Missing missing = Missing::error;       // what stands where the file has no value
   std::optional<double> missing_value{};  // marks missing data, besides the marks that are recognised
-  bool decays = false;                    // the data span many powers of ten by nature, as densities do
-  std::optional<Frame> frame{};           // of .png and .csv, which are read only where there is one
+  std::string mask{};                     // an array that says where there is land; empty: none
+  MaskIs mask_is = MaskIs::as_the_file_says;
+  bool decays = false;           // the data span many powers of ten by nature, as densities do
+  std::optional<Frame> frame{};  // of .png and .csv, which are read only where there is one
   std::optional<SceneClock> clock{};
   std::optional<double> level{};  // of a further dimension: the layer that is read
   bool on_sphere = false;         // coordinates are degrees, and velocities are lengths per time all the same

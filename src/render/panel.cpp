@@ -22,14 +22,21 @@ void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& 
   std::vector<Image> images;
   for (const Panel& panel : panels) {
     const Style& style = panel_style(panel.density.lattice.dimension, panel.is_error);
-    images.push_back(picture_of(style, panel.density,
-                                {.title = panel.title,
+    const PictureOptions options{.title = panel.title,
                                  .quantity = style.quantity,
                                  .time = panel.time,
+                                 .date = panel.date,
                                  .range_min = panel.is_error ? error_min : range_min,
                                  .range_max = panel.is_error ? error_max : range_max,
                                  .width = width,
-                                 .height = height}));
+                                 .height = height};
+    if (panel.lines.empty()) {
+      images.push_back(picture_of(style, panel.density, options));
+      continue;
+    }
+    images.push_back(painted(width, height, {}, [&](Canvas& canvas) {
+      draw_lines_over(canvas, panel.density, panel.lines, {options.range_min, options.range_max}, options);
+    }));
   }
   const int rows = (static_cast<int>(panels.size()) + 1) / 2, columns = panels.size() > 1 ? 2 : 1;
   on_canvas(columns * width, rows * height, png, [&](Canvas& canvas) {

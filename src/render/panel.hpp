@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gaussdrift/frame.hpp"
+#include "render/lines_over_map.hpp"
 
 namespace gaussdrift::render {
 
@@ -14,7 +15,9 @@ struct Panel {
   std::string title;
   DensityGrid density;
   std::optional<double> time;
-  bool is_error = false;  // its own range, as far below 0 as above
+  std::string date{};              // of that time; empty: it has none
+  bool is_error = false;           // its own range, as far below 0 as above
+  std::vector<PlaneLine> lines{};  // over the density, which is then seen from above
 };
 
 /// Two panels a row, as heatmaps (2D) or slices (3D), of 640 x 480 pixels each. Throws as draw() does.

@@ -110,8 +110,8 @@ class Page {
     const std::string picture = read_file_of_run(file);
     if (picture.empty()) return;
     text_ += fmt::format(
-        "<p><img alt=\"the densities of the first and the last output, the exact one and the error where they are "
-        "known\" src=\"data:image/png;base64,{}\"></p>\n",
+        "<p><img alt=\"the densities of the first and the last output, the tracks if there are some, the exact one "
+        "and the error where they are known\" src=\"data:image/png;base64,{}\"></p>\n",
         base64(picture));
     if (const json untraced = get(last(), "untraced"); untraced.is_number() && untraced > 0)
       text_ += "<p class=quiet>Red in the exact density and grey in the error: points where it is not known.</p>\n";

@@ -67,10 +67,15 @@ std::string budget_table(const json& budget) {
                                   {"transform", "Gauss transform"},
                                   {"left_out", "particles left out, at most"},
                                   {"fit", "fit of samples"},
+                                  {"noise", "noise of the walk"},
+                                  {"others", "other causes"},
                                   {"total", "total"},
                                   {"interpolation", "interpolation of the data, not in the total"}}) {
     const bool is_rare = key == std::string("left_out") || key == std::string("fit");
     if (is_rare && is_zero(get(predicted, key)) && is_zero(get(measured, key))) continue;
+    if (measured.contains("noise") ? !measured.contains(key)
+                                   : key == std::string("noise") || key == std::string("others"))
+      continue;
     if (key == std::string("interpolation") && !predicted.contains(key) && !measured.contains(key)) continue;
     const json dominates = get(measured.contains("dominates") ? measured : predicted, "dominates");
     const bool most = dominates.is_string() && std::string(name).starts_with(dominates.get<std::string>());

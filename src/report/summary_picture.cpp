@@ -9,6 +9,7 @@
 #include "render/panel.hpp"
 #include "render/picture.hpp"
 #include "report/html.hpp"
+#include "report/track_paths.hpp"
 #include "write/output_files.hpp"
 
 namespace gaussdrift::report {
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Initial, final, exact and error densities; `notes`: why some or all are missing.
+/// Initial, final, exact and error densities, and tracks; `notes`: why some or all are missing.
 std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary, std::vector<std::string>& notes) {
   std::vector<render::Panel> panels;
   const auto outputs = read::written_outputs(folder, write::density_output().about.name);
@@ -25,11 +26,21 @@ std::vector<render::Panel> panels_of(const fs::path& folder, const json& summary
     notes.push_back("pictures: the run wrote no density files (output.vtk)");
     return panels;
   }
+  const json& frames = summary.at("frames");
   const auto add = [&](const read::WrittenOutput& output, const char* array, const char* title, bool error) {
-    panels.push_back({title, read::read_density(output.file, array), output.time, error});
+    const json date = output.number < frames.size() ? get(frames[output.number], "date") : json();
+    panels.push_back({.title = title,
+                      .density = read::read_density(output.file, array),
+                      .time = output.time,
+                      .date = date.is_string() ? date.get<std::string>() : "",
+                      .is_error = error});
   };
   if (outputs.size() > 1) add(outputs.front(), "rho", "initial", false);
   add(outputs.back(), "rho", outputs.size() > 1 ? "final" : "density", false);
+  if (std::vector<render::PlaneLine> lines = track_paths(folder); !lines.empty()) {
+    add(outputs.back(), "rho", panels.back().density.lattice.dimension == 2 ? "tracks" : "tracks, along z", false);
+    panels.back().lines = std::move(lines);
+  }
   const json frame = summary.at("frames").empty() ? json::object() : summary.at("frames").back();
   const std::size_t points = panels.back().density.lattice.size();
   const json told = get(frame, "compared");

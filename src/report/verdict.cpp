@@ -20,13 +20,14 @@ std::string part_text(double part) {
 
 /// What the largest of the causes means for somebody who does not know its name.
 std::string_view blame(const std::string& cause) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> words{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> words{
       {{"smoothing", "most of the error is that the blobs are too wide"},
        {"quadrature", "most of the error is that the blobs stand too far apart"},
        {"time stepping", "most of the error is that the time steps are too long"},
        {"Gauss transform", "most of the error is that the sum of the blobs is not sharp enough"},
        {"particles left out", "most of the error is that small particles were left out"},
-       {"fit of samples", "most of the error is that the samples are too few or too far apart"}}};
+       {"fit of samples", "most of the error is that the samples are too few or too far apart"},
+       {"noise of the walk", "most of the error is chance: too few particles walk"}}};
   for (const auto& [name, meaning] : words)
     if (name == cause) return meaning;
   return "";

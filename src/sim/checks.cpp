@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,7 +33,14 @@ double quantity_of_tracer(const CheckSpec& check, double mass_at_start, const Fr
   return nan;
 }
 
+double quantity_of_field(const CheckSpec& check, const FrameNumbers& numbers) {
+  for (const FieldNumbers& field : numbers.fields)
+    if (field.name == check.field) return check.what == CheckSpec::Quantity::largest ? field.largest : field.mean;
+  return nan;
+}
+
 double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumbers& numbers) {
+  if (check.is_of_field()) return quantity_of_field(check, numbers);
   if (!check.tracer.empty()) return quantity_of_tracer(check, mass_at_start, numbers);
   if (check.what == CheckSpec::Quantity::released) return numbers.released.value_or(nan);
   if (!check.is_error()) {
@@ -55,12 +63,15 @@ double quantity_of(const CheckSpec& check, double mass_at_start, const FrameNumb
     case CheckSpec::Quantity::left:
     case CheckSpec::Quantity::released:
     case CheckSpec::Quantity::stopped:
+    case CheckSpec::Quantity::largest:
+    case CheckSpec::Quantity::mean:
       break;
   }
   return nan;
 }
 
 std::string why_not_known(const CheckSpec& check, const FrameNumbers& numbers) {
+  if (check.is_of_field()) return fmt::format("no particle has a value of {}", check.field);
   if (!check.is_error()) return "the mass at the start is 0";
   if (!numbers.no_norms.empty()) return numbers.no_norms;
   if (numbers.untraced > 0) return fmt::format("the exact density is not known at {} grid points", numbers.untraced);
@@ -101,13 +112,38 @@ std::string to_string(CheckSpec::Quantity quantity) {
       return "released";
     case CheckSpec::Quantity::stopped:
       return "stopped";
+    case CheckSpec::Quantity::largest:
+      return "largest";
+    case CheckSpec::Quantity::mean:
+      return "mean";
   }
   return "";
 }
 
 std::string words_for(const CheckSpec& check) {
-  return to_string(check.what) + (check.by.empty() ? "" : " by " + check.by) +
-         (check.tracer.empty() ? "" : " of " + check.tracer);
+  return to_string(check.what) + (check.field.empty() ? "" : " " + check.field) +
+         (check.by.empty() ? "" : " by " + check.by) + (check.tracer.empty() ? "" : " of " + check.tracer);
+}
+
+bool checks_fields(const std::vector<CheckSpec>& checks) {
+  return std::any_of(checks.begin(), checks.end(), [](const CheckSpec& check) { return check.is_of_field(); });
+}
+
+std::vector<FieldNumbers> count_fields(const std::vector<CheckSpec>& checks, const std::vector<FieldOnGrid>& fields) {
+  std::vector<FieldNumbers> counted;
+  for (const FieldOnGrid& field : fields) {
+    if (std::none_of(checks.begin(), checks.end(), [&](const CheckSpec& check) { return check.field == field.name; }))
+      continue;
+    FieldNumbers& one = counted.emplace_back(FieldNumbers{.name = field.name, .largest = nan});
+    for (const double value : field.values) {
+      if (!std::isfinite(value)) continue;
+      one.largest = one.values == 0 ? value : std::max(one.largest, value);
+      one.mean += value;
+      ++one.values;
+    }
+    one.mean = one.values == 0 ? nan : one.mean / static_cast<double>(one.values);
+  }
+  return counted;
 }
 
 const std::pair<double, FrameNumbers>* worst_output(const std::vector<std::pair<double, FrameNumbers>>& frames) {
@@ -130,6 +166,10 @@ std::vector<CheckResult> judge(const std::vector<CheckSpec>& checks, double mass
     std::string why = "no output is at this time";
     for (const auto& [time, numbers] : frames) {
       if (check.at && *check.at != time) continue;
+      if (check.is_of_field() && std::isnan(quantity_of_field(check, numbers))) {
+        why = why_not_known(check, numbers);
+        continue;
+      }
       const double value = quantity_of(check, mass_at_start, numbers), beyond = excess(check, value);
       if (seen && beyond <= worst) continue;
       seen = true;

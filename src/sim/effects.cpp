@@ -32,7 +32,11 @@ Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow,
                                          .threads = threads}));
   }
   if (tracers_react(spec)) {  // the last one: its rows of path integrals come behind those of others
-    made.push_back(std::make_unique<TracerReactions>(spec, *scene.velocity, scene.seeding.largest_cell()));
+    bool volumes_are_kept = false;
+    for (const auto& [effect, values] : effects_of(spec.effects))
+      volumes_are_kept = volumes_are_kept || effect->traits.adds_particles.of(values, spec.domain.dimension);
+    made.push_back(
+        std::make_unique<TracerReactions>(spec, *scene.velocity, scene.seeding.largest_cell(), volumes_are_kept));
   }
   return made;
 }

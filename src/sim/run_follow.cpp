@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include "base/has_one.hpp"
@@ -33,6 +34,14 @@ void Simulation::Parts::look_at_tracks(bool landed) {
   });
 }
 
+void pass_fields(base::StateBytes& bytes, std::vector<FieldNumbers>& fields) {
+  std::uint64_t count = fields.size();
+  bytes(count);
+  if (count > particle_field_kinds().size()) throw std::out_of_range("there are too many fields of particles");
+  fields.resize(count);
+  for (FieldNumbers& one : fields) bytes(one.name, one.largest, one.mean, one.values);
+}
+
 ParticlesThere Simulation::Parts::there(const Particles& particles, double time) const {
   return {particles, case_.domain, scene_.seeding,
           time,      case_.time,   [this](std::int64_t id) { return releases_.began(id); },
@@ -46,19 +55,35 @@ bool Simulation::Parts::shows_where_particles_began() const {
 
 // Of the particles of a frame; density files get those that belong to the places where particles began.
 std::vector<FieldOnGrid> Simulation::Parts::add_particle_fields(const Frame& frame, DensityGrid& density) const {
-  if (particle_fields_of(case_.output).empty()) return {};
+  std::vector<FieldOnGrid> weights;
+  if (frame.particle_pieces == 1) weights = weights_of_tracers(*frame.particles);
+  if (particle_fields_of(case_.output).empty()) return weights;
   const ParticlesThere here = there(*frame.particles, frame.elapsed);
   std::vector<FieldOnGrid> fields = particle_fields(case_.output, here);
   if (shows_where_particles_began())
     for (FieldOnGrid& field :
          where_particles_began(case_.output, fields, carrier_.memory().gone(), here, scene_.evaluation))
       density.fields.push_back(std::move(field));
+  fields.insert(fields.end(), weights.begin(), weights.end());
   return fields;
+}
+
+// Those of each named density, for files of particles.
+std::vector<FieldOnGrid> Simulation::Parts::weights_of_tracers(const Particles& particles) const {
+  std::vector<FieldOnGrid> weights;
+  if (!base::has_one(case_.output.files, &OutputFile::needs_velocity)) return weights;
+  for (std::size_t k = 0; k < case_.tracers.size(); ++k)
+    weights.push_back({"alpha_" + case_.tracers[k].name, 1,
+                       k < particles.tracers.size() ? particles.tracers[k] : std::vector<double>()});
+  return weights;
 }
 
 void Simulation::Parts::hand_out_pieces(const Frame& frame, const std::vector<double>& velocity) {
   std::vector<FieldOnGrid> fields;
-  ranks_.agree_on([&] { fields = particle_fields(case_.output, there(particles_, frame.elapsed)); });
+  ranks_.agree_on([&] {
+    fields = particle_fields(case_.output, there(particles_, frame.elapsed));
+    for (FieldOnGrid& weights : weights_of_tracers(particles_)) fields.push_back(std::move(weights));
+  });
   hand_out_particles(particles_, velocity, fields, frame.particle_pieces, ranks_, [&](const ParticlePiece& piece) {
     for (const auto& observer : observers) {
       base::seam();

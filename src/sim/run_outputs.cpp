@@ -101,8 +101,9 @@ std::pair<Particles, std::vector<double>> gathered(const Particles& particles, c
 // Numbers of an output, one by one: a new one must not be forgotten here. Those about edges are there only where the
 // case has some, and so those about land and sources, so that what other cases keep stays as it is.
 void pass(base::StateBytes& bytes, FrameNumbers& n, Counted counted) {
-  static_assert(sizeof(FrameNumbers) == 272 + sizeof(std::string), "a number is not passed yet");
+  static_assert(sizeof(FrameNumbers) == 296 + sizeof(std::string), "a number is not passed yet");
   if (counted.tracers) pass_tracers(bytes, n.tracers);
+  if (counted.fields) pass_fields(bytes, n.fields);
   if (counted.sources) bytes(n.released, n.decayed);
   if (counted.stopped) {
     Stopped stopped = n.stopped.value_or(Stopped{});
@@ -135,7 +136,7 @@ DensityOptions Simulation::Parts::density_options() const {
   return options;
 }
 
-Cutoff Simulation::Parts::blob() const { return blob_of(scene_, particles_); }
+Cutoff Simulation::Parts::blob() const { return blob_of(scene_, particles_, part_of_spread_); }
 
 // Particles to the ranks that carry them from `from` to the next landing, and sum the density at `from`.
 void Simulation::Parts::place(double from) {
@@ -216,7 +217,7 @@ void Simulation::Parts::plan_reference() {
 
 // Beside the particles the images of them that reach the grid; `images` keeps those.
 const Particles& Simulation::Parts::summed(Particles& images) const {
-  return summed_particles(case_.domain, particles_, reach_of_blob(blob(), density_options()), images);
+  return summed_particles(domain_of_sum(case_, leg_.now), particles_, reach_of_blob(blob(), density_options()), images);
 }
 
 // The same on all ranks, which agree on how it went.
@@ -362,7 +363,7 @@ void Simulation::Parts::show_frame(double time) {
   frame.numbers.left = carrier_.departures().so_far();
   if (releases_.possible()) frame.numbers.released = releases_.released(), frame.numbers.decayed = carrier_.decayed();
   frame.numbers.tracers = count_tracers();
-  DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_density(report);
+  DensityGrid density = in_pieces() ? sum_in_pieces(frame, report) : sum_unless_tracers_do(report);
   summary_.stages.add("density", report.evaluate_seconds);
   summary_.stages.add("measure transform error", report.measure_seconds);
   summary_.transform_choice = report.choice;
@@ -379,7 +380,7 @@ void Simulation::Parts::show_frame(double time) {
       });
     });
 
-  sum_tracers(time, density, frame.numbers.tracers);
+  sum_tracers(time, density, frame.numbers.tracers, report);
 
   const bool velocity_wanted = base::has_one(case_.output.files, &OutputFile::needs_velocity);
   std::vector<double> velocity = velocity_at_particles(time, velocity_wanted);
@@ -389,15 +390,18 @@ void Simulation::Parts::show_frame(double time) {
   if (velocity_wanted)
     frame.particle_pieces = pieces_of_particles(place_.particle_count(), case_.output.piece_particles);
   if (frame.particle_pieces > 1) hand_out_pieces(frame, velocity);
-  const bool elsewhere =
-      ranks_.size() > 1 && !place_.one_tile() && (somebody_needs_particles(frame) || shows_where_particles_began());
+  const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() &&
+                         (somebody_needs_particles(frame) || shows_where_particles_began() || counted().fields);
   std::pair<Particles, std::vector<double>> all;
   if (elsewhere) all = gathered(particles_, velocity, ranks_);
   frame.particles = elsewhere ? &all.first : &particles_;
   frame.velocity = !velocity_wanted ? nullptr : elsewhere ? &all.second : &velocity;
   frame.density = &density;
   std::vector<FieldOnGrid> of_particles;
-  on_first([&] { of_particles = add_particle_fields(frame, density); });
+  on_first([&] {
+    of_particles = add_particle_fields(frame, density);
+    frame.numbers.fields = count_fields(case_.checks, of_particles);
+  });
   if (!of_particles.empty()) frame.particle_fields = &of_particles;
   std::vector<double> exact;
   const auto compare = [&] {

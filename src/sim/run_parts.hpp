@@ -17,6 +17,7 @@
 #include "gaussdrift/simulation.hpp"
 #include "reference/reference.hpp"
 #include "sim/carrier.hpp"
+#include "sim/checks.hpp"
 #include "sim/comparison.hpp"
 #include "sim/follow/particle_fields.hpp"
 #include "sim/follow/tracks.hpp"
@@ -29,7 +30,7 @@ namespace gaussdrift {
 
 /// What a case counts besides: about edges of the domain and land, and about what sources release.
 struct Counted {
-  bool edges = false, sources = false, stopped = false, tracers = false;
+  bool edges = false, sources = false, stopped = false, tracers = false, fields = false;
 };
 
 class Simulation::Parts {
@@ -93,7 +94,8 @@ class Simulation::Parts {
   DensityGrid sum_in_pieces(Frame& frame, DensityReport& report);
   // tracer_outputs.cpp: the same of each named density.
   std::vector<TracerNumbers> count_tracers() const;
-  void sum_tracers(double time, DensityGrid& density, std::vector<TracerNumbers>& numbers);
+  DensityGrid sum_unless_tracers_do(DensityReport& report);
+  void sum_tracers(double time, DensityGrid& density, std::vector<TracerNumbers>& numbers, DensityReport& whole);
 
   // run_outputs.cpp again.
   bool show_or_abandon(double time);
@@ -102,7 +104,7 @@ class Simulation::Parts {
   bool somebody_needs_particles(const Frame& frame) const;
   Counted counted() const {
     return {case_.domain.counts_inside() || carrier_.departures().possible(), releases_.possible(),
-            case_.domain.coast == AtCoast::stop, !case_.tracers.empty()};
+            case_.domain.coast == AtCoast::stop, !case_.tracers.empty(), checks_fields(case_.checks)};
   }
   bool in_pieces() const { return pieces_.count() > 1; }
   /// A formula is evaluated wherever a piece is. Paths are followed from points of the thinned grid alone.
@@ -130,6 +132,7 @@ class Simulation::Parts {
   bool shows_where_particles_began() const;
   void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
   std::vector<FieldOnGrid> add_particle_fields(const Frame& frame, DensityGrid& density) const;
+  std::vector<FieldOnGrid> weights_of_tracers(const Particles& particles) const;
   ParticlesThere there(const Particles& particles, double time) const;
 
   // run_state.cpp: what the run has come to, for another process that goes on.
@@ -163,6 +166,7 @@ class Simulation::Parts {
   double last_moment_ = -1;      // elapsed
   bool showing_moment_ = false;  // what is summed now is a frame
   bool tracer_alone_ = false;    // what is summed now is a named density, without derivatives
+  double part_of_spread_ = 1;    // that its blobs have
   LatticePieces pieces_;         // of the evaluation lattice
   Particles particles_;
   std::unique_ptr<Reference> reference_;  // null for none
@@ -189,6 +193,7 @@ class Simulation::Parts {
 
 /// The numbers of an output, to be kept or told.
 void pass(base::StateBytes& bytes, FrameNumbers& numbers, Counted counted);
+void pass_fields(base::StateBytes& bytes, std::vector<FieldNumbers>& fields);
 void pass_tracers(base::StateBytes& bytes, std::vector<TracerNumbers>& tracers);
 
 }  // namespace gaussdrift

@@ -46,10 +46,11 @@ void make_effect_fields(const Case& spec, Scene& scene) {
 
 }  // namespace
 
-Cutoff blob_of(const Scene& scene, const Particles& particles) {
-  if (!(particles.spread > 0)) return scene.cutoff;
-  if (!scene.spreading_shape) return spread_cutoff(scene.cutoff, particles.dimension, particles.spread);
-  return spread_cutoff(scene.cutoff, particles.dimension, particles.spread, *scene.spreading_shape);
+Cutoff blob_of(const Scene& scene, const Particles& particles, double part) {
+  const double spread = particles.spread * part;
+  if (!(spread > 0)) return scene.cutoff;
+  if (!scene.spreading_shape) return spread_cutoff(scene.cutoff, particles.dimension, spread);
+  return spread_cutoff(scene.cutoff, particles.dimension, spread, *scene.spreading_shape);
 }
 
 Lattice evaluation_lattice(const Case& spec) {
@@ -86,6 +87,7 @@ Scene make_scene(const Case& spec, int threads) {
   scene.evaluation = evaluation_lattice(spec);
   set_blob(spec.particles, scene);
   scene.spreading_shape = spreading_shape(spec.effects, domain.dimension);
+  scene.spreading_of_tracers = spreading_of_tracers(spec);
   return scene;
 }
 

@@ -40,9 +40,10 @@ struct Scene {
   double threshold = 0;       // particles.threshold
   bool starts_empty = false;  // there are sources and no density at the start
   Cutoff cutoff;
-  std::optional<Tensor> spreading_shape;  // of blobs that become ellipses; empty: they stay round
-  std::unique_ptr<Coast> coast;           // null: the data have no land
-  std::vector<std::string> misfits;       // what is wrong with the velocity at the edges of the domain, for people
+  std::optional<Tensor> spreading_shape;     // of blobs that become ellipses; empty: they stay round
+  std::vector<double> spreading_of_tracers;  // which part of the spread each has; empty: all of it
+  std::unique_ptr<Coast> coast;              // null: the data have no land
+  std::vector<std::string> misfits;          // what is wrong with the velocity at the edges of the domain, for people
 };
 
 /// The length over which gradients of the velocity are taken as differences: a thousandth of the smallest length that
@@ -56,8 +57,8 @@ void set_blob(const ParticleSpec& particles, Scene& scene);
 /// A cutoff with this name and default arguments in its place.
 Cutoff other_cutoff(const Scene& scene, std::string_view name);
 
-/// What these particles carry: the cutoff at the start, as wide as it has become.
-Cutoff blob_of(const Scene& scene, const Particles& particles);
+/// What these particles carry: the cutoff at the start, as wide as it has become; of a tracer by a part of the spread.
+Cutoff blob_of(const Scene& scene, const Particles& particles, double part = 1);
 
 /// The grid on which a case sums its density.
 Lattice evaluation_lattice(const Case& spec);

@@ -1,5 +1,6 @@
 // What an output of a run shows of each named density.
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -55,16 +56,29 @@ std::vector<TracerNumbers> Simulation::Parts::count_tracers() const {
   return all;
 }
 
-// Their densities, as further fields of the grid: one Gauss transform each, over the same points.
-void Simulation::Parts::sum_tracers(double time, DensityGrid& density, std::vector<TracerNumbers>& numbers) {
+// Where each named density has blobs of its own width, there is no transform of all: what each has is added up.
+DensityGrid Simulation::Parts::sum_unless_tracers_do(DensityReport& report) {
+  if (scene_.spreading_of_tracers.empty()) return sum_density(report);
+  DensityGrid density;
+  on_first([&] { density = {scene_.evaluation, std::vector<double>(scene_.evaluation.size(), 0.0)}; });
+  return density;
+}
+
+// Their densities, as further fields of the grid: one Gauss transform each, over the same points. `whole`: of the sum.
+void Simulation::Parts::sum_tracers(double time, DensityGrid& density, std::vector<TracerNumbers>& numbers,
+                                    DensityReport& whole) {
+  const bool adds_up = !scene_.spreading_of_tracers.empty();
+  double error = 0;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     DensityReport report;
     DensityGrid own;
     {
       const InPlaceOfWeights weights(particles_, k);
       tracer_alone_ = true;
+      if (adds_up) part_of_spread_ = scene_.spreading_of_tracers[k];
       own = sum_density(report);
       tracer_alone_ = false;
+      part_of_spread_ = 1;
     }
     summary_.stages.add("density", report.evaluate_seconds);
     summary_.stages.add("measure transform error", report.measure_seconds);
@@ -78,9 +92,23 @@ void Simulation::Parts::sum_tracers(double time, DensityGrid& density, std::vect
         if (formula(exact, case_.params, scene_.evaluation, clock)->evaluate(time, rho).untraced == 0)
           numbers[k].error = compare(own.lattice, own.rho, rho);
       }
+      if (adds_up) {
+        for (std::size_t i = 0; i < own.rho.size(); ++i) density.rho[i] += own.rho[i];
+        error += report.measured_error * std::max(std::abs(*low), std::abs(*high));
+        whole.requested_tolerance =
+            k == 0 ? report.requested_tolerance : std::min(whole.requested_tolerance, report.requested_tolerance);
+        whole.evaluate_seconds += report.evaluate_seconds;
+      }
       density.fields.push_back({numbers[k].name, 1, std::move(own.rho)});
     });
+    if (adds_up) summary_.transform_choice = report.choice;
   }
+  if (!adds_up) return;
+  on_first([&] {
+    double largest = 0;
+    for (const double rho : density.rho) largest = std::max(largest, std::abs(rho));
+    whole.measured_error = largest > 0 ? error / largest : error;
+  });
 }
 
 void Simulation::Parts::add_tracers_of_moment(DensityGrid& density) {

@@ -198,6 +198,9 @@ std::string view_script(const Case& spec) {
     script += first ? kind.view(spec.domain.dimension) : fmt::format("Hide({}, view)\n", kind.about.name);
     first = false;
   }
+  if (spec.output.tracks)
+    for (const TrackFile& file : spec.output.tracks->files)
+      if (const TrackFileKind& kind = find_track_file(file.name); kind.view) script += kind.view(kind.file);
   script +=
       "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"
       "ResetCamera(view)\n"

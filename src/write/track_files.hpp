@@ -28,6 +28,8 @@ struct TrackFileKind {
   TrackFile about;
   std::string_view file;  // "tracks.vtp"
   void (*write)(const std::filesystem::path& file, const TrackTable& table, const TrackHeading& heading) = nullptr;
+  std::string (*view)(std::string_view file) =
+      nullptr;  // lines of view.py that show it; null: ParaView does not read it
 };
 
 /// In the order of docs/cases.md.

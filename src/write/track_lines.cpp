@@ -140,10 +140,27 @@ void write_lines(const std::filesystem::path& file, const TrackTable& table, con
 
 }  // namespace
 
+namespace {
+
+// The file is made when the run has ended.
+std::string view(std::string_view file) {
+  return fmt::format(
+      "if os.path.exists(os.path.join(here, '{0}')):\n"
+      "    tracks = XMLPolyDataReader(registrationName='tracks', FileName=[os.path.join(here, '{0}')])\n"
+      "    lines = Show(tracks, view)\n"
+      "    ColorBy(lines, None)\n"
+      "    lines.DiffuseColor = [1.0, 1.0, 1.0]\n"
+      "    lines.LineWidth = 2.0\n",
+      file);
+}
+
+}  // namespace
+
 TrackFileKind track_lines() {
   return {.about = {.name = "vtp", .meaning = "tracks.vtp, lines for ParaView", .by_default = true},
           .file = "tracks.vtp",
-          .write = write_lines};
+          .write = write_lines,
+          .view = view};
 }
 
 }  // namespace gaussdrift::write

@@ -119,6 +119,9 @@ const std::vector<Reduced> reduced_cases = {
     {"charged_ball", {"particles.per_axis=41", "evaluate.per_axis=31"}, 0.32},
     {"periodic_vortices", {"particles.per_axis=201", "evaluate.per_axis=61"}, 0.06},
     {"sphere", {"particles.per_axis=121", "evaluate.per_axis=61"}, 0.08},  // (eps/R)^4 of gauss4, eps/R = 0.31
+    // Smoothing of the folds, and of the crescent.
+    {"periodic_abc", {"particles.per_axis=41", "evaluate.per_axis=21"}, 0.13},
+    {"basin", {"particles.per_axis=601", "evaluate.per_axis=61"}, 0.033},
     // (eps/R)^4 of gauss4 in the sheared stripe, and the kink that it has at the walls.
     {"channel", {"particles.per_axis=201", "evaluate.per_axis=61"}, 0.029},
     {"kirchhoff", {"particles.per_axis=81", "evaluate.per_axis=61"}, 0.14},

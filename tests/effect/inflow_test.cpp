@@ -34,20 +34,38 @@ FrameNumbers last(const RunSummary& summary) { return summary.frames.back().seco
 
 TEST(Inflow, FillsAChannelThatStartsEmpty) {
   Simulation simulation(channel_with({"output.times=[0, 0.5, 1]"}), 1);
-  std::vector<double> middle;  // at (0.5, 0.5)
+  std::vector<double> middle, face;  // at (0.5, 0.5) and (0, 0.5)
   simulation.observe("look", [&](const Frame& frame) {
     EXPECT_EQ(frame.density->lattice.points[0], 41u);
     middle.push_back(frame.density->rho[10 + 41 * 10]);
+    face.push_back(frame.density->rho[41 * 10]);
   });
   const RunSummary summary = simulation.run();
   EXPECT_TRUE(summary.complete);
   EXPECT_EQ(summary.particles, 0u);
   EXPECT_EQ(middle[0], 0);
   EXPECT_NEAR(middle[2], 2, 1e-7) << "half a unit behind the front";
+  EXPECT_NEAR(face[1], 2, 1e-7) << "what is to come stands beyond the face";
+  EXPECT_NEAR(face[2], 2, 1e-7);
   EXPECT_NEAR(last(summary).released.value(), 2, 1e-14);
   EXPECT_NEAR(last(summary).mass, 2, 1e-13);
   EXPECT_EQ(simulation.particle_count(), 20u * 20u) << "one a cell and puff";
   EXPECT_TRUE(std::isnan(summary.frames[0].second.centroid[0]));
+}
+
+TEST(Inflow, LeavesNothingBeyondTheFaceWhenItHasEnded) {
+  // The fluid that follows is empty: at the face half of what is behind it, as it was for all times before.
+  Simulation simulation(channel_with({"source.to=0.5", "source.puffs=10", "output.times=[0.5, 0.55, 1]"}), 1);
+  std::vector<double> face;
+  simulation.observe("look", [&](const Frame& frame) { face.push_back(frame.density->rho[41 * 10]); });
+  simulation.run();
+  EXPECT_NEAR(face[0], 2, 1e-7);
+  EXPECT_LT(face[1], 1);
+  EXPECT_NEAR(face[2], 0, 1e-7);
+  // Where nobody says what is beyond the face, there may be particles.
+  Simulation plain(channel_with({"domain.edges=[\"unbounded\", \"periodic\"]", "output.times=[1]"}), 1);
+  plain.observe("look", [&](const Frame& frame) { EXPECT_NEAR(frame.density->rho[41 * 10], 1, 0.01); });
+  plain.run();
 }
 
 TEST(Inflow, BringsTheIntegralOfWhatFlowsIn) {

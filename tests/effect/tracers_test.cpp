@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,51 @@ TEST(Tracers, HaveDensitiesOfTheirOwn) {
     EXPECT_NEAR(tracers[1].maximum, 0.5, 0.02);
   });
   simulation.run();
+}
+
+TEST(Tracers, HaveTheirWeightsInFilesOfParticles) {
+  const Case spec = spec_of(two("gain = \"-A\"", "gain = \"A\""), {"output.vtk=[\"particles\"]"});
+  const auto looks = [](Simulation& simulation) {
+    simulation.observe("look", [](const Frame& frame) {
+      ASSERT_TRUE(frame.particle_fields);
+      ASSERT_EQ(frame.particle_fields->size(), 2u);
+      for (const std::size_t k : {0u, 1u}) {
+        const FieldOnGrid& weights = (*frame.particle_fields)[k];
+        EXPECT_EQ(weights.name, k == 0 ? "alpha_A" : "alpha_B");
+        EXPECT_EQ(weights.values, frame.particles->tracers[k]);
+      }
+    });
+    simulation.run();
+  };
+  Simulation whole(spec, 1);
+  looks(whole);
+  // In pieces, and nowhere where no file has them.
+  Simulation pieces(
+      spec_of(two("gain = \"-A\"", "gain = \"A\""), {"output.vtk=[\"particles\"]", "output.piece_particles=500"}), 1);
+  class Pieces : public Observer {
+   public:
+    explicit Pieces(std::size_t& seen) : seen_(seen) {}
+    std::string name() const override { return "pieces"; }
+    bool takes_particle_pieces() const override { return true; }
+    void frame(const Frame& /*frame*/) override {}
+    void particle_piece(const Frame& /*frame*/, const ParticlePiece& piece) override {
+      ASSERT_TRUE(piece.fields);
+      EXPECT_EQ((*piece.fields)[1].name, "alpha_B");
+      for (std::size_t j = 0; j < piece.particles->size(); ++j)
+        EXPECT_EQ((*piece.fields)[0].values[j] + (*piece.fields)[1].values[j], piece.particles->alpha[j]);
+      seen_ += piece.particles->size();
+    }
+
+   private:
+    std::size_t& seen_;
+  };
+  std::size_t seen = 0;
+  pieces.observe(std::make_unique<Pieces>(seen));
+  pieces.run();
+  EXPECT_EQ(seen, 2 * pieces.particle_count()) << "at both outputs";
+  Simulation plain(spec_of(two("", "")), 1);
+  plain.observe("look", [](const Frame& frame) { EXPECT_FALSE(frame.particle_fields); });
+  plain.run();
 }
 
 TEST(Tracers, CloseTheBudgetOfEach) {

@@ -19,6 +19,19 @@ namespace gaussdrift::input {
 
 namespace fs = std::filesystem;
 
+/// As inline arrays of binary files are written.
+inline std::string in_base64(const std::string& bytes) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[bits >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
 class GridFile : public ::testing::Test {
  protected:
   /// nx x ny (x nz) points on [-1, 1]^d with one array, values as text.

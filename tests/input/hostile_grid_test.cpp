@@ -28,18 +28,6 @@ Bytes bytes_of(const std::vector<Word>& words, bool big_endian) {
   return bytes;
 }
 
-Bytes in_base64(const Bytes& bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  Bytes text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[bits >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
-
 Bytes deflated(const Bytes& bytes) {
   uLongf size = compressBound(bytes.size());
   Bytes packed(size, '\0');

@@ -55,5 +55,45 @@ TEST(TracksOfARun, AreWholeAfterAStop) {
   EXPECT_NE(other.err.find("output.tracks.every"), std::string::npos) << other.err;
 }
 
+/// Of a PNG.
+int height_of(const std::string& png) {
+  int height = 0;
+  for (std::size_t i = 20; i < 24; ++i) height = height << 8 | static_cast<unsigned char>(png.at(i));
+  return height;
+}
+
+TEST(TracksOfARun, AreOnThePageAndInParaView) {
+  const ScratchFolder folder;
+  write_file(folder / "drifting.toml", drifting);
+  write_file(folder / "buoys.csv", "y,x\n0.25,-0.5\n-0.75,-0.9\n");
+  const std::string call =
+      "run drifting.toml --set time.step=0.05 --set output.report=html --set output.tracks.steps=2";
+  ASSERT_EQ(gaussdrift_in(folder, call + " --out with").exit_code, 0);
+  const std::string view = read_file(folder / "with/view.py");
+  EXPECT_NE(
+      view.find("tracks = XMLPolyDataReader(registrationName='tracks', FileName=[os.path.join(here, 'tracks.vtp')])"),
+      std::string::npos)
+      << view;
+  ASSERT_EQ(gaussdrift_in(folder, call + " --set 'output.tracks.files=[]' --out table").exit_code, 0);
+  EXPECT_EQ(read_file(folder / "table/view.py").find("tracks"), std::string::npos);
+  if (!draws_pictures) GTEST_SKIP() << without_pictures;
+  // Two rows of two pictures: the first and the last density, and the tracks.
+  ASSERT_EQ(gaussdrift_in(folder, "report with").exit_code, 0);
+  const std::string picture = read_file(folder / "with/summary.png");
+  EXPECT_EQ(height_of(picture), 2 * 480);
+  EXPECT_NE(read_file(folder / "with/report.html").find("the tracks if there are some"), std::string::npos);
+  // Tracks that are elsewhere make another picture; none, or a table of something else, one row.
+  std::string table = read_file(folder / "with/tracks.csv");
+  table.erase(table.begin() + static_cast<std::ptrdiff_t>(table.size() / 2), table.end());
+  write_file(folder / "with/tracks.csv", table);
+  ASSERT_EQ(gaussdrift_in(folder, "report with").exit_code, 0);
+  const std::string half = read_file(folder / "with/summary.png");
+  EXPECT_EQ(height_of(half), 2 * 480);
+  EXPECT_NE(half, picture);
+  write_file(folder / "with/tracks.csv", "a,b\n1,2\n");
+  ASSERT_EQ(gaussdrift_in(folder, "report with").exit_code, 0);
+  EXPECT_EQ(height_of(read_file(folder / "with/summary.png")), 480);
+}
+
 }  // namespace
 }  // namespace gaussdrift

@@ -93,6 +93,8 @@ class GridInterpolator {
   double held_since(double t) const;
   /// "u of wind.pvd on 100 x 50 points, 12 times, cubic, 0 outside".
   std::string describe() const;
+  /// What a value costs in comparison with a grid along the axes: places of a curvilinear one are searched for.
+  double cost_of_place() const;
   const GridData& data() const { return *data_; }
   const std::shared_ptr<const GridData>& shared_data() const { return data_; }
 

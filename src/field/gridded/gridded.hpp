@@ -28,7 +28,7 @@ class GriddedVelocity : public VelocityField {
   double held_until(double t) const override { return grid_.held_until(t); }
   double held_since(double t) const override { return grid_.held_since(t); }
   bool is_smooth() const override { return false; }
-  double cost() const override { return 10; }
+  double cost() const override { return 10 * grid_.cost_of_place(); }
   std::string why_not_finite(double t, const Vector& x) const override {
     std::string reason = grid_.why_lost(x);
     return reason.empty() ? grid_.why_missing(t, x) : reason;
@@ -44,6 +44,7 @@ class GriddedDensity : public InitialDensity {
   /// That of the data at one time.
   explicit GriddedDensity(GridInterpolator grid, double time = 0) : grid_(std::move(grid)), time_(time) {}
   void add(const PointsView& x, double* values) const override { grid_.add(time_, x, 1, &values); }
+  double cost() const override { return grid_.cost_of_place(); }
   std::string describe() const override { return "rho_0 = " + grid_.describe(); }
 
  private:
@@ -57,7 +58,7 @@ class GriddedScalar : public ScalarField {
   void add(double t, const PointsView& x, double* values) const override { grid_.add(t, x, 1, &values); }
   bool is_steady() const override { return grid_.is_steady(); }
   bool is_smooth() const override { return false; }
-  double cost() const override { return 5; }
+  double cost() const override { return 5 * grid_.cost_of_place(); }
   std::string describe() const override { return grid_.describe(); }
 
  private:

@@ -21,14 +21,15 @@ Section checks_section() {
       {{.name = "what",
         .type = Type::choice,
         .required = true,
-        .choices = {"Linf", "L1", "L2", "mass", "inside", "left", "released", "stopped"},
+        .choices = {"Linf", "L1", "L2", "mass", "inside", "left", "released", "stopped", "largest", "mean"},
         .meaning =
             "the number to check: a norm of the error relative to that of the exact density, or a mass "
             "relative to that at the start. `mass` is that of all particles, `inside` of those inside the "
             "domain, `left` of those that have left the run, `stopped` of those that lie at a coast. `inside` and "
             "`left` need `domain.edges` or `domain.coast`, `stopped` needs coast = \"stop\". `released` is the "
             "mass that `[[source]]` has "
-            "released, relative to nothing"},
+            "released, relative to nothing. `largest` and `mean` are of the values that the particles have of a "
+            "`field`"},
        {.name = "by",
         .type = Type::text,
         .meaning = "with what = \"left\": the reason for which particles have left, a face of the domain as in "
@@ -36,6 +37,9 @@ Section checks_section() {
        {.name = "tracer",
         .meaning = "the named density that is meant; without it the sum of all. Its mass is relative to that of all "
                    "at the start. Norms need its `exact` density"},
+       {.name = "field",
+        .meaning = "with what = \"largest\" or \"mean\": a field of the particles that is one number, as `ftle` or "
+                   "`age`; `output.fields` names it too. Particles and outputs without a value do not count"},
        {.name = "max", .type = Type::number, .meaning = "the number must not be larger"},
        {.name = "min", .type = Type::number, .meaning = "the number must not be smaller"},
        {.name = "at",
@@ -110,6 +114,30 @@ void read_tracer(Reader& in, const Value& what, const Case& spec, CheckSpec& che
                          "mass, released and norms are known of named densities");
 }
 
+/// The field of the particles whose values are meant.
+void read_field(Reader& in, const Value& what, const Case& spec, CheckSpec& check) {
+  const Entry* entry = in.find("check", "field");
+  std::vector<std::string> possible;
+  for (const GridField& field : spec.output.fields)
+    if (field.is_of_particles && !field.is_matrix) possible.emplace_back(field.name);
+  if (!check.is_of_field()) {
+    if (entry)
+      in.diagnostics.error(entry->place, fmt::format("\"field\" does not go with what = \"{}\"", what.text),
+                           "it goes with \"largest\" and \"mean\"");
+    return;
+  }
+  if (!entry)
+    return in.diagnostics.error(what.place, fmt::format("what = \"{}\" needs a \"field\"", what.text),
+                                meaning_note(find_key("check", "field")));
+  check.field = in.text("check", "field");
+  if (std::find(possible.begin(), possible.end(), check.field) == possible.end())
+    in.diagnostics.error(
+        entry->value.place, fmt::format("\"{}\" is no field of the particles that this run tells", check.field),
+        possible.empty()
+            ? "output.fields = [\"rho\", \"ftle\"] tells one"
+            : fmt::format("those that output.fields names and that are one number: {}", fmt::join(possible, ", ")));
+}
+
 }  // namespace
 
 void read_checks(Reader& in, Case& spec) {
@@ -127,6 +155,7 @@ void read_checks(Reader& in, Case& spec) {
                            fmt::format("no number is at least {} and at most {}", *check.min, *check.max));
     read_departure(in, value, spec, check);
     read_tracer(in, value, spec, check);
+    read_field(in, value, spec, check);
     if (check.is_error() && check.tracer.empty() && spec.reference.kind == ReferenceSpec::Kind::none)
       in.diagnostics.error(value.place,
                            fmt::format("{} needs an exact density, but reference.kind is \"none\"", value.text));
@@ -140,6 +169,7 @@ void write_checks(Writer& out, const std::vector<CheckSpec>& checks, const TimeS
     out.part("check", checks.size());
     out.entry("what", written_choice(find_key("check", "what"), check.what));
     if (!check.by.empty()) out.entry("by", written(check.by));
+    if (!check.field.empty()) out.entry("field", written(check.field));
     if (!check.tracer.empty()) out.entry("tracer", written(check.tracer));
     if (check.max) out.entry("max", written(*check.max));
     if (check.min) out.entry("min", written(*check.min));

@@ -36,6 +36,14 @@ Section density_section() {
        .range = positive,
        .unit = "time",
        .meaning = "with `name`: the time in which half of it decays, besides its `gain`"},
+      {.name = "diffusion",
+       .type = Type::number,
+       .range = {0, infinity},
+       .unit = "length^2 / time",
+       .symbol = "D",
+       .meaning = "with `name`: its own coefficient of diffusion, at most the `D` of `[effects.diffusion]`, which "
+                  "densities without it have. With `core-spreading` reactions are refused, and `random-walk` spreads "
+                  "all alike"},
       {.name = "exact",
        .type = Type::expression,
        .meaning = "with `name`: its exact density, an expression in x, y, z, t and params, that outputs are compared "
@@ -102,7 +110,7 @@ void check_name(Reader& in, const Value& name) {
 void read_tracer(Reader& in, Case& spec, const std::vector<std::string>& names) {
   const Entry* name = in.find("density", "name");
   if (!name) {
-    for (const char* key : {"gain", "half_life", "exact"})
+    for (const char* key : {"gain", "half_life", "diffusion", "exact"})
       if (const Entry* entry = in.find("density", key))
         in.diagnostics.error(entry->place, fmt::format("\"{}\" goes with \"name\"", key),
                              "without names the densities are one, which effects and [reference] are for");
@@ -127,6 +135,8 @@ void read_tracer(Reader& in, Case& spec, const std::vector<std::string>& names) 
     tracer->gain = in.tracer_expression(gain->value, in.label_of(find_key("density", "gain")), tracers);
   if (const Entry* life = in.find("density", "half_life"); once(life, tracer->half_life.has_value()))
     if (const auto number = in.number("density", "half_life")) tracer->half_life = number->number;
+  if (const Entry* diffusion = in.find("density", "diffusion"); once(diffusion, tracer->diffusion.has_value()))
+    if (const auto number = in.number("density", "diffusion")) tracer->diffusion = number->number;
   if (const Entry* exact = in.find("density", "exact"); once(exact, !tracer->exact.empty()))
     tracer->exact = in.field_expression(exact->value, in.label_of(find_key("density", "exact")), true);
 }
@@ -156,6 +166,39 @@ void read_density(Reader& in, Case& spec) {
         fmt::format("{} named densities are too many; at most {} are possible", spec.tracers.size(), most_tracers));
 }
 
+namespace {
+
+/// What a coefficient of diffusion of a density asks for, beside what the effect itself says.
+void check_own_diffusion(Reader& in, const Case& spec, const Place& place) {
+  const auto own = std::find_if(spec.tracers.begin(), spec.tracers.end(),
+                                [](const TracerSpec& tracer) { return tracer.diffusion.has_value(); });
+  if (own == spec.tracers.end()) return;
+  const auto all = effects_of(spec.effects);
+  const auto diffuses =
+      std::find_if(all.begin(), all.end(), [](const auto& one) { return one.first->traits.diffuses; });
+  if (diffuses == all.end())
+    return in.diagnostics.error(place,
+                                fmt::format("{} has a diffusion, and the case has no effect that diffuses", own->name),
+                                "[effects.diffusion] with D, the largest coefficient, and a method");
+  if (in.diagnostics.errors() > 0 || spreading_of_tracers(spec).empty()) return;
+  const auto of_density = [](const GridField& field) { return !field.is_of_flow && !field.is_of_particles; };
+  std::string name;
+  for (const GridField& field : spec.output.fields)
+    if (of_density(field) && field.name != "rho") name = field.name;
+  if (spec.output.tracks)
+    for (const GridField& field : spec.output.tracks->fields)
+      if (of_density(field)) name = field.name;
+  if (!name.empty())
+    in.diagnostics.error(
+        place,
+        fmt::format("\"{}\" is one of all densities, whose blobs have different widths by the "
+                    "diffusion of {}",
+                    name, own->name),
+        fmt::format("leave {} out, or choose method = \"particle-exchange\" in [effects.diffusion]", name));
+}
+
+}  // namespace
+
 void check_tracers(Reader& in, const Case& spec) {
   const Entry* density = in.top("density");
   if (!density || spec.tracers.empty()) return;
@@ -163,7 +206,6 @@ void check_tracers(Reader& in, const Case& spec) {
     const EffectTraits& traits = effect->traits;
     const int dimension = spec.domain.dimension;
     std::string reason;
-    if (traits.adds_particles.of(values, dimension)) reason = traits.adds_particles.words;
     if (traits.replaces_particles.of(values, dimension)) reason = traits.replaces_particles.words;
     if (!reason.empty()) reason += ", which have one weight each";
     if (reason.empty() && traits.particles_interact) reason = "which of the densities moves the particles is not said";
@@ -172,6 +214,7 @@ void check_tracers(Reader& in, const Case& spec) {
                            fmt::format("named densities do not go with [{}]: {}", table_of(*effect), reason),
                            "leave out the effect, or the names");
   }
+  check_own_diffusion(in, spec, density->place);
   if (in.diagnostics.errors() == 0 && !spec.sources.empty() && !tracers_react_linearly(spec))
     in.diagnostics.error(in.top("source")->place,
                          "[[source]] does not go with reactions that are not sums of multiples of named densities: "
@@ -201,6 +244,7 @@ void write_density(Writer& out, const Case& spec) {
       if (part != tracer.parts.front()) continue;
       if (!tracer.gain.empty()) out.entry("gain", written(tracer.gain));
       if (tracer.half_life) out.entry("half_life", written(*tracer.half_life));
+      if (tracer.diffusion) out.entry("diffusion", written(*tracer.diffusion));
       if (!tracer.exact.empty()) out.entry("exact", written(tracer.exact));
     }
     std::visit([&](const auto& one) { write_part(out, one); }, spec.density[part]);

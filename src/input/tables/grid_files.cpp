@@ -65,6 +65,17 @@ std::vector<Key> grid_file_keys(std::string_view outside, const std::string& mis
        .type = Type::number,
        .meaning = "a number that marks missing data. The usual marks are recognised without it",
        .with = "file"},
+      {.name = "mask",
+       .meaning =
+           "name of an array of the file that says where the data mean something: 0 is land, other numbers are water, "
+           "as in most models of oceans. On land the file has no value, and `missing` says what happens there",
+       .with = "file"},
+      {.name = "mask_is",
+       .type = Type::choice,
+       .choices = {read::mask_names.begin() + 1, read::mask_names.end()},
+       .meaning = "what numbers other than 0 of `mask` are. Without it they are `water`, unless the `standard_name` or "
+                  "the `flag_meanings` of the mask say that they are land",
+       .with = "file"},
       {.name = "gaps",
        .type = Type::choice,
        .fallback = "warn",
@@ -198,6 +209,19 @@ std::optional<FileClock> read_clock(Reader& in, std::string_view table_name) {
   return clock;
 }
 
+/// An array that names the land.
+void read_mask(Reader& in, std::string_view table_name, GridFileSpec& spec) {
+  spec.mask = in.text(table_name, "mask");
+  spec.mask_is = in.choice(table_name, "mask_is");
+  const Entry* is = in.find(table_name, "mask_is");
+  const Entry* mask = in.find(table_name, "mask");
+  if (is && !mask)
+    in.diagnostics.error(is->place, "\"mask_is\" goes with \"mask\"", "mask = \"tmask\" names the array");
+  if (mask && spec.missing == "keep")
+    in.diagnostics.error(mask->place, "missing = \"keep\" takes every number as it is, so a mask has no effect",
+                         "another choice of \"missing\" says what happens on land");
+}
+
 /// The choice of that name, or the first one after a complaint.
 template <class Choice, std::size_t n>
 Choice choice_of(const std::array<std::string_view, n>& names, const std::string& name) {
@@ -222,6 +246,7 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
   spec.outside = in.choice(table_name, "outside");
   spec.missing = in.choice(table_name, "missing");
   if (const auto mark = in.number(table_name, "missing_value")) spec.missing_value = mark->number;
+  read_mask(in, table_name, spec);
   if (value.kind != Kind::text) {
     in.wrong_type(value, in.label_of(find_key(table_name, "file")), "the name of a file in a string");
     return spec;
@@ -240,6 +265,8 @@ FileSpec grid_file(Reader& in, std::string_view table_name, const Value& value, 
                     .most_components = static_cast<std::size_t>(most_components),
                     .missing = choice_of<read::Missing>(read::missing_names, spec.missing),
                     .missing_value = spec.missing_value,
+                    .mask = spec.mask,
+                    .mask_is = choice_of<read::MaskIs>(read::mask_names, spec.mask_is),
                     .decays = most_components == 1,
                     .frame = frame,
                     .clock = clock,
@@ -312,6 +339,8 @@ void write_grid_file(Writer& out, const FileSpec& spec) {
   out.entry("outside", written(spec.outside));
   out.entry("missing", written(spec.missing));
   if (spec.missing_value) out.entry("missing_value", written(*spec.missing_value));
+  if (!spec.mask.empty()) out.entry("mask", written(spec.mask));
+  if (!spec.mask_is.empty()) out.entry("mask_is", written(spec.mask_is));
   out.entry("gaps", written(spec.gaps));
   out.entry("duplicates", written(spec.duplicates));
 }

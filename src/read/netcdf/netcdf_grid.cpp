@@ -88,7 +88,8 @@ class Snapshots {
  private:
   void check_same(const NetcdfLayout& other, const std::string& file) const {
     bool same = other.axes.size() == layout_.axes.size() && other.arrays == layout_.arrays &&
-                other.units == layout_.units && other.start == layout_.start && other.time == layout_.time;
+                other.units == layout_.units && other.start == layout_.start && other.time == layout_.time &&
+                other.mask == layout_.mask;
     for (std::size_t k = 0; same && k < layout_.axes.size(); ++k) {
       const NetcdfAxis &a = layout_.axes[k], &b = other.axes[k];
       same = a.along == b.along && a.descends == b.descends && a.points.size() == b.points.size();

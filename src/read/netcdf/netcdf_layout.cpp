@@ -77,6 +77,7 @@ class Reading {
     choose_layers();
     for (int k = 0; k < request_.dimension; ++k) read_axis(static_cast<std::size_t>(k));
     if (request_.dimension == 3) find_direction_of_depth();
+    if (!request_.mask.empty()) layout_.mask = netcdf_mask(file_, layout_, request_);
     double points = 1;
     for (const NetcdfAxis& axis : layout_.axes) points *= static_cast<double>(axis.points.size());
     if (points * static_cast<double>(arrays_.size()) > most_numbers)
@@ -112,7 +113,7 @@ class Reading {
     std::vector<const NetcdfVariable*> some;
     for (const NetcdfVariable& variable : file_.variables())
       if (variable.holds_numbers && variable.dimensions.size() >= static_cast<std::size_t>(request_.dimension) &&
-          !is_coordinate(variable))
+          !is_coordinate(variable) && variable.name != request_.mask)
         some.push_back(&variable);
     return some;
   }

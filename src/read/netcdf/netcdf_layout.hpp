@@ -24,6 +24,16 @@ struct NetcdfAxis {
   std::size_t along = 0;  // which dimension of the arrays
 };
 
+/// A variable that says where there is land.
+struct NetcdfMask {
+  std::string name;
+  std::vector<std::optional<std::size_t>>
+      along;                // of each of its dimensions: that of the arrays; nothing: it has length 1
+  bool marks_land = false;  // by numbers other than 0
+
+  bool operator==(const NetcdfMask&) const = default;
+};
+
 struct NetcdfLayout {
   std::vector<std::string> arrays, units;  // one a component
   std::vector<double> signs;               // -1: a component counts downwards
@@ -35,6 +45,7 @@ struct NetcdfLayout {
   Calendar calendar = Calendar::standard;
   std::string time_units;          // as they stand in the file
   std::optional<TimeUnits> clock;  // the same, understood
+  std::optional<NetcdfMask> mask;
 
   std::size_t points() const;
 };
@@ -48,6 +59,12 @@ struct NetcdfValues {
   std::vector<double> values;        // [point][component], unpacked; NaN at hidden points
   std::vector<std::uint8_t> hidden;  // points that the file marks; empty: none
 };
+/// The mask that is asked for, whose dimensions are among those of the arrays. Throws GridFileError: there is none, or it
+/// does not lie along x and y.
+NetcdfMask netcdf_mask(const NetcdfFile& file, const NetcdfLayout& layout, const GridRequest& request);
+/// 1 for each point that is land. Throws GridFileError.
+std::vector<std::uint8_t> read_netcdf_mask(const NetcdfFile& file, const NetcdfLayout& layout, std::size_t time);
+
 /// `keep`: all numbers are meant, and none is hidden. Throws GridFileError.
 NetcdfValues read_netcdf_values(const NetcdfFile& file, const NetcdfLayout& layout, std::size_t time, bool keep);
 

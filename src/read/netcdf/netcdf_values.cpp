@@ -7,38 +7,28 @@
 
 #include "read/grid_file_error.hpp"
 #include "read/netcdf/netcdf_layout.hpp"
+#include "read/netcdf/netcdf_marks.hpp"
 
 namespace gaussdrift::read {
 
-namespace {
+RawMarks::RawMarks(const NetcdfFile& file, const NetcdfVariable& variable) {
+  const auto numbers = [&](const char* name) {
+    const NetcdfAttribute* attribute = variable.find(name);
+    return attribute ? attribute->numbers : std::vector<double>{};
+  };
+  fills_ = numbers("missing_value");
+  const auto fill = numbers("_FillValue");
+  fills_.insert(fills_.end(), fill.begin(), fill.end());
+  if (fill.empty() && !variable.is_byte) fills_.push_back(file.usual_fill(variable));
+  if (const auto range = numbers("valid_range"); range.size() == 2) least_ = range[0], most_ = range[1];
+  if (const auto least = numbers("valid_min"); least.size() == 1) least_ = least[0];
+  if (const auto most = numbers("valid_max"); most.size() == 1) most_ = most[0];
+}
 
-/// Which numbers of a variable, as they stand in the file, are none.
-class RawMarks {
- public:
-  RawMarks(const NetcdfFile& file, const NetcdfVariable& variable) {
-    const auto numbers = [&](const char* name) {
-      const NetcdfAttribute* attribute = variable.find(name);
-      return attribute ? attribute->numbers : std::vector<double>{};
-    };
-    fills_ = numbers("missing_value");
-    const auto fill = numbers("_FillValue");
-    fills_.insert(fills_.end(), fill.begin(), fill.end());
-    if (fill.empty() && !variable.is_byte) fills_.push_back(file.usual_fill(variable));
-    if (const auto range = numbers("valid_range"); range.size() == 2) least_ = range[0], most_ = range[1];
-    if (const auto least = numbers("valid_min"); least.size() == 1) least_ = least[0];
-    if (const auto most = numbers("valid_max"); most.size() == 1) most_ = most[0];
-  }
-  bool marks(double number) const {
-    if (!(number >= least_ && number <= most_)) return true;  // NaN too
-    return std::find(fills_.begin(), fills_.end(), number) != fills_.end();
-  }
-
- private:
-  std::vector<double> fills_;
-  double least_ = -std::numeric_limits<double>::infinity(), most_ = std::numeric_limits<double>::infinity();
-};
-
-}  // namespace
+bool RawMarks::marks(double number) const {
+  if (!(number >= least_ && number <= most_)) return true;  // NaN too
+  return std::find(fills_.begin(), fills_.end(), number) != fills_.end();
+}
 
 NetcdfValues read_netcdf_values(const NetcdfFile& file, const NetcdfLayout& layout, std::size_t time, bool keep) {
   std::vector<std::size_t> start = layout.start, count(layout.lengths.size(), 1);
@@ -84,6 +74,7 @@ NetcdfValues read_netcdf_values(const NetcdfFile& file, const NetcdfLayout& layo
         }
       }
   }
+  if (layout.mask) result.hidden = hidden_by_either(std::move(result.hidden), read_netcdf_mask(file, layout, time));
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "base/longest_side.hpp"
 #include "particle/images.hpp"
@@ -193,6 +194,18 @@ std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const D
           at_place(through, domain.dimension), "xyz"[k], through.size));
   }
   return words;
+}
+
+Domain domain_of_sum(const Case& spec, double elapsed) {
+  Domain domain = spec.domain;
+  for (const SourceSpec& source : spec.sources) {
+    const auto* face = std::get_if<FaceSourceSpec>(&source.what);
+    const double length = 1e-9 * std::max(1.0, spec.time.end);  // times that are the same but for rounding
+    if (!face || source.at || elapsed < source.from - length || elapsed > source.to + length) continue;
+    Edge& edge = domain.edges[static_cast<std::size_t>(face->axis)][face->upper ? 1 : 0];
+    if (edge == Edge::open) edge = Edge::closed;
+  }
+  return domain;
 }
 
 const Particles& summed_particles(const Domain& domain, const Particles& particles, double reach, Particles& images) {

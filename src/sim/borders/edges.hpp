@@ -51,6 +51,10 @@ std::optional<int> axis_without_whole_cells(const Domain& domain, int per_axis);
 /// from a sample of points and of times of the run. None: it goes on smoothly. The velocity is that at times of the clock.
 std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const Domain& domain, const TimeSpec& time);
 
+/// The edges that a density sees which is summed at this elapsed time: open faces through which a source lets something in
+/// just then are mirrors for it. What is still to come then stands beyond the face, as large as what has come in last.
+Domain domain_of_sum(const Case& spec, double elapsed);
+
 /// What a density is summed over where blobs are felt within `reach`: the particles, or, where the domain folds, `images`,
 /// which becomes the particles and their images. Throws InputError as with_images() does.
 const Particles& summed_particles(const Domain& domain, const Particles& particles, double reach, Particles& images);
