@@ -1,6 +1,8 @@
 #include "render/panel.hpp"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "render/on_canvas.hpp"
@@ -11,23 +13,23 @@ namespace gaussdrift::render {
 
 void draw_panels(const std::vector<Panel>& panels, const std::filesystem::path& png) {
   constexpr int width = 640, height = 480;
-  double low = 0, high = 0, low_error = 0, high_error = 0;
-  for (const Panel& panel : panels)
-    for (const double value : panel.density.rho) {
-      double &least = panel.is_error ? low_error : low, &most = panel.is_error ? high_error : high;
-      least = std::min(least, value), most = std::max(most, value);
-    }
-  const auto [range_min, range_max] = rounded_range(low, high);
-  const auto [error_min, error_max] = symmetric_range(low_error, high_error);
+  std::map<std::string, std::pair<double, double>> extremes;  // of each quantity, 0 among them
+  for (const Panel& panel : panels) {
+    auto& [low, high] = extremes[panel.quantity];
+    for (const double value : panel.density.rho) low = std::min(low, value), high = std::max(high, value);
+  }
   std::vector<Image> images;
   for (const Panel& panel : panels) {
-    const Style& style = panel_style(panel.density.lattice.dimension, panel.is_error);
+    const Style& style = panel_style(panel.density.lattice.dimension, panel.is_difference);
+    const auto [low, high] = extremes[panel.quantity];
+    const auto [range_min, range_max] = panel.is_difference ? symmetric_range(low, high) : rounded_range(low, high);
     const PictureOptions options{.title = panel.title,
-                                 .quantity = style.quantity,
+                                 .quantity = panel.quantity,
                                  .time = panel.time,
                                  .date = panel.date,
-                                 .range_min = panel.is_error ? error_min : range_min,
-                                 .range_max = panel.is_error ? error_max : range_max,
+                                 .planes = panel.planes,
+                                 .range_min = range_min,
+                                 .range_max = range_max,
                                  .width = width,
                                  .height = height};
     if (panel.lines.empty()) {

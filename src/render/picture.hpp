@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ struct PictureOptions {
   std::string date{};                         // of that time; empty: it has none
   bool from_below = false;                    // contour: the plane's lines as seen from below instead of from above
   bool whole = false;                         // contour: all of the domain in any case, as the frames of a film show it
+  std::optional<std::array<std::size_t, 3>>
+      planes{};          // slices: indices along the axes; by default of the largest value
   double range_min = 0;  // of the colours, height axis and contour levels; the same for all pictures of a run
   double range_max = 1;
   int width = 1280;

@@ -14,7 +14,7 @@ void draw(Canvas& canvas, const DensityGrid& density, const ColourRange& range, 
   const Scale scale(canvas);
   const Lattice& lattice = density.lattice;
   const auto views = arrange(canvas, lattice);
-  const auto at = largest_point(density);
+  const auto at = options.planes.value_or(largest_point(density));
   const auto place = [&](int axis) { return lattice.coordinate(axis, at[static_cast<std::size_t>(axis)]); };
   const auto text = [&](int axis) {
     const double value = place(axis);  // what rounding leaves of 0 is 0
@@ -40,7 +40,9 @@ void draw(Canvas& canvas, const DensityGrid& density, const ColourRange& range, 
                  scale(2));
   }
   draw_around(canvas, views, density, range, options,
-              {"three slices through the", fmt::format("largest {}, at", options.quantity), text(0), text(1), text(2)});
+              {"three slices through the",
+               fmt::format("largest {}, at", options.planes ? std::string("final value") : options.quantity), text(0),
+               text(1), text(2)});
 }
 
 }  // namespace

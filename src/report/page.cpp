@@ -47,7 +47,7 @@ class Page {
     std::error_code ignored;
     fs::remove(folder_ / summary_picture, ignored);  // an older one must not pass for this
     if (pictures == Pictures::drawn)
-      draw_summary(folder_, summary_, result_);
+      shown_part_ = draw_summary(folder_, summary_, result_);
     else
       by_choice_.push_back(pictures == Pictures::later
                                ? fmt::format("pictures: there was no time to draw them when the run was stopped; "
@@ -110,9 +110,11 @@ class Page {
     const std::string picture = read_file_of_run(file);
     if (picture.empty()) return;
     text_ += fmt::format(
-        "<p><img alt=\"the densities of the first and the last output, the tracks if there are some, the exact one "
-        "and the error where they are known\" src=\"data:image/png;base64,{}\"></p>\n",
+        "<p><img alt=\"the densities of the first, the middle and the last output, the tracks if there are some, the "
+        "exact one and the error where "
+        "they are known, and the change\" src=\"data:image/png;base64,{}\"></p>\n",
         base64(picture));
+    if (!shown_part_.empty()) text_ += fmt::format("<p class=quiet>{}</p>\n", escaped(shown_part_));
     if (const json untraced = get(last(), "untraced"); untraced.is_number() && untraced > 0)
       text_ += "<p class=quiet>Red in the exact density and grey in the error: points where it is not known.</p>\n";
   }
@@ -163,6 +165,7 @@ class Page {
   const json& summary_;
   json provenance_;  // null where there is none
   std::string text_;
+  std::string shown_part_;  // by the picture
   ReportFiles result_;
   std::vector<std::string> by_choice_;  // what the case did without, and what the folder lacks
 };

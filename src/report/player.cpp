@@ -44,6 +44,11 @@ std::string page_file(std::string_view name) {
   return std::string(file->bytes);
 }
 
+std::optional<Reel> kept_reel(const std::filesystem::path& folder) {
+  const std::string kept = read_file_of_run(folder / reel_file);
+  return kept.empty() ? std::nullopt : std::optional(Reel::from_text(kept));
+}
+
 std::optional<Reel> reel_of_run(const std::filesystem::path& folder, const PageSpec& wish,
                                 std::vector<std::string>& notes) {
   if (!wish.plays) {
@@ -51,9 +56,9 @@ std::optional<Reel> reel_of_run(const std::filesystem::path& folder, const PageS
     return std::nullopt;
   }
   try {
-    const std::string kept = read_file_of_run(folder / reel_file);
-    Reel reel = kept.empty() ? reel_from_files(folder, most_reel_bytes(wish)) : Reel::from_text(kept);
-    if (!reel.frames().empty()) return reel;
+    std::optional<Reel> reel = kept_reel(folder);
+    if (!reel) reel = reel_from_files(folder, most_reel_bytes(wish));
+    if (!reel->frames().empty()) return reel;
     notes.push_back(fmt::format("the run, played: there are neither frames of it ({}) nor density files", reel_file));
   } catch (const Error& error) {
     notes.push_back(fmt::format("the run, played: {}", error.what()));

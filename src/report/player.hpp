@@ -24,7 +24,10 @@ const std::vector<PageFile>& page_files();
 /// Throws std::out_of_range if no file is called so.
 std::string page_file(std::string_view name);
 
-/// The frames that a run left, report.frames, or those that its density files show. None where there are neither; `notes`
+/// The frames that a run left, report.frames. None where there is no such file. Throws FileError for a damaged one.
+std::optional<Reel> kept_reel(const std::filesystem::path& folder);
+
+/// The same, or those that its density files show. None where there are neither; `notes`
 /// is told why.
 std::optional<Reel> reel_of_run(const std::filesystem::path& folder, const PageSpec& wish,
                                 std::vector<std::string>& notes);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "report/html.hpp"
 #include "report/page.hpp"
@@ -10,7 +11,9 @@ namespace gaussdrift::report {
 
 constexpr const char* summary_picture = "summary.png";
 
-/// Initial, final, exact and error densities, and the tracks over the final one, from the files of the run. What is missing or fails is told in `result`.
-void draw_summary(const std::filesystem::path& folder, const json& summary, ReportFiles& result);
+/// Initial, middle, final, exact and error densities and the change between the first and the last, from the files of the
+/// run, or from the frames of its page where it wrote none; where something is. What is missing or fails is told in
+/// `result`. Returns what to say about the part that is shown; empty: all of the domain.
+std::string draw_summary(const std::filesystem::path& folder, const json& summary, ReportFiles& result);
 
 }  // namespace gaussdrift::report

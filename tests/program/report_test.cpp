@@ -83,12 +83,33 @@ TEST(Page, TellsWhatIsNotOnItAndWhy) {
   EXPECT_NE(sampled.find("pictures of the exact density and the error: only "), std::string::npos);
   const std::string alone = page("--set reference.kind=none --set 'output.vtk=[]'");
   EXPECT_NE(alone.find("errors: the density was compared with nothing"), std::string::npos);
-  EXPECT_NE(alone.find("pictures: the run wrote no density files"), std::string::npos);
-  EXPECT_EQ(alone.find("data:image"), std::string::npos);
+  EXPECT_NE(alone.find("data:image"), std::string::npos) << "drawn from the frames of the page";
+  const std::string still = page("--set reference.kind=none --set 'output.vtk=[]' --set output.report=still");
+  EXPECT_NE(still.find("pictures: the run wrote no density files"), std::string::npos);
+  EXPECT_NE(still.find("the run, played: there are neither frames of it"), std::string::npos);
+  EXPECT_EQ(still.find("data:image"), std::string::npos);
   const std::string once = page("--set 'output.times=[1]'");
   EXPECT_NE(once.find("the run was compared at one time only"), std::string::npos);
   const auto report = parsed_json(read_file(folder / "output/a/report.json"));
   EXPECT_FALSE(report["not_on_the_page"].empty());
+}
+
+TEST(Page, BeginsWithASentenceThatCanBeActedOnAndLinksWhatIsThere) {
+  const ScratchFolder folder;
+  write_file(folder / "a.toml", small_case);
+  const Outcome out =
+      gaussdrift_in(folder, "run a.toml --set case.label=dye --set time.end=1 --set 'output.times=[0, 1]'");
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  const std::string page = read_file(folder / "output/a/report.html");
+  const auto summary = parsed_json(read_file(folder / "output/a/summary.json"));
+  const double error = summary["frames"].back()["Linf"].get<double>();
+  const std::size_t begin = page.find("<b>Right to ");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string sentence = page.substr(begin, page.find("<br>", begin) - begin);
+  EXPECT_NEAR(std::stod(sentence.substr(12)), 100 * error, 0.06 * 100 * error) << sentence;  // two digits
+  EXPECT_NE(sentence.find("of the highest dye</b>"), std::string::npos) << sentence;
+  EXPECT_NE(page.find("<a href=\"series.csv\">"), std::string::npos);
+  EXPECT_EQ(page.find("<a href=\"tracks.csv\">"), std::string::npos);
 }
 
 TEST(Page, ShowsTheLimitsOfACheckWithDigitsThatTellThemFromItsValue) {
