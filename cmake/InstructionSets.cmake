@@ -34,15 +34,15 @@ function(kernels_of_one_set target isa lanes)
   target_sources(${target} PRIVATE $<TARGET_OBJECTS:${kernels}>)
 endfunction()
 
-# add_kernels(target DISPATCH dispatch.cpp SOURCES files ...) compiles the sources for every instruction set and
-# puts them into the target, to which dispatch.cpp belongs.
+# add_kernels(target DISPATCH dispatch.cpp SOURCES files ... OPTIONS ...) compiles the sources for every instruction set, with
+# these options, and puts them into the target, to which dispatch.cpp belongs.
 function(add_kernels target)
-  cmake_parse_arguments(ADD "" "DISPATCH" "SOURCES" ${ARGN})
-  kernels_of_one_set(${target} baseline 2 SOURCES ${ADD_SOURCES})
+  cmake_parse_arguments(ADD "" "DISPATCH" "SOURCES;OPTIONS" ${ARGN})
+  kernels_of_one_set(${target} baseline 2 SOURCES ${ADD_SOURCES} OPTIONS ${ADD_OPTIONS})
   if(core_x86)
-    kernels_of_one_set(${target} avx2 4 SOURCES ${ADD_SOURCES} OPTIONS -mavx2 -mfma)
+    kernels_of_one_set(${target} avx2 4 SOURCES ${ADD_SOURCES} OPTIONS -mavx2 -mfma ${ADD_OPTIONS})
     kernels_of_one_set(${target} avx512 8 SOURCES ${ADD_SOURCES}
-      OPTIONS -mavx2 -mfma -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512)
+      OPTIONS -mavx2 -mfma -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512 ${ADD_OPTIONS})
   endif()
   dispatch_sources(${ADD_DISPATCH})
 endfunction()

@@ -2,7 +2,7 @@
 # that find_package(gaussdrift) finds. fgtd and farfield are packages of their own, which it needs.
 include(InstallLibrary)
 
-set(library_modules base expression time field read particle effect reference sim write render input accuracy)
+set(library_modules base rows expression time field read particle effect reference sim write render input accuracy)
 add_library(gaussdrift_library STATIC)
 add_library(gaussdrift::gaussdrift ALIAS gaussdrift_library)
 set_target_properties(gaussdrift_library PROPERTIES OUTPUT_NAME gaussdrift EXPORT_NAME gaussdrift LINKER_LANGUAGE CXX)

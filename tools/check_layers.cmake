@@ -1,22 +1,23 @@
 # Reads the include lines of src/ and include/ and fails if one points up the module order, or at a header that another module
 # keeps to itself:
 #   cli -> study, reproduce, report, sum -> accuracy -> input -> render -> write -> sim -> reference -> (effect, time)
-#     -> (particle, read, blockmatrix) -> (field, farfield) -> (expression, rbf) -> fgtd -> core -> base
+#     -> (particle, read, blockmatrix) -> (field, farfield) -> (expression, rbf) -> rows -> fgtd -> core -> base
 #   cli -> mpi -> base, and mpi alone includes <mpi.h>
 #   python -> accuracy, and the headers of include/
 # Usage: cmake -D ROOT=<source folder> -P tools/check_layers.cmake
 
 # What each module may include besides itself. "case" is include/gaussdrift/case.hpp, plain data that anybody above may read.
 set(may_base "")
-set(may_expression base)
+set(may_rows base core)
+set(may_expression base rows)
 set(may_mpi base)
 set(may_core base/parallel.hpp base/seam.hpp)
 set(may_fgtd base/parallel.hpp base/seam.hpp core)
 set(may_farfield base/parallel.hpp base/seam.hpp core)
 set(may_rbf base/parallel.hpp base/seam.hpp core fgtd)
 set(may_case "")
-set(may_time base)
-set(may_field base core expression fgtd rbf)
+set(may_time base rows)
+set(may_field base core rows expression fgtd rbf)
 set(may_read base field)
 set(may_particle base fgtd)
 set(may_effect base expression fgtd field particle farfield case)
@@ -32,7 +33,7 @@ set(may_study base expression fgtd field particle effect reference time sim accu
 set(may_reproduce base fgtd farfield rbf blockmatrix field particle time sim write render input case)
 set(may_sum base expression fgtd farfield rbf input)
 set(may_python base fgtd farfield rbf accuracy gaussdrift case reference sim input particle)
-set(may_cli base mpi core effect expression reference accuracy report reproduce study sum sim write render read input time case fgtd rbf)
+set(may_cli base mpi core rows effect expression reference accuracy report reproduce study sum sim write render read input time case fgtd rbf)
 
 # The headers of include/gaussdrift/ belong to modules as those of src/ do.
 set(module_of_error base)
@@ -58,6 +59,7 @@ set(may_gaussdrift base particle case reference sim input accuracy)
 # base are for everybody. One that no other module includes any more must go from its list.
 set(public_expression expression foreign_names)
 set(public_mpi ranks)
+set(public_rows rows pack_functions)
 set(public_core arguments buffer dispatch simd/functions simd/product_block simd/pack)
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density

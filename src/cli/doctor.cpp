@@ -16,6 +16,7 @@
 #include "read/grid_file.hpp"
 #include "read/netcdf/netcdf_file.hpp"
 #include "render/styles.hpp"
+#include "rows/rows.hpp"
 #include "write/vtk_files.hpp"
 
 namespace gaussdrift::cli {
@@ -83,7 +84,10 @@ ExitCode doctor(const DoctorOptions& options) {
   findings.push_back({"threads", std::to_string(base::resolve_threads(0))});
   const core::InstructionSet& vectors = core::fastest_instruction_set();
   findings.push_back(
-      {"vectors", fmt::format("{}: {} numbers at once in the Gauss transform", vectors.name, vectors.lanes)});
+      {"vectors",
+       fmt::format("{}: {} numbers at once in the Gauss transform; sines and exponentials {}", vectors.name,
+                   vectors.lanes,
+                   rows::has_sleef() ? "by SLEEF" : "one at a time: built without SLEEF (Debian: libsleef-dev)")});
   findings.push_back({"ranks", mpi::library().empty() ? "one: built without MPI (Debian: libopenmpi-dev)"
                                                       : fmt::format("several, by {}", mpi::library())});
   findings.push_back({"NetCDF", read::netcdf_library().empty()

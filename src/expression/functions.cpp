@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "rows/rows.hpp"
+
 namespace gaussdrift::expression {
 namespace {
 
@@ -12,10 +14,20 @@ void one(double* a, int, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) a[i] = f(a[i]);
 }
 
+template <rows::Unary rows::Kernels::*kernel>
+void one(double* a, int, std::size_t count) {
+  (rows::kernels().*kernel)(a, count);
+}
+
 template <double (*f)(double, double)>
 void two(double* a, int, std::size_t count) {
   const double* b = a + row_length;
   for (std::size_t i = 0; i < count; ++i) a[i] = f(a[i], b[i]);
+}
+
+template <rows::Binary rows::Kernels::*kernel>
+void two(double* a, int, std::size_t count) {
+  (rows::kernels().*kernel)(a, a + row_length, false, count);
 }
 
 /// f(f(f(a, b), c), d) ...
@@ -100,33 +112,39 @@ void power_slopes(const double* operands, int arguments, std::size_t count, doub
   two_slopes<slope_power_base, slope_power_exponent>(operands, arguments, count, slopes);
 }
 
+// SLEEF has these hyperbolic functions too, but they overflow early: asinh from 1.4e154 on, sinh from 709.
 const std::vector<Function>& functions() {
   static const std::vector<Function> table = {
-      {{"sin", 1, "sine of an angle in radians, as all angles"}, one<std::sin>, one_slope<std::cos>},
-      {{"cos", 1, "cosine"}, one<std::cos>, one_slope<slope_cos>},
-      {{"tan", 1, "tangent"}, one<std::tan>, one_slope<slope_tan>},
-      {{"asin", 1, "inverse sine"}, one<std::asin>, one_slope<slope_asin>},
-      {{"acos", 1, "inverse cosine"}, one<std::acos>, one_slope<slope_acos>},
-      {{"atan", 1, "inverse tangent"}, one<std::atan>, one_slope<slope_atan>},
+      {{"sin", 1, "sine of an angle in radians, as all angles"}, one<&rows::Kernels::sin>, one_slope<std::cos>},
+      {{"cos", 1, "cosine"}, one<&rows::Kernels::cos>, one_slope<slope_cos>},
+      {{"tan", 1, "tangent"}, one<&rows::Kernels::tan>, one_slope<slope_tan>},
+      {{"asin", 1, "inverse sine"}, one<&rows::Kernels::asin>, one_slope<slope_asin>},
+      {{"acos", 1, "inverse cosine"}, one<&rows::Kernels::acos>, one_slope<slope_acos>},
+      {{"atan", 1, "inverse tangent"}, one<&rows::Kernels::atan>, one_slope<slope_atan>},
       {{"atan2", 2, "angle of the point (x, y), written atan2(y, x)"},
-       two<std::atan2>,
+       two<&rows::Kernels::atan2>,
        two_slopes<slope_atan2_y, slope_atan2_x>},
       {{"sinh", 1, "hyperbolic sine"}, one<std::sinh>, one_slope<std::cosh>},
       {{"cosh", 1, "hyperbolic cosine"}, one<std::cosh>, one_slope<std::sinh>},
-      {{"tanh", 1, "hyperbolic tangent"}, one<std::tanh>, one_slope<slope_tanh>},
+      {{"tanh", 1, "hyperbolic tangent"}, one<&rows::Kernels::tanh>, one_slope<slope_tanh>},
       {{"asinh", 1, "inverse hyperbolic sine"}, one<std::asinh>, one_slope<slope_asinh>},
       {{"acosh", 1, "inverse hyperbolic cosine"}, one<std::acosh>, one_slope<slope_acosh>},
-      {{"atanh", 1, "inverse hyperbolic tangent"}, one<std::atanh>, one_slope<slope_atanh>},
-      {{"exp", 1, "e to the power of a"}, one<std::exp>, one_slope<std::exp>},
-      {{"log", 1, "natural logarithm, to base e"}, one<std::log>, one_slope<slope_log>},
-      {{"ln", 1, "the same as log"}, one<std::log>, one_slope<slope_log>},
-      {{"log2", 1, "logarithm to base 2"}, one<std::log2>, one_slope<slope_log2>},
-      {{"log10", 1, "logarithm to base 10"}, one<std::log10>, one_slope<slope_log10>},
-      {{"sqrt", 1, "square root"}, one<std::sqrt>, one_slope<slope_sqrt>},
-      {{"cbrt", 1, "cube root, also of negative numbers"}, one<std::cbrt>, one_slope<slope_cbrt>},
-      {{"pow", 2, "pow(a, b) is a ^ b"}, two<std::pow>, power_slopes},
-      {{"hypot", 2, "sqrt(a^2 + b^2) without overflow"}, two<std::hypot>, two_slopes<slope_hypot_a, slope_hypot_b>},
-      {{"abs", 1, "absolute value"}, one<std::fabs>, one_slope<sign>, "abs has a corner at 0, where slope 0 is taken"},
+      {{"atanh", 1, "inverse hyperbolic tangent"}, one<&rows::Kernels::atanh>, one_slope<slope_atanh>},
+      {{"exp", 1, "e to the power of a"}, one<&rows::Kernels::exp>, one_slope<std::exp>},
+      {{"log", 1, "natural logarithm, to base e"}, one<&rows::Kernels::log>, one_slope<slope_log>},
+      {{"ln", 1, "the same as log"}, one<&rows::Kernels::log>, one_slope<slope_log>},
+      {{"log2", 1, "logarithm to base 2"}, one<&rows::Kernels::log2>, one_slope<slope_log2>},
+      {{"log10", 1, "logarithm to base 10"}, one<&rows::Kernels::log10>, one_slope<slope_log10>},
+      {{"sqrt", 1, "square root"}, one<&rows::Kernels::sqrt>, one_slope<slope_sqrt>},
+      {{"cbrt", 1, "cube root, also of negative numbers"}, one<&rows::Kernels::cbrt>, one_slope<slope_cbrt>},
+      {{"pow", 2, "pow(a, b) is a ^ b"}, two<&rows::Kernels::pow>, power_slopes},
+      {{"hypot", 2, "sqrt(a^2 + b^2) without overflow"},
+       two<&rows::Kernels::hypot>,
+       two_slopes<slope_hypot_a, slope_hypot_b>},
+      {{"abs", 1, "absolute value"},
+       one<&rows::Kernels::abs>,
+       one_slope<sign>,
+       "abs has a corner at 0, where slope 0 is taken"},
       {{"sign", 1, "-1, 0 or 1"},
        one<sign>,
        one_slope<slope_flat>,
@@ -155,7 +173,7 @@ const std::vector<Function>& functions() {
        two<modulo>,
        two_slopes<slope_mod_a, slope_mod_b>,
        "mod jumps at multiples of its second argument; the slope between jumps is taken"},
-      {{"erf", 1, "error function"}, one<std::erf>, one_slope<slope_erf>},
+      {{"erf", 1, "error function"}, one<&rows::Kernels::erf>, one_slope<slope_erf>},
   };
   return table;
 }

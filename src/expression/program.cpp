@@ -1,27 +1,53 @@
 #include "expression/program.hpp"
 
 #include <bit>
-#include <cmath>
 #include <cstdint>
+
+#include "rows/rows.hpp"
 
 namespace gaussdrift::expression {
 
 namespace {
 
-template <class Formula>
-void combine(double* a, std::size_t count, Formula formula) {
-  const double* b = a + row_length;
-  for (std::size_t i = 0; i < count; ++i) a[i] = formula(a[i], b[i]);
-}
-
-template <class Formula>
-void replace(double* a, std::size_t count, Formula formula) {
-  for (std::size_t i = 0; i < count; ++i) a[i] = formula(a[i]);
+/// The kernel of an operation with two operands; null for others.
+rows::Binary binary_kernel(Operation operation) {
+  const rows::Kernels& kernels = rows::kernels();
+  switch (operation) {
+    case Operation::add:
+      return kernels.add;
+    case Operation::subtract:
+      return kernels.subtract;
+    case Operation::multiply:
+      return kernels.multiply;
+    case Operation::divide:
+      return kernels.divide;
+    case Operation::power:
+      return kernels.pow;
+    case Operation::less:
+      return kernels.less;
+    case Operation::greater:
+      return kernels.greater;
+    case Operation::less_equal:
+      return kernels.less_equal;
+    case Operation::greater_equal:
+      return kernels.greater_equal;
+    case Operation::equal:
+      return kernels.equal;
+    case Operation::not_equal:
+      return kernels.not_equal;
+    case Operation::both:
+      return kernels.both;
+    case Operation::either:
+      return kernels.either;
+    default:
+      return nullptr;
+  }
 }
 
 }  // namespace
 
 void run_step(const Step& step, const double* const* arguments, std::size_t first, std::size_t count, double* a) {
+  if (const rows::Binary combine = binary_kernel(step.operation)) return combine(a, a + row_length, false, count);
   switch (step.operation) {
     case Operation::constant:
       std::fill_n(a, count, step.value);
@@ -30,7 +56,7 @@ void run_step(const Step& step, const double* const* arguments, std::size_t firs
       std::copy_n(arguments[step.variable] + first, count, a);
       break;
     case Operation::negate:
-      replace(a, count, [](double x) { return -x; });
+      rows::kernels().negate(a, count);
       break;
     case Operation::call:
       step.function->apply(a, step.operands, count);
@@ -43,53 +69,16 @@ void run_step(const Step& step, const double* const* arguments, std::size_t firs
       }
       break;
     }
-    case Operation::add:
-      combine(a, count, [](double x, double y) { return x + y; });
-      break;
-    case Operation::subtract:
-      combine(a, count, [](double x, double y) { return x - y; });
-      break;
-    case Operation::multiply:
-      combine(a, count, [](double x, double y) { return x * y; });
-      break;
-    case Operation::divide:
-      combine(a, count, [](double x, double y) { return x / y; });
-      break;
-    case Operation::power:
-      combine(a, count, [](double x, double y) { return std::pow(x, y); });
-      break;
     case Operation::square:
-      replace(a, count, [](double x) { return x * x; });
+      rows::kernels().square(a, count);
       break;
     case Operation::cube:
-      replace(a, count, [](double x) { return x * x * x; });
+      rows::kernels().cube(a, count);
       break;
     case Operation::fourth:
-      replace(a, count, [](double x) { return (x * x) * (x * x); });
+      rows::kernels().fourth(a, count);
       break;
-    case Operation::less:
-      combine(a, count, [](double x, double y) { return x < y ? 1.0 : 0.0; });
-      break;
-    case Operation::greater:
-      combine(a, count, [](double x, double y) { return x > y ? 1.0 : 0.0; });
-      break;
-    case Operation::less_equal:
-      combine(a, count, [](double x, double y) { return x <= y ? 1.0 : 0.0; });
-      break;
-    case Operation::greater_equal:
-      combine(a, count, [](double x, double y) { return x >= y ? 1.0 : 0.0; });
-      break;
-    case Operation::equal:
-      combine(a, count, [](double x, double y) { return x == y ? 1.0 : 0.0; });
-      break;
-    case Operation::not_equal:
-      combine(a, count, [](double x, double y) { return x != y ? 1.0 : 0.0; });
-      break;
-    case Operation::both:
-      combine(a, count, [](double x, double y) { return x != 0 && y != 0 ? 1.0 : 0.0; });
-      break;
-    case Operation::either:
-      combine(a, count, [](double x, double y) { return x != 0 || y != 0 ? 1.0 : 0.0; });
+    default:
       break;
   }
 }
@@ -109,9 +98,15 @@ void run(const Step* step, std::size_t steps, const double* const* arguments, st
       same = all_same(arguments[step->variable] + first, count);
     }
     for (std::size_t k = base; k < top; ++k) same = same && stack.same[k];
-    if (!same)
-      for (std::size_t k = base; k < top; ++k) stack.spread(k, count);
-    run_step(*step, arguments, first, same ? 1 : count, stack.row(base));
+    const rows::Binary combine = same ? nullptr : binary_kernel(step->operation);
+    if (combine) {  // the second row need not be spread
+      stack.spread(base, count);
+      combine(stack.row(base), stack.row(base + 1), stack.same[base + 1], count);
+    } else {
+      if (!same)
+        for (std::size_t k = base; k < top; ++k) stack.spread(k, count);
+      run_step(*step, arguments, first, same ? 1 : count, stack.row(base));
+    }
     stack.same[base] = same;
     top = base + 1;
   }

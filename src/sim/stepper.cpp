@@ -13,6 +13,7 @@
 
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
+#include "field/velocity/block_carrier.hpp"
 #include "field/velocity/value_seconds.hpp"
 #include "gaussdrift/error.hpp"
 #include "time/runge_kutta.hpp"
@@ -22,6 +23,8 @@ namespace gaussdrift {
 namespace {
 
 constexpr std::size_t block_length = 256;  // particles stepped together: state and stages stay in the first-level cache
+
+constexpr std::size_t steps_at_a_time = 1024;  // bounds what a formula needs of the time of their stages
 
 bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
@@ -118,8 +121,47 @@ double add_flow_and_drifts(const VelocityField& velocity, const std::vector<cons
   return watch.seconds();
 }
 
+bool Stepper::carry_in_registers(const BlockCarrier& carrier, Particles& particles, const time::Interval& interval,
+                                 std::size_t first, std::size_t count) const {
+  const std::size_t axes = static_cast<std::size_t>(particles.dimension), length = particles.size();
+  for (std::size_t k = 0; k < axes; ++k) carried_[k] = particles.position[k];
+  const double step_seconds = value_seconds(velocity_) * tableau_.stages;
+  std::vector<double> lengths, of_time;
+  for (std::size_t done = 0; done < count;) {
+    const std::size_t steps = std::min(steps_at_a_time, count - done);
+    lengths.clear(), of_time.clear();
+    for (std::size_t i = first + done; i < first + done + steps; ++i) {
+      lengths.push_back(interval.length(i));
+      for (int s = 0; s < tableau_.stages; ++s) {
+        of_time.resize(of_time.size() + carrier.time_values());
+        carrier.at_time(interval.start(i) + tableau_.c(s) * interval.length(i),
+                        of_time.data() + (of_time.size() - carrier.time_values()));
+      }
+    }
+    const BlockSteps job{tableau_.stages, tableau_.stage_weights.data(), tableau_.weights.data(), steps, lengths.data(),
+                         of_time.data()};
+    const std::size_t blocks = (length + block_length - 1) / block_length;
+    base::parallel_for({blocks, static_cast<double>(length * steps) * step_seconds}, threads_, [&](std::size_t b) {
+      const std::size_t begin = b * block_length;
+      std::array<double*, max_dimension> x{};
+      for (std::size_t k = 0; k < axes; ++k) x[k] = carried_[k].data() + begin;
+      carrier.carry(job, x, std::min(block_length, length - begin));
+    });
+    done += steps;
+  }
+  for (std::size_t k = 0; k < axes; ++k)
+    if (!all_finite(carried_[k])) return false;
+  for (std::size_t k = 0; k < axes; ++k) particles.position[k].swap(carried_[k]);
+  return true;
+}
+
 StepperSeconds Stepper::advance(Particles& particles, const time::Interval& interval, std::size_t first,
                                 std::size_t count, std::size_t steps_before) const {
+  const BlockCarrier* const carrier = velocity_.block_carrier();
+  // If a value is not finite, the steps are taken again below, which finds the place.
+  if (carrier && integrals_.empty() && drifts_.empty() &&
+      carry_in_registers(*carrier, particles, interval, first, count))
+    return {};
   const auto dimension = static_cast<std::size_t>(particles.dimension), rows = dimension + rows_of(integrals_);
   const bool together = !velocity_.evaluates_in_blocks() || !drifts_.empty();
   const std::size_t longest = together ? std::max<std::size_t>(1, particles.size()) : block_length;

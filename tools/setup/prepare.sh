@@ -5,7 +5,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 cd "$root"
 program=$root/build/release/gaussdrift
 
-packages_to_build="g++ cmake ninja-build pkg-config libvtk9-dev libexpat1-dev zlib1g-dev libnetcdf-dev libosmesa6-dev libeigen3-dev
+packages_to_build="g++ cmake ninja-build pkg-config libvtk9-dev libexpat1-dev zlib1g-dev libnetcdf-dev libsleef-dev libosmesa6-dev libeigen3-dev
   libtomlplusplus-dev libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-dejavu-core python3-dev python3-numpy pybind11-dev"
 packages_to_test="libgtest-dev python3 python3-scipy mypy python3-vtk9 clang libomp-dev clang-format-14 doxygen"
 

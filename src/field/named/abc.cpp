@@ -1,26 +1,21 @@
 // The flow of Arnold, Beltrami and Childress: its own vorticity, chaotic paths.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Abc : public SolenoidalField {
+class Abc : public FormulaField<SolenoidalField> {
  public:
   explicit Abc(const Arguments& arguments)
-      : a_(number(arguments, "A")),
+      : FormulaField(Formula::abc, {number(arguments, "A"), number(arguments, "B"), number(arguments, "C"),
+                                    2 * std::numbers::pi / number(arguments, "wavelength")}),
+        a_(number(arguments, "A")),
         b_(number(arguments, "B")),
         c_(number(arguments, "C")),
         wave_(2 * std::numbers::pi / number(arguments, "wavelength")) {}
 
-  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
-    for (std::size_t i = 0; i < x.count; ++i) {
-      const double px = wave_ * x.axis[0][i], py = wave_ * x.axis[1][i], pz = wave_ * x.axis[2][i];
-      u.axis[0][i] += a_ * std::sin(pz) + c_ * std::cos(py);
-      u.axis[1][i] += b_ * std::sin(px) + a_ * std::cos(pz);
-      u.axis[2][i] += c_ * std::sin(py) + b_ * std::cos(px);
-    }
-  }
   void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
     for (std::size_t j = 0; j < x.count; ++j) {
       const double px = wave_ * x.axis[0][j], py = wave_ * x.axis[1][j], pz = wave_ * x.axis[2][j];

@@ -1,4 +1,5 @@
 // The vortex of Burgers 1948: drawn in from the sides, stretched along z, kept steady by viscosity.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
@@ -6,23 +7,12 @@ namespace gaussdrift::named {
 namespace {
 
 /// u_r = -alpha r / 2, u_z = alpha z, u_theta = Gamma / (2 pi r) (1 - exp(-s)), s = alpha r^2 / (4 nu).
-class Burgers : public SolenoidalField {
+class Burgers : public FormulaField<SolenoidalField> {
  public:
   explicit Burgers(const Arguments& arguments)
-      : center_(point(arguments, "center")),
-        strain_(number(arguments, "strain")),
-        quarter_(strain_ / (4 * number(arguments, "viscosity"))),
-        omega_(number(arguments, "circulation") * quarter_ / (2 * std::numbers::pi)) {}
+      : Burgers(point(arguments, "center"), number(arguments, "strain"),
+                number(arguments, "strain") / (4 * number(arguments, "viscosity")), number(arguments, "circulation")) {}
 
-  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
-    for (std::size_t i = 0; i < x.count; ++i) {
-      const double dx = x.axis[0][i] - center_[0], dy = x.axis[1][i] - center_[1];
-      const double omega = omega_ * gaussian_swirl(quarter_ * (dx * dx + dy * dy));
-      u.axis[0][i] -= strain_ / 2 * dx + omega * dy;
-      u.axis[1][i] += omega * dx - strain_ / 2 * dy;
-      u.axis[2][i] += strain_ * (x.axis[2][i] - center_[2]);
-    }
-  }
   void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
     for (std::size_t j = 0; j < x.count; ++j) {
       const double dx = x.axis[0][j] - center_[0], dy = x.axis[1][j] - center_[1], s = quarter_ * (dx * dx + dy * dy);
@@ -48,6 +38,13 @@ class Burgers : public SolenoidalField {
   }
 
  private:
+  Burgers(const Vector& center, double strain, double quarter, double circulation)
+      : FormulaField(Formula::burgers, {center[0], center[1], center[2], strain, quarter,
+                                        circulation * quarter / (2 * std::numbers::pi)}),
+        center_(center),
+        strain_(strain),
+        quarter_(quarter),
+        omega_(circulation * quarter / (2 * std::numbers::pi)) {}
   static double winding(double s) { return gaussian_swirl(s) + (s > 700 ? 0.0 : -std::expint(-s)); }  // E1 < 1e-306
 
   Vector center_;

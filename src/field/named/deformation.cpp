@@ -1,28 +1,20 @@
 // The deformation of a ball in a box of LeVeque 1996 and Enright et al. 2002.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Deformation : public SolenoidalField {
+class Deformation : public FormulaField<SolenoidalField> {
  public:
-  explicit Deformation(const Arguments& arguments) : box_(arguments), reversal_{number(arguments, "period")} {}
+  explicit Deformation(const Arguments& arguments)
+      : FormulaField(Formula::deformation, Scaling(arguments).parameters()),
+        box_(arguments),
+        reversal_{number(arguments, "period")} {}
 
-  void add(double t, const PointsView& x, const VectorsView& u) const override {
-    const double g = reversal_.factor(t);
-    for (std::size_t i = 0; i < x.count; ++i) {
-      Vector square{}, twice{};  // sin^2(pi xi), sin(2 pi xi)
-      for (int k = 0; k < 3; ++k) {
-        const double a = std::numbers::pi * box_.unit(k, x.axis[k][i]), s = std::sin(a);
-        square[k] = s * s;
-        twice[k] = 2 * s * std::cos(a);
-      }
-      u.axis[0][i] += 2 * box_.length[0] * g * square[0] * twice[1] * twice[2];
-      u.axis[1][i] -= box_.length[1] * g * twice[0] * square[1] * twice[2];
-      u.axis[2][i] -= box_.length[2] * g * twice[0] * twice[1] * square[2];
-    }
-  }
+  std::size_t time_values() const override { return 1; }
+  void at_time(double t, double* values) const override { *values = reversal_.factor(t); }
   void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
     const double pi = std::numbers::pi, f = reversal_.factor(t);
     for (std::size_t j = 0; j < x.count; ++j) {

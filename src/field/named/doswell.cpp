@@ -1,5 +1,7 @@
 // The vortex of Doswell 1984, which rolls a front up: exact at all times.
-#include "field/named/named.hpp"
+#include <array>
+
+#include "field/named/circular.hpp"
 
 namespace gaussdrift::named {
 
@@ -9,6 +11,7 @@ namespace {
 struct Omega {
   double radius, speed;
 
+  std::array<double, 2> parameters() const { return {radius, 1.5 * std::numbers::sqrt3 * speed / radius}; }
   double operator()(double square) const {
     const double s = std::sqrt(square) / radius, cosine = std::cosh(s);
     const double ratio = s == 0 ? 1.0 : std::tanh(s) / s;
@@ -48,7 +51,7 @@ NamedField doswell() {
           .divergence = "0",
           .exact_flow = "rotation about center by the angle omega(r) (t - s)",
           .make = [](int, const Arguments& a) {
-            return std::make_unique<CircularField<Omega>>(point(a, "center"),
+            return std::make_unique<CircularField<Omega>>(Formula::doswell, point(a, "center"),
                                                           Omega{number(a, "radius"), number(a, "speed")});
           }};
 }

@@ -1,26 +1,24 @@
 // The double gyre of Shadden, Lekien and Marsden 2005: two vortices whose border sways.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class DoubleGyre : public SolenoidalField {
+class DoubleGyre : public FormulaField<SolenoidalField> {
  public:
   explicit DoubleGyre(const Arguments& arguments)
-      : box_(arguments),
+      : FormulaField(Formula::double_gyre, Scaling(arguments).parameters({number(arguments, "amplitude")})),
+        box_(arguments),
         amplitude_(number(arguments, "amplitude")),
         sway_(number(arguments, "sway")),
         period_(number(arguments, "period")) {}
 
-  void add(double t, const PointsView& x, const VectorsView& u) const override {
-    const double pi = std::numbers::pi, a = sway_ * std::sin(2 * pi * (t / period_)), b = 1 - 2 * a;
-    for (std::size_t i = 0; i < x.count; ++i) {
-      const double xi = 2 * box_.unit(0, x.axis[0][i]), eta = box_.unit(1, x.axis[1][i]);
-      const double f = (a * xi + b) * xi, slope = 2 * a * xi + b;
-      u.axis[0][i] -= box_.length[0] / 2 * pi * amplitude_ * std::sin(pi * f) * std::cos(pi * eta);
-      u.axis[1][i] += box_.length[1] * pi * amplitude_ * std::cos(pi * f) * std::sin(pi * eta) * slope;
-    }
+  std::size_t time_values() const override { return 2; }
+  void at_time(double t, double* values) const override {
+    values[0] = sway_ * std::sin(2 * std::numbers::pi * (t / period_));
+    values[1] = 1 - 2 * values[0];
   }
   void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
     const double pi = std::numbers::pi, a = sway_ * std::sin(2 * pi * (t / period_)), b = 1 - 2 * a;

@@ -1,5 +1,7 @@
 // The vortex of Lamb and Oseen at one moment: a Gaussian of vorticity, frozen.
-#include "field/named/named.hpp"
+#include <array>
+
+#include "field/named/circular.hpp"
 
 namespace gaussdrift::named {
 
@@ -9,6 +11,9 @@ namespace {
 struct Omega {
   double circulation, radius;
 
+  std::array<double, 2> parameters() const {
+    return {radius * radius, circulation / (2 * std::numbers::pi * (radius * radius))};
+  }
   double operator()(double square) const {
     const double core = radius * radius;
     return circulation / (2 * std::numbers::pi * core) * gaussian_swirl(square / core);
@@ -42,7 +47,7 @@ NamedField lamb_oseen() {
           .divergence = "0",
           .exact_flow = "rotation about center by the angle omega(r) (t - s)",
           .make = [](int, const Arguments& a) {
-            return std::make_unique<CircularField<Omega>>(point(a, "center"),
+            return std::make_unique<CircularField<Omega>>(Formula::lamb_oseen, point(a, "center"),
                                                           Omega{number(a, "circulation"), number(a, "radius")});
           }};
 }

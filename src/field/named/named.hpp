@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "field/named/named_fields.hpp"
 
@@ -42,39 +43,6 @@ inline void add_circular_gradient(double omega, double slope, double dx, double 
   g.slope[1][0][j] += omega + 2 * slope * dx * dx;
   g.slope[1][1][j] += 2 * slope * dx * dy;
 }
-
-/// Circles about `center`, in 3D about an axis parallel to z: u = omega(r) (-(y - c_y), x - c_x).
-/// `Omega` is a function of r^2, finite at 0; Omega::slope is its derivative with respect to r^2.
-template <class Omega>
-class CircularField : public SolenoidalField {
- public:
-  CircularField(const Vector& center, const Omega& omega) : center_(center), omega_(omega) {}
-
-  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
-    for (std::size_t i = 0; i < x.count; ++i) {
-      const double dx = x.axis[0][i] - center_[0], dy = x.axis[1][i] - center_[1];
-      const double omega = omega_(dx * dx + dy * dy);
-      u.axis[0][i] -= omega * dy;
-      u.axis[1][i] += omega * dx;
-    }
-  }
-  void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
-    for (std::size_t j = 0; j < x.count; ++j) {
-      const double dx = x.axis[0][j] - center_[0], dy = x.axis[1][j] - center_[1], square = dx * dx + dy * dy;
-      add_circular_gradient(omega_(square), omega_.slope(square), dx, dy, g, j);
-    }
-  }
-  bool is_steady() const override { return true; }
-  std::optional<Vector> flow(double from, double to, const Vector& x) const override {
-    const double dx = x[0] - center_[0], dy = x[1] - center_[1];
-    const double angle = omega_(dx * dx + dy * dy) * (to - from), c = std::cos(angle), s = std::sin(angle);
-    return Vector{center_[0] + c * dx - s * dy, center_[1] + s * dx + c * dy, x[2]};
-  }
-
- private:
-  Vector center_;
-  Omega omega_;
-};
 
 inline NamedParameter center_parameter(std::string_view meaning) {
   return {.name = "center", .kind = Kind::point, .fallback = "origin", .unit = "length", .meaning = meaning};
@@ -120,6 +88,12 @@ struct Scaling {
     for (int k = 0; k < max_dimension; ++k) length[k] = max[k] - min[k];
   }
   double unit(int axis, double x) const { return (x - min[axis]) / length[axis]; }
+  /// As formulas.hpp takes them, and what follows.
+  std::vector<double> parameters(const std::vector<double>& more = {}) const {
+    std::vector<double> all{min[0], min[1], min[2], length[0], length[1], length[2]};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
 };
 
 /// g(t) = cos(pi t / T): a flow that runs back along its own paths.

@@ -1,25 +1,15 @@
 // Rigid rotation, counter-clockwise; in 3D about an axis parallel to z.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Rotation : public SolenoidalField {
+class Rotation : public FormulaField<SolenoidalField> {
  public:
-  explicit Rotation(const Arguments& arguments)
-      : center_(point(arguments, "center")), rate_(number(arguments, "rate")) {}
+  explicit Rotation(const Arguments& arguments) : Rotation(point(arguments, "center"), number(arguments, "rate")) {}
 
-  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
-    const double rate = rate_, cx = center_[0], cy = center_[1];
-    const double *px = x.axis[0], *py = x.axis[1];
-    double *ux = u.axis[0], *uy = u.axis[1];
-    for (std::size_t i = 0; i < x.count; ++i) {
-      const double dx = px[i] - cx, dy = py[i] - cy;
-      ux[i] -= rate * dy;
-      uy[i] += rate * dx;
-    }
-  }
   void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
     for (std::size_t j = 0; j < x.count; ++j) {
       g.slope[0][1][j] -= rate_;
@@ -35,6 +25,9 @@ class Rotation : public SolenoidalField {
   }
 
  private:
+  Rotation(const Vector& center, double rate)
+      : FormulaField(Formula::rotation, {center[0], center[1], rate}), center_(center), rate_(rate) {}
+
   Vector center_;
   double rate_;
 };

@@ -1,18 +1,18 @@
 // Plane shear: layers that slide over each other along x.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Shear : public SolenoidalField {
+class Shear : public FormulaField<SolenoidalField> {
  public:
   explicit Shear(const Arguments& arguments)
-      : middle_(point(arguments, "center")[1]), rate_(number(arguments, "rate")) {}
+      : FormulaField(Formula::shear, {point(arguments, "center")[1], number(arguments, "rate")}),
+        middle_(point(arguments, "center")[1]),
+        rate_(number(arguments, "rate")) {}
 
-  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
-    for (std::size_t i = 0; i < x.count; ++i) u.axis[0][i] += rate_ * (x.axis[1][i] - middle_);
-  }
   void add_gradient(double /*t*/, const PointsView& x, const GradientsView& g) const override {
     for (std::size_t j = 0; j < x.count; ++j) g.slope[0][1][j] += rate_;
   }

@@ -1,19 +1,19 @@
 // Stretching along the axes: plane strain, expansion, collapse.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Strain : public NamedVelocityField {
+class Strain : public FormulaField<NamedVelocityField> {
  public:
-  explicit Strain(const Arguments& arguments)
-      : center_(point(arguments, "center")), rates_(point(arguments, "rates")) {}
+  Strain(int dimension, const Vector& center, const Vector& rates)
+      : FormulaField(dimension == 3 ? Formula::strain_3d : Formula::strain,
+                     {center[0], center[1], center[2], rates[0], rates[1], rates[2]}),
+        center_(center),
+        rates_(rates) {}
 
-  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
-    for (int k = 0; k < x.dimension; ++k)
-      for (std::size_t i = 0; i < x.count; ++i) u.axis[k][i] += rates_[k] * (x.axis[k][i] - center_[k]);
-  }
   void add_divergence(double /*t*/, const PointsView& x, double* values) const override {
     for (std::size_t i = 0; i < x.count; ++i) values[i] += divergence();
   }
@@ -49,7 +49,9 @@ NamedField strain() {
                                                 .meaning = "rate of stretching along each axis"}}},
           .divergence = "the sum of the rates",
           .exact_flow = "center_k + (x_k - center_k) exp(rates_k (t - s))",
-          .make = [](int, const Arguments& arguments) { return std::make_unique<Strain>(arguments); }};
+          .make = [](int dimension, const Arguments& arguments) {
+            return std::make_unique<Strain>(dimension, point(arguments, "center"), point(arguments, "rates"));
+          }};
 }
 
 }  // namespace gaussdrift::named

@@ -1,23 +1,20 @@
 // The single vortex in a box of LeVeque 1996 and Rider and Kothe 1998, which winds a disk up to a thin spiral and back.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Swirl : public SolenoidalField {
+class Swirl : public FormulaField<SolenoidalField> {
  public:
-  explicit Swirl(const Arguments& arguments) : box_(arguments), reversal_{number(arguments, "period")} {}
+  explicit Swirl(const Arguments& arguments)
+      : FormulaField(Formula::swirl, Scaling(arguments).parameters()),
+        box_(arguments),
+        reversal_{number(arguments, "period")} {}
 
-  void add(double t, const PointsView& x, const VectorsView& u) const override {
-    const double pi = std::numbers::pi, g = 2 * reversal_.factor(t);
-    for (std::size_t i = 0; i < x.count; ++i) {
-      const double a = pi * box_.unit(0, x.axis[0][i]), b = pi * box_.unit(1, x.axis[1][i]);
-      const double sa = std::sin(a), ca = std::cos(a), sb = std::sin(b), cb = std::cos(b);
-      u.axis[0][i] += box_.length[0] * g * (sa * sa) * (sb * cb);
-      u.axis[1][i] -= box_.length[1] * g * (sb * sb) * (sa * ca);
-    }
-  }
+  std::size_t time_values() const override { return 1; }
+  void at_time(double t, double* values) const override { *values = 2 * reversal_.factor(t); }
   void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
     const double pi = std::numbers::pi, f = 2 * reversal_.factor(t) * pi;
     for (std::size_t j = 0; j < x.count; ++j) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
@@ -57,22 +58,18 @@ Jacobi jacobi(double u, double complement) {
   return {sn, cn, std::hypot(cn, complement * sn)};
 }
 
-class TaylorGreen : public SolenoidalField {
+class TaylorGreen : public FormulaField<SolenoidalField> {
  public:
   explicit TaylorGreen(const Arguments& arguments)
-      : corner_(point(arguments, "corner")),
+      : FormulaField(Formula::taylor_green, {point(arguments, "corner")[0], point(arguments, "corner")[1],
+                                             2 * std::numbers::pi / number(arguments, "wavelength")}),
+        corner_(point(arguments, "corner")),
         speed_(number(arguments, "speed")),
         wave_(2 * std::numbers::pi / number(arguments, "wavelength")),
         decay_(number(arguments, "decay")) {}
 
-  void add(double t, const PointsView& x, const VectorsView& u) const override {
-    const double speed = speed_ * std::exp(-decay_ * t);
-    for (std::size_t i = 0; i < x.count; ++i) {
-      const double a = wave_ * (x.axis[0][i] - corner_[0]), b = wave_ * (x.axis[1][i] - corner_[1]);
-      u.axis[0][i] += speed * std::sin(a) * std::cos(b);
-      u.axis[1][i] -= speed * std::cos(a) * std::sin(b);
-    }
-  }
+  std::size_t time_values() const override { return 1; }
+  void at_time(double t, double* values) const override { *values = speed_ * std::exp(-decay_ * t); }
   void add_gradient(double t, const PointsView& x, const GradientsView& g) const override {
     const double rate = wave_ * speed_ * std::exp(-decay_ * t);
     for (std::size_t j = 0; j < x.count; ++j) {

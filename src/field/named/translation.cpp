@@ -1,18 +1,18 @@
 // Uniform wind.
+#include "field/named/formula.hpp"
 #include "field/named/named.hpp"
 
 namespace gaussdrift::named {
 
 namespace {
 
-class Translation : public SolenoidalField {
+class Translation : public FormulaField<SolenoidalField> {
  public:
-  explicit Translation(const Arguments& arguments) : velocity_(point(arguments, "velocity")) {}
+  Translation(int dimension, const Vector& velocity)
+      : FormulaField(dimension == 3 ? Formula::translation_3d : Formula::translation,
+                     {velocity[0], velocity[1], velocity[2]}),
+        velocity_(velocity) {}
 
-  void add(double /*t*/, const PointsView& x, const VectorsView& u) const override {
-    for (int k = 0; k < x.dimension; ++k)
-      for (std::size_t i = 0; i < x.count; ++i) u.axis[k][i] += velocity_[k];
-  }
   void add_gradient(double /*t*/, const PointsView& /*x*/, const GradientsView& /*g*/) const override {}
   double cost() const override { return 0.1; }
   bool is_steady() const override { return true; }
@@ -38,7 +38,9 @@ NamedField translation() {
                                                 .meaning = "the wind, the same everywhere"}}},
           .divergence = "0",
           .exact_flow = "x + velocity (t - s)",
-          .make = [](int, const Arguments& arguments) { return std::make_unique<Translation>(arguments); }};
+          .make = [](int dimension, const Arguments& arguments) {
+            return std::make_unique<Translation>(dimension, point(arguments, "velocity"));
+          }};
 }
 
 }  // namespace gaussdrift::named

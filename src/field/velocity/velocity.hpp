@@ -24,6 +24,8 @@ struct GradientsView {
   }
 };
 
+class BlockCarrier;  // block_carrier.hpp
+
 /// A field is immutable; everything here is safe to call from several threads.
 class VelocityField {
  public:
@@ -45,6 +47,8 @@ class VelocityField {
   virtual std::optional<Vector> flow(double /*from*/, double /*to*/, const Vector& /*x*/) const { return std::nullopt; }
   /// True if a point costs no more in calls for a few hundred points than in one call for all.
   virtual bool evaluates_in_blocks() const { return true; }
+  /// What carries blocks of particles through many steps at once, if the field has a kernel for that; else null.
+  virtual const BlockCarrier* block_carrier() const { return nullptr; }
   /// Until when values from `t` on may be asked for in any order. Beyond, a field that reads its data on the way may have
   /// to read them twice: then all points go as far as that before any goes on.
   virtual double held_until(double /*t*/) const { return std::numeric_limits<double>::infinity(); }
