@@ -64,7 +64,7 @@ set(public_core arguments buffer dispatch simd/functions simd/product_block simd
 set(public_time adaptive runge_kutta schedule stability tableau)
 set(public_field density/density density/radial_density density/shapes density/sum_density density/written_density
   gaussians/divergence_free gaussians/gaussian_velocity clocked/clocked folded/folded gridded/around_sphere gridded/every_second gridded/grid_data gridded/gridded gridded/land
-  named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar spherical/around_centre spherical/on_sphere velocity/differences velocity/sampled_gradients velocity/value_seconds
+  named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar spherical/around_centre spherical/on_sphere velocity/differences velocity/sampled_gradients velocity/block_carrier velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read calendar grid_file missing_data netcdf/netcdf_file written_run)
 set(public_particle chord columns cutoff fgtd_points images pieces_by_id placing round_coordinates seeding subset tiles)

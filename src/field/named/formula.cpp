@@ -1,10 +1,8 @@
 #include "field/named/formula.hpp"
 
 #include <array>
-#include <iterator>
 
 #include "core/dispatch.hpp"
-#include "field/named/formula_job.hpp"
 
 namespace gaussdrift::named {
 
@@ -12,7 +10,6 @@ CORE_DECLARE_TABLES(FormulaKernels, formula_kernels)
 
 namespace {
 
-static_assert(std::size(FormulaKernels{}.entries) == static_cast<std::size_t>(Formula::count));
 constexpr std::size_t most_time_values = 2;
 
 const FormulaKernels::Entry& kernels_of(Formula formula) {

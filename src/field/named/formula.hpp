@@ -5,31 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "field/named/formula_job.hpp"
 #include "field/named/named.hpp"
 #include "field/velocity/block_carrier.hpp"
 
 namespace gaussdrift::named {
-
-/// In the order of formulas.hpp's table.
-enum class Formula {
-  rotation,
-  translation,
-  translation_3d,
-  shear,
-  strain,
-  strain_3d,
-  swirl,
-  double_gyre,
-  taylor_green,
-  doswell,
-  lamb_oseen,
-  deformation,
-  abc,
-  burgers,
-  count
-};
-
-struct FormulaKernels;  // formula_job.hpp
 
 /// Those for each instruction set that this machine runs, slowest first.
 std::vector<const FormulaKernels*> formula_kernel_sets();

@@ -1,9 +1,16 @@
-// What formula.cpp hands to its kernels.
+// Which formulas there are, and what formula.cpp hands to their kernels.
 #pragma once
 
 #include <cstddef>
 
 namespace gaussdrift::named {
+
+enum class Formula {
+#define FORMULA(name, type) name,
+#include "field/named/formula_list.inc"
+#undef FORMULA
+  count
+};
 
 struct FormulaJob {
   const double* parameters = nullptr;
@@ -23,7 +30,7 @@ using FormulaKernel = void (*)(const FormulaJob& job);
 struct FormulaKernels {
   struct Entry {
     FormulaKernel rates, carry;
-  } entries[14];
+  } entries[static_cast<std::size_t>(Formula::count)];
 };
 
 }  // namespace gaussdrift::named

@@ -134,9 +134,10 @@ constexpr FormulaKernels::Entry entry{rates<F>, carry<F>};
 }  // namespace
 
 extern const FormulaKernels formula_kernels;
-const FormulaKernels formula_kernels = {
-    {entry<Rotation>, entry<Translation<2>>, entry<Translation<3>>, entry<Shear>, entry<Strain<2>>, entry<Strain<3>>,
-     entry<Swirl>, entry<DoubleGyre>, entry<TaylorGreen>, entry<Circular<DoswellOmega>>,
-     entry<Circular<LambOseenOmega>>, entry<Deformation>, entry<Abc>, entry<Burgers>}};
+const FormulaKernels formula_kernels = {{
+#define FORMULA(name, type) entry<type>,
+#include "field/named/formula_list.inc"
+#undef FORMULA
+}};
 
 }  // namespace gaussdrift::named::CORE_ISA
