@@ -166,6 +166,17 @@ bool keeps_checkpoints(const Case& spec, double seconds) {
   return spec.output.checkpoint ? *spec.output.checkpoint > 0 : seconds >= write::long_run;
 }
 
+/// Of the drawing libraries, which stay once they have drawn.
+double memory_of_drawing(const Case& spec) {
+  double most = spec.output.animation ? render::Cost{}.memory : 0;
+  const double pixels = static_cast<double>(spec.output.pictures.size[0]) * spec.output.pictures.size[1];
+  for (const PictureStyle& style : spec.output.images) {
+    const render::Cost& cost = render::find_style(style.name).cost;
+    most = std::max(most, cost.memory + cost.memory_of_pixel * pixels);
+  }
+  return most;
+}
+
 // Densities of a run without density files, for pictures that are drawn again.
 double densities_for_pictures(const Case& spec, const Extent& extent) {
   if (spec.output.images.empty() || base::has_one(spec.output.files, &OutputFile::shows_density)) return 0;
@@ -263,8 +274,7 @@ RunMemory memory_of_run(const Case& spec, const Extent& extent) {
   // The error budget carries particles near a few probes once more, within a share of the run's work.
   const RunMemory budget =
       stays + copy + RunMemory{.particles = explained ? std::min(most_of_budget, budget_of_particle * n) : 0};
-  // The drawing libraries stay once they have drawn.
-  const RunMemory drawing{.pictures = pictures ? 2e8 : 0};
+  const RunMemory drawing{.pictures = memory_of_drawing(spec)};
   return drawing + larger(larger(larger(seed, step), budget), larger(density + copy, output + copy));
 }
 

@@ -31,6 +31,8 @@ struct Cost {
   double a_point = 0, a_point_in_space = 0;                           // seconds for each point of the grid
   std::size_t most_points = std::numeric_limits<std::size_t>::max();  // that are drawn
   double bytes = 1.2e5;
+  // Memory: libraries that stay once they have drawn, and bytes a pixel of a scene, which is drawn at twice the size.
+  double memory = 1e8, memory_of_pixel = 0;
 };
 
 struct Style {

@@ -103,7 +103,9 @@ Style surface_style() {
                     .by_default = true},
           .cost = {.seconds = 0.065,
                    .a_point = 1e-6,
-                   .most_points = most_points * most_points},  // a triangle for every point
+                   .most_points = most_points * most_points,  // a triangle for every point
+                   .memory = 1.36e8,
+                   .memory_of_pixel = 130},
 
           .painting = surface};
 }

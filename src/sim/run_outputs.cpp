@@ -389,6 +389,7 @@ void Simulation::Parts::show_frame(double time) {
     frame.numbers.stretch = largest_stretch(particles_, scene_.seeding, ranks_, folding_of(case_.domain));
   if (velocity_wanted)
     frame.particle_pieces = pieces_of_particles(place_.particle_count(), case_.output.piece_particles);
+  frame.density = &density;
   if (frame.particle_pieces > 1) hand_out_pieces(frame, velocity);
   const bool elsewhere = ranks_.size() > 1 && !place_.one_tile() &&
                          (somebody_needs_particles(frame) || shows_where_particles_began() || counted().fields);
@@ -396,7 +397,6 @@ void Simulation::Parts::show_frame(double time) {
   if (elsewhere) all = gathered(particles_, velocity, ranks_);
   frame.particles = elsewhere ? &all.first : &particles_;
   frame.velocity = !velocity_wanted ? nullptr : elsewhere ? &all.second : &velocity;
-  frame.density = &density;
   std::vector<FieldOnGrid> of_particles;
   on_first([&] {
     of_particles = add_particle_fields(frame, density);

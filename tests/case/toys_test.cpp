@@ -357,6 +357,8 @@ TEST(Catalogues, AreTheOnlyPlaceOfTheirNames) {
                                      "src/input/column_names.cpp",      // words of tables, such as "charge"
                                      "src/input/foreign_keys.cpp",      // words of other programs, such as "cells"
                                      "src/read/stored_grid.cpp",        // values at cells
+                                     "src/read/grid_file.cpp",          // and messages about them
+                                     "src/input/tables/density.cpp",    // its key "diffusion" has the effect's name
                                      "src/write/write_checkpoint.cpp",  // members of its manifest
                                      "src/write/read_checkpoint.cpp"};
   const std::filesystem::path root = SOURCE_DIR;

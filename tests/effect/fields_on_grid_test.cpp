@@ -218,7 +218,7 @@ TEST(FieldsOnGrid, AreAddedThroughTheirCatalogueAlone) {
   const Shown run = shown(scene_of({"output.fields=[\"swiftness\"]", "velocity.u=[\"3\", \"4\"]"}));
   for (const double value : run.field("swiftness").values) EXPECT_EQ(value, 5);
   const std::vector<input::Explanation> told = input::explain("swiftness");
-  ASSERT_EQ(told.size(), 3u);  // the field, and the keys that may name it: of outputs and of tracks
+  ASSERT_EQ(told.size(), 4u);  // the field, and the keys that may name it: of outputs, of pictures and of tracks
   EXPECT_EQ(told[0].title, "how fast the flow is");
 }
 

@@ -311,7 +311,7 @@ const std::vector<Wrong> wrongs = {
      "\"height\" goes with shape = \"wendland\" or \"wendland4\" or \"wendland6\" or \"cone\" or \"gaussian\" or "
      "\"cosine_bell\" or "
      "\"disk\" or \"slotted_disk\" or \"box\", not with \"expression\"",
-     "known keys with \"expression\": expression, name, gain, half_life, exact"},
+     "known keys with \"expression\": expression, name, gain, half_life, diffusion, exact"},
     {"shape = \"wendland\"\ncenter = [0.5, 0]\nradius = \"R\"\nheight = 1.5", "expression = \"R*x*t\"", 19, "t",
      "the density at the start cannot depend on t"},
     // particles

@@ -220,7 +220,9 @@ TEST(Pages, EveryCommandOfTroubleAndUsageRuns) {
       if (!draws_pictures && (arguments.starts_with("render") || arguments.starts_with("doctor"))) continue;
       const bool built_in = arguments.rfind("run rotating_cone.toml", 0) == 0;  // smaller: other tests run it whole
       const Outcome outcome = gaussdrift_in(
-          folder, arguments + (built_in ? " --set time.step=0.2 --set 'output.images=[]' --set 'output.vtk=[]'" : ""));
+          folder,
+          arguments +
+              (built_in ? " --set time.step=0.2 --set 'output.images=[]' --set 'output.vtk=[\"density\"]'" : ""));
       EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
       ++commands;
     }

@@ -83,7 +83,8 @@ class Footprint : public testing::TestWithParam<Size> {};
 TEST_P(Footprint, IsPredictedWithinAFactorOf1Point3) {
   if (sanitized) GTEST_SKIP() << "sanitizers take memory of their own";
   const Size& size = GetParam();
-  if (size.name == "pictures" && !draws_pictures) GTEST_SKIP() << without_pictures;
+  const bool draws = size.name == "pictures" || size.name == "surfaces" || size.name == "isosurfaces";
+  if (draws && !draws_pictures) GTEST_SKIP() << without_pictures;
   const ScratchFolder folder;
   write_file(folder / "c.toml", size.text);
   std::vector<std::string> arguments{"c.toml", "--json"};
@@ -136,6 +137,8 @@ INSTANTIATE_TEST_SUITE_P(
              plain,
              {"particles.per_axis=500", "time.step=0.005", "output.vtk=[]", "output.checkpoint=0.001"}},
         Size{"pictures", plain, {"particles.per_axis=100", "evaluate.per_axis=500", "output.images=[\"heatmap\"]"}},
+        Size{"surfaces", plain, {"particles.per_axis=100", "evaluate.per_axis=100", "output.images=[\"surface\"]"}},
+        Size{"isosurfaces", in_space, {"output.images=[\"isosurface\"]"}},
         Size{"page", plain, {"particles.per_axis=1000", "output.report=\"html\"", "output.vtk=[\"particles\"]"}},
         Size{"order_8", plain, {"particles.per_axis=1200", "particles.cutoff=\"gauss8\""}},
         Size{"diffusion",

@@ -29,7 +29,8 @@ TEST(Report, IsLeftByARunAndMadeAgainFromItsFiles) {
        {"Cone &lt;with&gt; &quot;marks&quot; &amp; more", "the largest error is", "<svg", "smoothing", "Conservation",
         "data:image/png;base64,", "per_axis = 60", "gaussdrift run run.toml"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
-  EXPECT_EQ(page.find("http"), std::string::npos) << "nothing is fetched";
+  EXPECT_EQ(page.find("http:"), std::string::npos) << "nothing is fetched";
+  EXPECT_EQ(page.find("https:"), std::string::npos) << "nothing is fetched";
   EXPECT_TRUE(fs::exists(run / "summary.png"));
   EXPECT_TRUE(fs::exists(run / "log.txt"));
   const auto report = parsed_json(read_file(run / "report.json"));

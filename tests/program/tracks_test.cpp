@@ -77,10 +77,10 @@ TEST(TracksOfARun, AreOnThePageAndInParaView) {
   ASSERT_EQ(gaussdrift_in(folder, call + " --set 'output.tracks.files=[]' --out table").exit_code, 0);
   EXPECT_EQ(read_file(folder / "table/view.py").find("tracks"), std::string::npos);
   if (!draws_pictures) GTEST_SKIP() << without_pictures;
-  // Two rows of two pictures: the first and the last density, and the tracks.
+  // Pictures stand in rows of one height: densities and what changed, and the tracks.
   ASSERT_EQ(gaussdrift_in(folder, "report with").exit_code, 0);
   const std::string picture = read_file(folder / "with/summary.png");
-  EXPECT_EQ(height_of(picture), 2 * 480);
+  EXPECT_EQ(height_of(picture), 4 * 480);
   EXPECT_NE(read_file(folder / "with/report.html").find("the tracks if there are some"), std::string::npos);
   // Tracks that are elsewhere make another picture; none, or a table of something else, one row.
   std::string table = read_file(folder / "with/tracks.csv");
@@ -88,11 +88,11 @@ TEST(TracksOfARun, AreOnThePageAndInParaView) {
   write_file(folder / "with/tracks.csv", table);
   ASSERT_EQ(gaussdrift_in(folder, "report with").exit_code, 0);
   const std::string half = read_file(folder / "with/summary.png");
-  EXPECT_EQ(height_of(half), 2 * 480);
+  EXPECT_EQ(height_of(half), 4 * 480);
   EXPECT_NE(half, picture);
   write_file(folder / "with/tracks.csv", "a,b\n1,2\n");
   ASSERT_EQ(gaussdrift_in(folder, "report with").exit_code, 0);
-  EXPECT_EQ(height_of(read_file(folder / "with/summary.png")), 480);
+  EXPECT_EQ(height_of(read_file(folder / "with/summary.png")), 3 * 480);
 }
 
 }  // namespace
