@@ -217,7 +217,12 @@ class Faults : public testing::Test {
       EXPECT_EQ(left_over_in(folder / "part"), "");
     }
     EXPECT_EQ(left_over_in(folder / "whole"), "");
+    // A failed allocation may cost a page its player (docs/reliability.md); a page that has one has it whole.
+    const bool without_player = !fs::exists(folder / "part/report.frames");
+    const fs::path aside = folder / "report.frames";
+    if (without_player && fs::exists(folder / "whole/report.frames")) fs::rename(folder / "whole/report.frames", aside);
     expect_same(folder / "whole", folder / "part");
+    if (without_player && fs::exists(aside)) fs::rename(aside, folder / "whole/report.frames");
     const auto whole = status_of("whole"), part = status_of("part");
     for (const char* member : {"state", "outputs", "last_output", "files"})
       EXPECT_EQ(whole.at(member), part.at(member)) << member;
