@@ -66,6 +66,8 @@ struct EffectTraits {
   bool diffuses = false;
   /// What carries the density changes, the density does not.
   bool keeps_density = false;
+  /// Its lattice ends where the domain has edges, and goes on in images.
+  bool knows_edges = false;
   /// It cannot be undone: a run that goes backwards in time does not know what was there before.
   Trait irreversible = {};
   /// Flat patches of density are usual with it, and ripple when particles leave their lattice.

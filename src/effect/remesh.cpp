@@ -54,7 +54,7 @@ Remesh::Pairs Remesh::neighbours(const Particles& particles, const Alone& alone)
   for (std::size_t j = 0; j < particles.size(); ++j)
     for (int k = 0; k < particles.dimension; ++k) {
       NodeIndex next = nodes_.index(particles.id[j]);
-      ++next[k];
+      next[k] = options_.ends.next(k, next[k]);
       if (next[k] >= nodes_.reach()) continue;
       if (const auto found = at.find(nodes_.id(next)); found != at.end()) {
         pairs.emplace_back(j, found->second);
@@ -89,20 +89,34 @@ double Remesh::largest_stretch(const Particles& particles) {
       if (std::abs(some.alpha[a]) < light && std::abs(some.alpha[b]) < light) continue;
       double square = 0;
       for (int k = 0; k < some.dimension; ++k) {
-        const double distance = some.position[k][a] - some.position[k][b];
+        const double distance = options_.ends.distance(k, some.position[k][a], some.position[k][b]);
         square += distance * distance;
       }
       longest = std::max(longest, square);
     }
     return longest;
   };
-  double longest = longest_of(particles, neighbours_);
+  double longest = std::max(longest_of(particles, neighbours_), longest_to_image(particles, light));
   if (ranks_.size() > 1) {
     const Particles met = met_by_others(particles);
     ranks_.agree_on([&] { longest = std::max(longest, longest_of(met, neighbours(met, [](std::size_t) {}))); });
     ranks_.max(std::span(&longest, 1));
   }
   return std::sqrt(longest) / nodes_.lattice().spacing;
+}
+
+// The square of it.
+double Remesh::longest_to_image(const Particles& particles, double light) const {
+  double longest = 0;
+  for (std::size_t j = 0; options_.ends.any() && j < particles.size(); ++j) {
+    if (std::abs(particles.alpha[j]) < light) continue;
+    const NodeIndex node = nodes_.index(particles.id[j]);
+    for (int k = 0; k < particles.dimension; ++k) {
+      const double distance = options_.ends.distance_to_image(k, node[k], particles.position[k][j]);
+      longest = std::max(longest, distance * distance);
+    }
+  }
+  return longest;
 }
 
 // Neighbours that are on different ranks meet on a third, which the node of the lower one tells.
@@ -120,7 +134,7 @@ Particles Remesh::met_by_others(const Particles& particles) const {
       send(j, node);
       for (int k = 0; k < nodes_.dimension(); ++k) {
         NodeIndex lower = node;
-        --lower[k];
+        lower[k] = options_.ends.next(k, lower[k], -1);
         send(j, lower);
       }
     }
@@ -162,9 +176,11 @@ Particles Remesh::felt_here(const Particles& particles, double spread) const {
     for (std::size_t j = 0; j < particles.size(); ++j) {
       if (particles.alpha[j] == 0) continue;
       share(particles, j, spread, axes);
-      NodeSums::for_each_block(axes, particles.dimension, [&](const NodeIndex& first) {
-        auto& list = chosen[static_cast<std::size_t>(owner(first))];
-        if (list.empty() || list.back() != j) list.push_back(j);
+      options_.ends.for_each_part(axes, particles.dimension, [&](const NodeWeights& part) {
+        NodeSums::for_each_block(part, particles.dimension, [&](const NodeIndex& first) {
+          auto& list = chosen[static_cast<std::size_t>(owner(first))];
+          if (list.empty() || list.back() != j) list.push_back(j);
+        });
       });
     }
     for (std::size_t r = 0; r < out.size(); ++r) out[r] = pack_bare(particles, chosen[r]);
@@ -188,7 +204,8 @@ void Remesh::remesh(Particles& particles) {
     for (std::size_t j = 0; j < sources.size(); ++j) {
       if (sources.alpha[j] == 0) continue;
       share(sources, j, into_weights ? spread : 0, axes);
-      sums.add(axes, sources.alpha[j]);
+      options_.ends.for_each_part(axes, dimension,
+                                  [&](const NodeWeights& part) { sums.add(part, sources.alpha[j]); });
     }
     heaviest = sums.largest();
   });
@@ -250,7 +267,9 @@ std::vector<NamedChoice> kernel_choices() {
 }
 
 std::unique_ptr<Effect> make_remesh(const EffectSpec& effect, const EffectScene& scene) {
-  Remesh::Options options{.kernel = effect.text("kernel"), .tolerance = effect.number("tolerance")};
+  Remesh::Options options{.kernel = effect.text("kernel"),
+                          .tolerance = effect.number("tolerance"),
+                          .ends = LatticeEnds(scene.spec.domain, scene.seeding)};
   if (effect.has("every"))
     options.every = static_cast<int>(effect.number("every"));
   else
@@ -296,6 +315,7 @@ NamedEffect remesh() {
                      .moves_weight = {.words = "remeshing moves weight between particles"},
                      .needs_lengths = {.words = "its lattice and its kernels are flat"},
                      .keeps_density = true,
+                     .knows_edges = true,
                      .restores_overlap = true},
           // The table of neighbours; the nodes.
           .memory =

@@ -10,6 +10,7 @@
 
 #include "base/communicator.hpp"
 #include "effect/effect.hpp"
+#include "effect/lattice_ends.hpp"
 #include "effect/node_sums.hpp"
 #include "effect/nodes.hpp"
 #include "effect/remesh_kernel.hpp"
@@ -24,8 +25,9 @@ class Remesh : public Effect {
     std::string kernel{remesh_kernels().front().name};
     double tolerance = 1e-9;  // nodes with less than this part of the largest |weight| are left out
     std::size_t memory_limit = std::size_t{4} << 30;  // bytes for the nodes touched
+    LatticeEnds ends{};                               // edges of the domain
   };
-  /// The lattice is continued beyond the domain where particles have left it.
+  /// The lattice is continued beyond the domain where particles have left it, unless the domain has an edge there.
   Remesh(const Lattice& lattice, const Options& options);
   /// The same where ranks share the particles. They do the rest together.
   Remesh(const Lattice& lattice, const Options& options, base::Communicator& ranks, RankAt rank_at);
@@ -47,7 +49,8 @@ class Remesh : public Effect {
   /// NumericalError if the particles lie so scattered that the nodes need too much memory.
   void remesh(Particles& particles);
 
-  /// The largest distance between particles that start as neighbours, in lattice spacings, of those with weight.
+  /// The largest distance between particles that start as neighbours, in lattice spacings, of those with weight. Those
+  /// beside a closed end are neighbours of their mirror images.
   double largest_stretch(const Particles& particles);
 
  private:
@@ -56,6 +59,7 @@ class Remesh : public Effect {
 
   template <class Alone>
   Pairs neighbours(const Particles& particles, const Alone& alone) const;
+  double longest_to_image(const Particles& particles, double light) const;
   void find_neighbours(const Particles& particles);
   Particles met_by_others(const Particles& particles) const;
   Particles exchanged(int dimension, std::vector<base::Bytes> out) const;

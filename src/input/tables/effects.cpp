@@ -160,6 +160,7 @@ void refuse_edges(Reader& in, const NamedEffect& effect, const EffectSpec& value
   std::string reason;
   if (traits.adds_particles.of(values, spec.domain.dimension)) reason = traits.adds_particles.words;
   if (traits.replaces_particles.of(values, spec.domain.dimension)) reason = traits.replaces_particles.words;
+  if (traits.knows_edges) reason.clear();
   if (!reason.empty()) {
     in.diagnostics.error(
         edges->value.place,
