@@ -11,6 +11,7 @@
 
 #include "base/catalogue.hpp"
 #include "base/communicator.hpp"
+#include "base/folding.hpp"
 #include "base/named.hpp"
 #include "effect/effect.hpp"
 #include "field/scalar.hpp"
@@ -97,6 +98,7 @@ struct EffectScene {
   const ScalarField* field;    // and of NamedEffect::field, or the values of its file
   /// Carries particles from their lattice nodes to the places that they would have reached by now.
   std::function<void(Particles& particles)> follow;
+  Folding folding;            // of places beyond periodic and closed edges
   base::Communicator& ranks;  // that share the particles
   RankAt rank_at;
   int threads;

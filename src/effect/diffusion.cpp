@@ -165,6 +165,11 @@ void check_method(const EffectSpec& effect, const Case& spec, std::vector<Compla
         "a matrix with mixed numbers does not go with closed edges: images in mirrors would not keep what flows "
         "across them at 0",
         "axes of the domain along those of the matrix, with D_axes alone");
+  if (exchanges(effect, dimension) && spec.domain.has(Edge::open))
+    add("method",
+        fmt::format("{} does not go with open edges: what diffuses through them has no particles there to take it",
+                    particle_exchange),
+        "method = \"core-spreading\" or \"random-walk\"");
   if (exchanges(effect, dimension) && spec.particles.overlap < 1)
     add("method",
         fmt::format("{} needs particles.overlap of at least 1, found {}", particle_exchange, spec.particles.overlap),
@@ -265,6 +270,8 @@ std::unique_ptr<Effect> make_exchange(const EffectSpec& effect, const EffectScen
     options.of_tracers = parts_of_tracers(effect, scene.spec);
   else
     options.of_tracers.assign(scene.spec.tracers.size(), 1);
+  options.ends = LatticeEnds(scene.spec.domain, scene.seeding);
+  options.folding = scene.folding;
   options.tiles.particles = scene.spec.evaluate.tile_particles > 0
                                 ? static_cast<std::int64_t>(scene.spec.evaluate.tile_particles)
                                 : usual_tiles(scene.spec.domain.dimension).particles;
@@ -373,6 +380,7 @@ NamedEffect diffusion() {
                                        .remedy = "method = \"core-spreading\" with D",
                                        .holds = needs_lengths},
                      .diffuses = true,
+                     .knows_edges = true,
                      .irreversible = {.words = "diffusion cannot be undone: what was there before is lost in it, and "
                                                "small errors would grow without bound"}},
           .field = "D_field",

@@ -1,5 +1,6 @@
 #include "effect/lattice_ends.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -16,9 +17,11 @@ LatticeEnds::LatticeEnds(const Domain& domain, const Lattice& seeding) {
     axis.closed_low = lower == Edge::closed, axis.closed_high = upper == Edge::closed;
     axis.mirror_low = axis.closed_low || lower == Edge::open;
     axis.mirror_high = axis.closed_high || upper == Edge::open;
-    // A closed end lies in the middle between two nodes. An open one is taken to be at the last node before it.
-    axis.low_sum = axis.closed_low ? -1 : 0;
-    axis.high_sum = 2 * axis.points - (axis.closed_high ? 1 : 2);
+    // A closed end lies in the middle between two nodes. An open one is moved to the last node before it, or to the middle
+    // behind that node, whichever is nearer.
+    const auto twice = [&](double place) { return std::llround(2 * (place - seeding.origin[a]) / seeding.spacing); };
+    axis.low_sum = std::clamp(twice(axis.low), -1LL, 0LL);
+    axis.high_sum = std::clamp(twice(axis.high), 2LL * axis.points - 2, 2LL * axis.points - 1);
   }
 }
 

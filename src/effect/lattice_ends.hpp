@@ -17,7 +17,7 @@ class LatticeEnds {
   /// No edges: the lattice goes on without end.
   LatticeEnds() = default;
   /// `seeding` is the lattice of these edges, seeding_lattice(). Beyond an open end nothing is put: what would come there
-  /// comes to the mirror images of these nodes in the last node, so that only the flow takes anything out.
+  /// comes to mirror images of these nodes within, so that only the flow takes anything out.
   LatticeEnds(const Domain& domain, const Lattice& seeding);
 
   /// True if any end does something.

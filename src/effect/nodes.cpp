@@ -8,7 +8,8 @@
 
 namespace gaussdrift {
 
-Nodes::Nodes(const Lattice& lattice) : lattice_(lattice), bits_(lattice.dimension == 3 ? 20 : 30) {}
+Nodes::Nodes(const Lattice& lattice, bool has_images)
+    : lattice_(lattice), bits_(lattice.dimension == 3 ? (has_images ? 15 : 20) : (has_images ? 22 : 30)) {}
 
 std::int64_t Nodes::id(const NodeIndex& index) const {
   bool inside = true;

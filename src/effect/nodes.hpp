@@ -15,7 +15,9 @@ using NodeIndex = std::array<std::int64_t, max_dimension>;
 
 class Nodes {
  public:
-  explicit Nodes(const Lattice& lattice);
+  /// has_images: particles have images beyond edges of the domain, whose numbers follow from theirs (particle/images.hpp).
+  /// Nodes far outside then have smaller numbers, and fewer of them have one.
+  explicit Nodes(const Lattice& lattice, bool has_images = false);
 
   /// Throws NumericalError if the node lies more than reach() spacings from the lattice's origin.
   std::int64_t id(const NodeIndex& index) const;

@@ -48,7 +48,7 @@ ParticleExchange::ParticleExchange(const Lattice& lattice, double core_radius, c
 ParticleExchange::ParticleExchange(const Lattice& lattice, double core_radius, const VelocityField& velocity,
                                    Follow follow, const Options& options, base::Communicator& ranks)
     : ranks_(ranks),
-      nodes_(lattice),
+      nodes_(lattice, options.ends.any()),
       core_radius_(core_radius),
       velocity_(velocity),
       follow_(std::move(follow)),
@@ -206,7 +206,7 @@ void ParticleExchange::for_each_neighbour(std::int64_t id, const Use& use) const
   for (int k = 0; k < nodes_.dimension(); ++k)
     for (const int side : {-1, 1}) {
       NodeIndex next = centre;
-      next[k] += side;
+      next[k] = options_.ends.fold(k, next[k] + side);
       use(nodes_.id(next));
     }
 }
@@ -286,7 +286,8 @@ std::set<std::int64_t> ParticleExchange::missing_around(const Particles& particl
       for (std::int64_t y = -halo_; y <= halo_; ++y) {
         for (std::int64_t x = -halo_; x <= halo_; ++x) {
           if (x * x + y * y + z * z > halo_ * halo_) continue;
-          const std::int64_t id = nodes_.id({centre[0] + x, centre[1] + y, centre[2] + z});
+          const std::int64_t id = nodes_.id({options_.ends.fold(0, centre[0] + x), options_.ends.fold(1, centre[1] + y),
+                                             options_.ends.fold(2, centre[2] + z)});
           if (at_.find(id) == at_.end()) missing.insert(id);
         }
         // Other ranks may have some of them, but not so many.
@@ -343,7 +344,7 @@ void ParticleExchange::add(const std::set<std::int64_t>& missing, Particles& par
 template <int d>
 double ParticleExchange::largest_rate(const Particles& particles, double time) const {
   ScatteredSums<d> sums("diffusion by particle exchange", particles, nodes_.lattice(), core_radius_, options_.tiles,
-                        sum_options(1e-6, options_.threads), ranks_);
+                        sum_options(1e-6, options_.threads), ranks_, options_.folding);
   const Eigen::ArrayXd g = roots(particles, time);
   return options_.coefficient / (core_radius_ * core_radius_) * peak_of_eta(d, core_radius_) *
          largest(g * sums.of((g * column(particles.volume).array()).matrix()).col(0).array());
@@ -382,7 +383,8 @@ void ParticleExchange::exchange_in_dimension(Particles& particles, double time, 
   const double eps = core_radius_, factor = options_.coefficient / (eps * eps) * peak_of_eta(d, eps);
   // The error of the sums is far below that of the halo.
   ScatteredSums<d> sums(fmt::format("diffusion by particle exchange at t = {:.6g}", time), particles, nodes_.lattice(),
-                        eps, options_.tiles, sum_options(1e-3 * options_.tolerance, options_.threads), ranks_);
+                        eps, options_.tiles, sum_options(1e-3 * options_.tolerance, options_.threads), ranks_,
+                        options_.folding);
   const Eigen::ArrayXd g = roots(particles, time), volume = g * column(particles.volume).array();
   const std::vector<std::vector<double>*> exchanging = weights_of(particles);
   const auto columns = static_cast<Eigen::Index>(exchanging.size());

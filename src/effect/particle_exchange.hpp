@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/folding.hpp"
 #include "effect/effect.hpp"
+#include "effect/lattice_ends.hpp"
 #include "effect/nodes.hpp"
 #include "field/scalar.hpp"
 #include "field/velocity/velocity.hpp"
@@ -33,6 +35,8 @@ class ParticleExchange : public Effect, private PlainIntegral {
     double tolerance = 1e-6;  // particles with more than this part of the largest density are surrounded by others
     int threads = 0;          // 0: all
     std::size_t most_particles = std::size_t{1} << 24;  // with the halo, some 250 bytes each; beyond, an error
+    LatticeEnds ends{};                                 // periodic and closed edges of the domain
+    Folding folding{};                                  // the same edges, for places
     TileLimits tiles = {.particles = std::numeric_limits<std::int64_t>::max(),
                         .points = std::numeric_limits<std::int64_t>::max()};  // of what is summed at once
   };

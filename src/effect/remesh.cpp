@@ -21,7 +21,7 @@ Remesh::Remesh(const Lattice& lattice, const Options& options) : Remesh(lattice,
 Remesh::Remesh(const Lattice& lattice, const Options& options, base::Communicator& ranks, RankAt rank_at)
     : ranks_(ranks),
       rank_at_(std::move(rank_at)),
-      nodes_(lattice),
+      nodes_(lattice, options.ends.any()),
       options_(options),
       kernel_(find_remesh_kernel(options.kernel)) {}
 
@@ -204,8 +204,7 @@ void Remesh::remesh(Particles& particles) {
     for (std::size_t j = 0; j < sources.size(); ++j) {
       if (sources.alpha[j] == 0) continue;
       share(sources, j, into_weights ? spread : 0, axes);
-      options_.ends.for_each_part(axes, dimension,
-                                  [&](const NodeWeights& part) { sums.add(part, sources.alpha[j]); });
+      options_.ends.for_each_part(axes, dimension, [&](const NodeWeights& part) { sums.add(part, sources.alpha[j]); });
     }
     heaviest = sums.largest();
   });

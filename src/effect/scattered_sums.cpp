@@ -10,6 +10,7 @@
 
 #include "base/users_words.hpp"
 #include "gaussdrift/error.hpp"
+#include "particle/images.hpp"
 #include "particle/placing.hpp"
 
 namespace gaussdrift {
@@ -52,18 +53,22 @@ Eigen::MatrixXd matrix_of(const base::Bytes& bytes, Eigen::Index columns) {
 
 template <int d>
 ScatteredSums<d>::ScatteredSums(std::string what, const Particles& particles, const Lattice& lattice, double width,
-                                const TileLimits& limits, const fgtd::Options& options, base::Communicator& ranks)
+                                const TileLimits& limits, const fgtd::Options& options, base::Communicator& ranks,
+                                const Folding& folding)
     : what_(std::move(what)),
       ranks_(ranks),
       width_(width),
       options_(options),
-      tiles_(tiles_of(particles, lattice, width, limits, ranks)),
-      here_(&particles) {
+      count_(particles.size()),
+      images_(folding.folds() ? with_images(particles, folding, reach_of(width), &of_) : Particles()),
+      all_(folding.folds() ? &images_ : &particles),
+      tiles_(tiles_of(*all_, lattice, width, limits, ranks)),
+      here_(all_) {
   std::vector<double> work;
   for (const Tile& tile : tiles_.list()) work.push_back(static_cast<double>(tile.particles) + tile.sources);
   const std::vector<int> owner =
       work.size() == 1 ? std::vector<int>{0} : share_tiles(work, ranks_.size());  // one: rank 0 has all of them
-  if (ranks_.size() > 1) send(particles, owner);
+  if (ranks_.size() > 1) send(owner);
   ranks_.agree_on([&] {
     std::vector<std::size_t> order(here_->size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -77,6 +82,7 @@ ScatteredSums<d>::ScatteredSums(std::string what, const Particles& particles, co
       tiles_.near(place, [&](std::size_t tile) {
         if (is_own(tile)) all[tile].sources.push_back(j);
       });
+      if (is_image(here_->id[j])) continue;
       if (const std::size_t tile = tiles_.of(place); is_own(tile)) all[tile].targets.push_back(j);
     }
     for (TileOfSum& tile : all)
@@ -86,33 +92,34 @@ ScatteredSums<d>::ScatteredSums(std::string what, const Particles& particles, co
 
 // Every particle to the ranks whose tiles feel it. One of them has the tile that it lies in, and sums there.
 template <int d>
-void ScatteredSums<d>::send(const Particles& particles, const std::vector<int>& owner) {
+void ScatteredSums<d>::send(const std::vector<int>& owner) {
   const auto ranks = static_cast<std::size_t>(ranks_.size());
   std::vector<base::Bytes> out(ranks);
   ranks_.agree_on([&] {
     sent_.resize(ranks), summed_by_.resize(ranks);
-    const PointsView x = particles.view();
-    for (std::size_t j = 0; j < particles.size(); ++j) {
+    const PointsView x = all_->view();
+    for (std::size_t j = 0; j < all_->size(); ++j) {
       const Vector place = x.at(j);
       tiles_.near(place, [&](std::size_t tile) {
         auto& list = sent_[static_cast<std::size_t>(owner[tile])];
         if (list.empty() || list.back() != j) list.push_back(j);
       });
-      summed_by_[static_cast<std::size_t>(owner[tiles_.of(place)])].push_back(j);
+      if (j < count_) summed_by_[static_cast<std::size_t>(owner[tiles_.of(place)])].push_back(j);
     }
-    for (std::size_t r = 0; r < ranks; ++r) out[r] = pack_bare(particles, sent_[r]);
+    for (std::size_t r = 0; r < ranks; ++r) out[r] = pack_bare(*all_, sent_[r]);
   });
   std::vector<base::Bytes> in = ranks_.exchange(std::move(out));
   ranks_.agree_on([&] {
     came_.resize(ranks), sums_for_.resize(ranks);
-    arrived_.dimension = particles.dimension;
+    arrived_.dimension = all_->dimension;
     for (std::size_t r = 0; r < ranks; ++r) {
       const std::size_t before = arrived_.size();
       unpack(in[r], arrived_);
       in[r] = {};
       for (std::size_t j = before; j < arrived_.size(); ++j) {
         came_[r].push_back(j);
-        if (owner[tiles_.of(arrived_.view().at(j))] == ranks_.rank()) sums_for_[r].push_back(j);
+        if (!is_image(arrived_.id[j]) && owner[tiles_.of(arrived_.view().at(j))] == ranks_.rank())
+          sums_for_[r].push_back(j);
       }
     }
   });
@@ -151,7 +158,8 @@ fgtd::Points<d> ScatteredSums<d>::points(const std::vector<std::size_t>& chosen)
 template <int d>
 Eigen::MatrixXd ScatteredSums<d>::of(const Eigen::MatrixXd& weights) {
   const bool several = ranks_.size() > 1;
-  const Eigen::MatrixXd all = several ? to_owners(weights) : weights;
+  const Eigen::MatrixXd local = of_.empty() ? weights : rows_of(weights, of_);
+  const Eigen::MatrixXd all = several ? to_owners(local) : local;
   Eigen::MatrixXd sums(all.rows(), all.cols());
   ranks_.agree_on([&] {
     try {
@@ -168,7 +176,8 @@ Eigen::MatrixXd ScatteredSums<d>::of(const Eigen::MatrixXd& weights) {
                            base::in_users_words(error.what(), {{"Options::tolerance = ", "a tolerance of "}}));
     }
   });
-  return several ? from_owners(sums, static_cast<std::size_t>(weights.rows())) : sums;
+  if (several) return from_owners(sums, count_);
+  return sums.topRows(static_cast<Eigen::Index>(count_));
 }
 
 template class ScatteredSums<2>;

@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "base/communicator.hpp"
+#include "base/folding.hpp"
 #include "gaussdrift/particles.hpp"
 #include "particle/tiles.hpp"
 
 namespace gaussdrift {
 
-/// sum_j exp(-|X_i - X_j|^2 / width^2) w_j at the particles i. Sources of a tile stand in the order of their ids, so bits
+/// sum_j exp(-|X_i - X_j|^2 / width^2) w_j at the particles i, over particles j and their images beyond edges. Sources of a tile stand in the order of their ids, so bits
 /// do not depend on the ranks. All ranks call everything together.
 template <int d>
 class ScatteredSums {
@@ -22,7 +23,8 @@ class ScatteredSums {
   /// `particles`: those of this rank, in the order of their ids. They and what they have must stay as they are.
   /// The tiles are parts of `lattice` and of all that lies beyond its rim. `what` is summed, for messages.
   ScatteredSums(std::string what, const Particles& particles, const Lattice& lattice, double width,
-                const TileLimits& limits, const fgtd::Options& options, base::Communicator& ranks);
+                const TileLimits& limits, const fgtd::Options& options, base::Communicator& ranks,
+                const Folding& folding = {});
   ScatteredSums(const ScatteredSums&) = delete;
   ScatteredSums& operator=(const ScatteredSums&) = delete;
 
@@ -35,7 +37,7 @@ class ScatteredSums {
     std::optional<fgtd::Plan<d>> plan;
   };
 
-  void send(const Particles& particles, const std::vector<int>& owner);
+  void send(const std::vector<int>& owner);
   Eigen::MatrixXd to_owners(const Eigen::MatrixXd& weights) const;
   Eigen::MatrixXd from_owners(const Eigen::MatrixXd& sums, std::size_t particles) const;
   fgtd::Points<d> points(const std::vector<std::size_t>& chosen) const;
@@ -44,8 +46,12 @@ class ScatteredSums {
   base::Communicator& ranks_;
   double width_;
   fgtd::Options options_;
+  std::size_t count_;            // particles of this rank
+  std::vector<std::size_t> of_;  // the particle that each of images_ is an image of; empty: there are no images
+  Particles images_;             // the particles and their images, if there are any
+  const Particles* all_;         // these, or the particles
   Tiles tiles_;
-  // Several ranks: which of the own particles went to which rank, with which of them it sums; and how many came.
+  // Several ranks: which of all_ went to which rank, with which of them it sums; and how many came.
   std::vector<std::vector<std::size_t>> sent_, summed_by_;
   std::vector<std::vector<std::size_t>> came_, sums_for_;  // numbers of those from each rank, and of those summed here
   Particles arrived_;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "gaussdrift/error.hpp"
@@ -50,10 +51,11 @@ std::vector<AxisCopy> copies_of(const FoldedAxis& axis, int number, double reach
 
 }  // namespace
 
-Particles with_images(const Particles& particles, const Folding& folding, double reach, std::int64_t ids) {
+Particles with_images(const Particles& particles, const Folding& folding, double reach, std::vector<std::size_t>* of) {
   std::vector<std::size_t> all(particles.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   Particles images = subset(particles, all);
+  if (of) *of = std::move(all);
   const auto dimension = static_cast<std::size_t>(particles.dimension);
   std::array<std::vector<AxisCopy>, max_dimension> copies;
   std::size_t count = 1;
@@ -78,7 +80,8 @@ Particles with_images(const Particles& particles, const Folding& folding, double
       if (!counts) continue;
       for (std::size_t k = 0; k < dimension; ++k) images.position[k].push_back(x[k]);
       images.alpha.push_back(particles.alpha[j]);
-      images.id.push_back(static_cast<std::int64_t>(c) * ids + particles.id[j]);
+      images.id.push_back(static_cast<std::int64_t>(c) * ids_of_copy + particles.id[j]);
+      if (of) of->push_back(j);
     }
   }
   return images;

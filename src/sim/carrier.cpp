@@ -392,7 +392,10 @@ void Carrier::settle(Particles& particles, double time, StageTimes& stages) {
 }
 
 void Carrier::arrive(Particles& particles, double from, double time, StageTimes& stages) {
-  if (!looks_at_steps()) return;
+  if (!looks_at_steps()) {
+    if (between_steps_) fold_positions(folding_, particles);  // for those who look at neighbours
+    return;
+  }
   if (coast_)
     stages.run("coast", [&] { ranks_.agree_on([&] { coast_->meet(began_, particles, from, time, threads_); }); });
   if (memory_.wanted())
@@ -443,6 +446,7 @@ void Carrier::follow(Particles& particles) const {
     effect->settle(particles, particles.path[first].data(), now);
     first += effect->path_integral()->rows();
   }
+  fold_positions(folding_, particles);
 }
 
 void Carrier::rearrange(Particles& particles, double time, StageTimes& stages) {

@@ -6,6 +6,7 @@
 #include "effect/catalogue.hpp"
 #include "effect/tracer_reactions.hpp"
 #include "gaussdrift/case.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/scene.hpp"
 
 namespace gaussdrift {
@@ -27,6 +28,7 @@ Effects make_effects(const Case& spec, const Scene& scene, const Follow& follow,
                                          .carried = any ? fields->carried.get() : nullptr,
                                          .field = any ? fields->field.get() : nullptr,
                                          .follow = follow,
+                                         .folding = folding_of(spec.domain),
                                          .ranks = ranks,
                                          .rank_at = rank_at,
                                          .threads = threads}));

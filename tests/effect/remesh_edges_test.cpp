@@ -71,7 +71,8 @@ TEST(RemeshWithEdges, IsThatOfTheParticlesAndTheirImages) {
       SCOPED_TRACE(std::string(list) + " " + std::string(kernel.name));
       const Domain domain = domain_with(list);
       const Lattice lattice = seeding_lattice(domain, 21);
-      Remesh folded(lattice, {.kernel = std::string(kernel.name), .tolerance = 0, .ends = LatticeEnds(domain, lattice)});
+      Remesh folded(lattice,
+                    {.kernel = std::string(kernel.name), .tolerance = 0, .ends = LatticeEnds(domain, lattice)});
       Remesh plain(lattice, {.kernel = std::string(kernel.name), .tolerance = 0});
       const Particles before = at_random(200);
       Particles particles = before, all = with_images_written_out(domain, before);
@@ -145,9 +146,12 @@ TEST(RemeshWithEdges, OnlyTheFlowTakesOutWhatLeaves) {
   const RunSummary beside = Simulation(scene_of(along)).run();
   EXPECT_NEAR(beside.frames.back().second.mass, beside.frames.front().second.mass, 1e-14);
   // Through it everything leaves: what is inside and what has left is what was there.
-  const std::vector<std::string> through{edges(R"("periodic","open")"), "velocity.u=[\"0\", \"1\"]",
-                                         "density.shape=\"gaussian\"",  "density.center=[0, 0.2]",
-                                         "density.radius=0.2",          "effects.remesh.every=2",
+  const std::vector<std::string> through{edges(R"("periodic","open")"),
+                                         "velocity.u=[\"0\", \"1\"]",
+                                         "density.shape=\"gaussian\"",
+                                         "density.center=[0, 0.2]",
+                                         "density.radius=0.2",
+                                         "effects.remesh.every=2",
                                          "time.end=2"};
   const RunSummary gone = Simulation(scene_of(through)).run();
   const FrameNumbers& last = gone.frames.back().second;

@@ -181,12 +181,17 @@ INSTANTIATE_TEST_SUITE_P(
              {"effects.remesh.every=2", "effects.diffusion.D=1e-6", "effects.diffusion.method=\"core-spreading\""}},
         Kind{"remesh_beyond",  // the domain: ids of nodes there are negative
              {"effects.remesh.every=2", "velocity.u=[\"-0.5\", \"0.3\"]", "density.center=[-0.7, 0.05]"}},
+        Kind{"remesh_edges",  // some of them negative ids, which have images
+             {"effects.remesh.every=2", "velocity.u=[\"0\", \"0.5\"]", "density.center=[0.9, 0.9]",
+              "domain.edges=[\"closed\", [\"open\", \"unbounded\"]]"}},
         Kind{"remesh_one_tile", {"effects.remesh.every=2", "evaluate.tile_particles=1000000"}},
         Kind{"exchange", with_exchange({})},
         Kind{"exchange_on_one_tile", with_exchange({"evaluate.tile_particles=1000000"})},
         Kind{"exchange_remesh", with_exchange({"effects.remesh.every=2", "effects.reaction.rate=\"1+x\""})},
         Kind{"exchange_beyond",  // the domain: ids of nodes there are negative
              with_exchange({"velocity.u=[\"-0.5\", \"0.3\"]", "density.center=[-0.7, 0.05]"})},
+        Kind{"exchange_edges", with_exchange({"velocity.u=[\"0.4\", \"0.1\"]", "density.center=[0.9, 0.95]",
+                                              "domain.edges=[\"periodic\", [\"unbounded\", \"closed\"]]"})},
         Kind{"vortex", with_few({"effects.vortex.tolerance=1e-2"})},
         Kind{"vortex_one_tile", with_few({"effects.vortex.tolerance=1e-2", "evaluate.tile_particles=1000000"})},
         Kind{"vortex_adaptive",

@@ -220,6 +220,11 @@ INSTANTIATE_TEST_SUITE_P(
              {"time.step=0.002", "effects.diffusion.D_field=0.01*(1+0.5*x+t)", "domain.edges=[\"open\", \"closed\"]",
               "effects.diffusion.method=random-walk", "effects.reaction.rate=1+x"}},
         Kind{"remesh", {"time.step=0.01", "effects.remesh.every=3"}},
+        Kind{"remesh_edges",
+             {"time.step=0.01", "effects.remesh.every=3", "domain.edges=[\"periodic\", [\"open\", \"closed\"]]"}},
+        Kind{"exchange_edges",
+             {"time.step=0.01", "effects.diffusion.D=0.01", "effects.diffusion.method=particle-exchange",
+              "domain.edges=[\"periodic\", \"closed\"]"}},
         Kind{"charge", {"time.step=0.05", "effects.charge.mobility=0.3"}},
         Kind{"vortex", {"time.step=0.05", "effects.vortex.tolerance=1e-6"}}),
     [](const auto& kind) { return kind.param.name; });

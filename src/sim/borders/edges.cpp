@@ -209,10 +209,9 @@ Domain domain_of_sum(const Case& spec, double elapsed) {
 }
 
 const Particles& summed_particles(const Domain& domain, const Particles& particles, double reach, Particles& images) {
-  constexpr std::int64_t ids = std::int64_t{1} << 40;  // more than lattices and sources have
   const Folding folding = folding_of(domain);
   if (!folding.folds() || domain.on_sphere()) return particles;  // chords know no edges
-  images = with_images(particles, folding, reach, ids);
+  images = with_images(particles, folding, reach);
   return images;
 }
 
