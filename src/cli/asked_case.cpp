@@ -11,13 +11,21 @@
 #include "cli/terminal.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
+#include "input/explain.hpp"
 
 namespace gaussdrift::cli {
+
+std::vector<std::string> settings_to_begin() {
+  std::vector<std::string> settings;
+  for (const std::string& key : input::key_paths()) settings.push_back(key + "=");
+  return settings;
+}
 
 void declare_case(OptionList& options, CaseOptions& given) {
   options.add("case", given.file, "CASE", "case file (TOML), see docs/cases.md").required();
   options.add("--set", given.overrides, "KEY=VALUE", "set a key of the case: --set time.step=0.01. Repeatable")
-      .repeatable();
+      .repeatable()
+      .offers(settings_to_begin);
   options.add("--accuracy", given.accuracy, "X",
               "error that you accept at the end, relative to the largest density. Settings are chosen for it");
   declare_memory(options, given.memory);

@@ -20,6 +20,9 @@ struct CaseOptions {
   bool json = false;                     // results as JSON on stdout
 };
 
+/// "time.step=", ...: how --set may begin, for shells.
+std::vector<std::string> settings_to_begin();
+
 void declare_case(OptionList& options, CaseOptions& given);
 
 /// --memory, for verbs that take much.

@@ -1,11 +1,16 @@
 #include "cli/command_line.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <deque>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/options.hpp"
@@ -16,11 +21,13 @@ namespace gaussdrift::cli {
 
 Option& Option::required() {
   option_->required();
+  words_->required = true;
   return *this;
 }
 
 Option& Option::repeatable() {
   option_->allow_extra_args(false);
+  words_->repeatable = true;
   return *this;
 }
 
@@ -31,21 +38,25 @@ Option& Option::separated_by(char separator) {
 
 Option& Option::value_optional() {
   option_->expected(0, 1)->default_str("true");
+  words_->value_optional = true;
   return *this;
 }
 
 Option& Option::within(int least, int most) {
   option_->check(CLI::Range(least, most));
+  words_->range = fmt::format("{} to {}", least, most);
   return *this;
 }
 
 Option& Option::within(double least, double most) {
   option_->check(CLI::Range(least, most));
+  words_->range = fmt::format("{} to {}", least, most);
   return *this;
 }
 
 Option& Option::not_negative() {
   option_->check(CLI::NonNegativeNumber);
+  words_->range = "at least 0";
   return *this;
 }
 
@@ -54,9 +65,15 @@ Option& Option::excludes(const Option& other) {
   return *this;
 }
 
+Option& Option::offers(std::function<std::vector<std::string>()> words) {
+  words_->offer = std::move(words);
+  return *this;
+}
+
 template <class Value>
 Option OptionList::add(const std::string& name, Value& value, const std::string& type, const std::string& meaning) {
-  return Option(*verb_.add_option(name, value, meaning)->type_name(type));
+  words_.push_back({.name = name, .type = type, .meaning = meaning});
+  return {*verb_.add_option(name, value, meaning)->type_name(type), words_.back()};
 }
 template Option OptionList::add(const std::string&, std::string&, const std::string&, const std::string&);
 template Option OptionList::add(const std::string&, std::filesystem::path&, const std::string&, const std::string&);
@@ -68,7 +85,8 @@ template Option OptionList::add(const std::string&, std::vector<std::string>&, c
 template Option OptionList::add(const std::string&, std::vector<double>&, const std::string&, const std::string&);
 
 Option OptionList::flag(const std::string& name, bool& value, const std::string& meaning) {
-  return Option(*verb_.add_flag(name, value, meaning));
+  words_.push_back({.name = name, .type = {}, .meaning = meaning});
+  return {*verb_.add_flag(name, value, meaning), words_.back()};
 }
 
 void OptionList::threads(int& value) {
@@ -79,17 +97,41 @@ void OptionList::json(bool& value, const std::string& meaning) { flag("--json", 
 
 namespace {
 
-VerbWords words_of(const CLI::App& verb) {
-  VerbWords words{verb.get_name(), {}};
-  for (const CLI::Option* option : verb.get_options())
-    for (const std::string& name : option->get_lnames()) words.options.push_back("--" + name);
-  return words;
+const std::string purpose =
+    "Moves a density with a flow that you prescribe, by smoothed particles, and says how accurate the result is.";
+
+constexpr ExitMeaning exit_meanings[] = {
+    {"0", "ok"},
+    {"1", "internal error"},
+    {"2", "wrong command line"},
+    {"3", "wrong case or table"},
+    {"4", "numerical failure"},
+    {"5", "a check failed"},
+    {"6", "files"},
+    {"7", "stopped by --stop-after"},
+    {"130, 143, 129", "stopped by a signal"},
+};
+
+std::string exit_codes_in_a_line() {
+  std::string line;
+  for (const auto& [code, meaning] : exit_meanings)
+    line += fmt::format("{}{} {}", line.empty() ? "" : code.size() > 1 ? "; " : ", ", code, meaning);
+  return line;
 }
 
-std::vector<VerbWords> all_words(const CLI::App& app) {
-  std::vector<VerbWords> all;
-  for (const CLI::App* verb : app.get_subcommands({})) all.push_back(words_of(*verb));
-  return all;
+/// The answer to `gaussdrift` alone.
+std::string first_steps() {
+  return fmt::format(
+      "gaussdrift {}. {}\n\n"
+      "First steps:\n"
+      "  gaussdrift new rotating_cone        writes an example, rotating_cone.toml\n"
+      "  gaussdrift run rotating_cone.toml   runs it; then open output/rotating_cone/report.html in a browser\n\n"
+      "A scene of your own:\n"
+      "  gaussdrift new --blank 2d           writes scene.toml, which runs and is to be changed; or 3d\n"
+      "  gaussdrift check scene.toml         says what a run of it will be like, and cost\n"
+      "  gaussdrift explain particles        explains a table of the file, or a key\n\n"
+      "gaussdrift new lists the examples, gaussdrift --help all commands, gaussdrift doctor tries this machine.\n",
+      GAUSSDRIFT_VERSION, purpose);
 }
 
 Unread unread(const CLI::App& app, const CLI::ParseError& error) {
@@ -102,26 +144,38 @@ Unread unread(const CLI::App& app, const CLI::ParseError& error) {
   return words;
 }
 
+/// Declares the options of all verbs, and tells what they have said.
+std::vector<VerbWords> declare(CLI::App& app, const std::vector<Verb>& verbs) {
+  std::vector<VerbWords> all;
+  for (const Verb& verb : verbs) {
+    std::deque<OptionWords>& words = all.emplace_back(VerbWords{verb.name, verb.meaning, {}}).options;
+    OptionList options(*app.add_subcommand(verb.name, verb.meaning), words);
+    verb.declare(options);
+    words.push_back({.name = "--help", .type = {}, .meaning = "show these options and exit"});
+  }
+  return all;
+}
+
 }  // namespace
 
+ProgramWords words_of(const std::vector<Verb>& verbs) {
+  CLI::App app;
+  return {purpose, GAUSSDRIFT_VERSION, std::vector<ExitMeaning>(std::begin(exit_meanings), std::end(exit_meanings)),
+          declare(app, verbs)};
+}
+
 CommandLine parse(int argc, char** argv, const std::vector<Verb>& verbs) {
-  CLI::App app(
-      "Moves a density with a flow that you prescribe, by smoothed particles, and says how accurate the result is.",
-      "gaussdrift");
+  CLI::App app(purpose, "gaussdrift");
   app.set_version_flag("--version", "gaussdrift " GAUSSDRIFT_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 ok, 1 internal error, 2 wrong command line, 3 wrong case or table, 4 numerical failure, 5 a check "
-      "failed, 6 files, 7 stopped by "
-      "--stop-after; 130, 143, 129 stopped by a signal.\n"
-      "First steps: gaussdrift new rotating_cone, then gaussdrift run rotating_cone.toml");
-  for (const Verb& verb : verbs) {
-    OptionList options(*app.add_subcommand(verb.name, verb.meaning));
-    verb.declare(options);
-  }
-  if (argc > 1 && argv[1][0] != '-' &&
+      fmt::format("Exit codes: {}.\nFirst steps: gaussdrift new rotating_cone, then gaussdrift run rotating_cone.toml",
+                  exit_codes_in_a_line()));
+  const std::vector<VerbWords> words = declare(app, verbs);
+  if (argc == 1) return {.verb = nullptr, .answer = first_steps()};
+  if (argv[1][0] != '-' &&
       std::none_of(verbs.begin(), verbs.end(), [&](const Verb& verb) { return verb.name == argv[1]; }))
-    throw CommandLineError(unknown_verb(all_words(app), argv[1]));
+    throw CommandLineError(unknown_verb(words, argv[1]));
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -130,7 +184,7 @@ CommandLine parse(int argc, char** argv, const std::vector<Verb>& verbs) {
     app.exit(asked, answer, answer);
     return {.verb = nullptr, .answer = answer.str()};
   } catch (const CLI::ParseError& error) {
-    throw CommandLineError(explained(all_words(app), unread(app, error)));
+    throw CommandLineError(explained(words, unread(app, error)));
   }
   return {.verb = &*std::find_if(verbs.begin(), verbs.end(),
                                  [&](const Verb& verb) { return app.got_subcommand(verb.name); }),

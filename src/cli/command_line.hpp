@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/program_words.hpp"
 #include "cli/verb.hpp"
 
 namespace gaussdrift::cli {
@@ -17,5 +18,8 @@ struct CommandLine {
 
 /// Throws CommandLineError where it is wrong.
 CommandLine parse(int argc, char** argv, const std::vector<Verb>& verbs);
+
+/// What the program says about its command line.
+ProgramWords words_of(const std::vector<Verb>& verbs);
 
 }  // namespace gaussdrift::cli

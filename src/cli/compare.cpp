@@ -36,7 +36,8 @@ void declare(OptionList& options, CompareOptions& given) {
   options.add("second", given.second, "B", "what it is compared with").required();
   options.add("--tolerance", given.tolerance, "X", "exit code 5 if the largest difference is above this")
       .not_negative();
-  options.add("--field", given.field, "NAME", fmt::format("{}; rho by default", fmt::join(arrays_of_outputs(), ", ")));
+  options.add("--field", given.field, "NAME", fmt::format("{}; rho by default", fmt::join(arrays_of_outputs(), ", ")))
+      .offers(arrays_of_outputs);
   options.json(given.json);
 }
 

@@ -27,10 +27,19 @@ struct ExplainOptions {
   bool json = false;
 };
 
+/// Tables and keys.
+std::vector<std::string> words_to_explain() {
+  std::vector<std::string> words = input::table_paths();
+  for (const std::string& key : input::key_paths()) words.push_back(key);
+  return words;
+}
+
 void declare(OptionList& options, ExplainOptions& given) {
-  const Option word = options.add("key", given.word, "KEY",
-                                  "a key, table, field, shape, function, value or symbol (n_g, alpha_j). Without it, "
-                                  "all keys");
+  const Option word =
+      options
+          .add("key", given.word, "KEY",
+               "a key, table, field, shape, function, value or symbol (n_g, alpha_j). Without it, all keys")
+          .offers(words_to_explain);
   Option schema = options.flag("--schema", given.schema, "the JSON schema of a case");
   options.json(given.json);
   options.add("--markdown", given.guide, "FILE", "write the generated parts of docs/cases.md (FILE) anew")

@@ -45,12 +45,18 @@ struct FitVerbOptions {
   bool json = false;
 };
 
-void declare(OptionList& options, FitVerbOptions& given) {
+std::vector<std::string> kernel_names() {
   std::vector<std::string> names;
   for (const rbf::Kernel kernel : rbf::kernels()) names.push_back(to_string(kernel));
+  return names;
+}
+
+void declare(OptionList& options, FitVerbOptions& given) {
   options.add("data", given.data, "DATA", "table (CSV) with columns x, y, perhaps z, and a value").required();
   options.add("--value", given.value, "NAME", "the column of the values; rho by default");
-  options.add("--kernel", given.kernel, "NAME", fmt::format("{}; thin-plate by default", fmt::join(names, ", ")));
+  options
+      .add("--kernel", given.kernel, "NAME", fmt::format("{}; thin-plate by default", fmt::join(kernel_names(), ", ")))
+      .offers(kernel_names);
   const Option shape =
       options.add("--shape", given.shape, "C", "of the kernel, a length; by default it is chosen").not_negative();
   options
@@ -73,8 +79,7 @@ void declare(OptionList& options, FitVerbOptions& given) {
 
 rbf::Kernel kernel_of(const std::string& name) {
   if (const auto kernel = rbf::kernel_named(name)) return *kernel;
-  std::vector<std::string> names;
-  for (const rbf::Kernel kernel : rbf::kernels()) names.push_back(to_string(kernel));
+  const std::vector<std::string> names = kernel_names();
   const auto near = base::suggest(name, names);
   throw CommandLineError(fmt::format("--kernel {}: there is no such kernel{}; there are {}", name,
                                      near ? fmt::format(", is \"{}\" meant?", *near) : "", fmt::join(names, ", ")));

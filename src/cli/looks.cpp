@@ -70,13 +70,16 @@ void declare_looks(OptionList& options, LookOptions& given) {
   options.flag("--log", given.log, "colours, heights and lines by the logarithm");
   options.flag("--per-frame", given.per_frame, "a range of its own for each picture");
   options.add("--size", given.size, "WxH", "width and height in pixels; 1280x960 by default");
-  options.add("--colour-map", given.colour_map, "NAME",
-              fmt::format("{}", fmt::join(names(render::colour_maps()), ", ")));
+  options
+      .add("--colour-map", given.colour_map, "NAME", fmt::format("{}", fmt::join(names(render::colour_maps()), ", ")))
+      .offers([] { return names(render::colour_maps()); });
   options.add("--view", given.view, "A,E",
               "azimuth and elevation of the eye in degrees, for pictures in perspective; -62,31 by default");
   options.add("--zoom", given.zoom, "A:B,C:D", "a part of the domain: x from A to B, y from C to D, in space z too");
-  options.add("--velocity", given.velocity, "HOW",
-              fmt::format("the velocity over maps in 2D: {}", fmt::join(names(render::velocity_styles()), ", ")));
+  options
+      .add("--velocity", given.velocity, "HOW",
+           fmt::format("the velocity over maps in 2D: {}", fmt::join(names(render::velocity_styles()), ", ")))
+      .offers([] { return names(render::velocity_styles()); });
   options.flag("--transparent", given.transparent, "no background");
   options.flag("--large-type", given.large_type, "letters, lines and margins half as large again, for slides");
 }

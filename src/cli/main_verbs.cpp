@@ -25,9 +25,11 @@ std::string typed(int argc, char** argv) {
 
 /// In the order of --help.
 std::vector<Verb> all_verbs(const std::string& command) {
-  return {new_verb(),    run_verb(command), resume_verb(command), check_verb(),  study_verb(),
-          report_verb(), render_verb(),     compare_verb(),       field_verb(),  doctor_verb(),
-          fit_verb(),    sum_verb(),        reproduce_verb(),     explain_verb()};
+  return {new_verb(),       run_verb(command), resume_verb(command),
+          check_verb(),     study_verb(),      report_verb(),
+          render_verb(),    compare_verb(),    field_verb(),
+          doctor_verb(),    fit_verb(),        sum_verb(),
+          reproduce_verb(), explain_verb(),    manual_verb([command] { return all_verbs(command); })};
 }
 
 ExitCode carry_out(const Verb& verb, base::Communicator& ranks, bool launched) {

@@ -54,9 +54,12 @@ std::vector<std::string> names_of_films() {
 void declare(OptionList& options, RenderOptions& given) {
   options.add("folder", given.folder, "DIR", "folder of a run, a .vti or .pvti, or a case (its density at the start)")
       .required();
-  options.add("--style", given.style, "NAME", fmt::format("{}", fmt::join(render::style_names(), ", ")));
-  options.add("--field", given.field, "NAME",
-              fmt::format("{}; of vectors the length. rho by default", fmt::join(arrays_of_outputs(), ", ")));
+  options.add("--style", given.style, "NAME", fmt::format("{}", fmt::join(render::style_names(), ", ")))
+      .offers(render::style_names);
+  options
+      .add("--field", given.field, "NAME",
+           fmt::format("{}; of vectors the length. rho by default", fmt::join(arrays_of_outputs(), ", ")))
+      .offers(arrays_of_outputs);
   options.add("--times", given.times, "T,...", "only these output times, or their dates").separated_by(',');
   declare_looks(options, given.looks);
   options

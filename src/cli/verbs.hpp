@@ -1,7 +1,9 @@
 // All verbs of the program, a file each.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "cli/verb.hpp"
 
@@ -22,6 +24,8 @@ Verb fit_verb();
 Verb sum_verb();
 Verb reproduce_verb();
 Verb explain_verb();
+/// `all_verbs`: of the program, itself among them.
+Verb manual_verb(std::function<std::vector<Verb>()> all_verbs);
 
 /// Parses the command line, does what it says, prints errors on stderr; returns the exit code.
 int main_verbs(int argc, char** argv);

@@ -26,17 +26,26 @@ constexpr std::pair<std::string_view, std::string_view> verbs_elsewhere[] = {
     {"test", "doctor"},  {"benchmark", "study"}, {"bench", "study"},  {"help", "--help"},    {"version", "--version"},
 };
 
+std::vector<std::string> options_of(const VerbWords& verb) {
+  std::vector<std::string> options;
+  for (const OptionWords& words : verb.options)
+    if (!words.dashed().empty()) options.push_back(words.dashed());
+  return options;
+}
+
 bool has(const VerbWords& verb, const std::string& option) {
-  return std::find(verb.options.begin(), verb.options.end(), option) != verb.options.end();
+  const std::vector<std::string> options = options_of(verb);
+  return std::find(options.begin(), options.end(), option) != options.end();
 }
 
 /// The only option that begins like this, or the nearest one.
 std::optional<std::string> meant(const VerbWords& verb, const std::string& option) {
+  const std::vector<std::string> options = options_of(verb);
   std::vector<std::string> longer;
-  std::copy_if(verb.options.begin(), verb.options.end(), std::back_inserter(longer),
+  std::copy_if(options.begin(), options.end(), std::back_inserter(longer),
                [&](const std::string& name) { return name.rfind(option, 0) == 0; });
   if (option.size() > 3 && longer.size() == 1) return longer.front();
-  return base::suggest(option, verb.options);
+  return base::suggest(option, options);
 }
 
 std::string unknown_option(const std::vector<VerbWords>& verbs, const VerbWords& verb, const std::string& word) {

@@ -4,12 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace gaussdrift::cli {
+#include "cli/program_words.hpp"
 
-struct VerbWords {
-  std::string name;
-  std::vector<std::string> options;  // "--out"
-};
+namespace gaussdrift::cli {
 
 /// The answer to an unknown verb: the one that was probably meant.
 std::string unknown_verb(const std::vector<VerbWords>& verbs, const std::string& word);

@@ -266,6 +266,15 @@ std::vector<Explanation> meanings_of(std::string_view word) {
 
 }  // namespace
 
+std::vector<std::string> key_paths() {
+  std::vector<std::string> paths;
+  for (const std::string& table : table_names())
+    for (const std::string& key : key_names(table)) paths.push_back(table + "." + key);
+  return paths;
+}
+
+std::vector<std::string> table_paths() { return table_names(); }
+
 std::vector<Explanation> explain(std::string_view word) { return together(meanings_of(word)); }
 
 std::optional<std::string> suggest_word(std::string_view word) { return base::suggest(word, known_words()); }

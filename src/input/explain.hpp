@@ -28,6 +28,10 @@ std::vector<Explanation> explain(std::string_view word);
 /// The known word that is nearest to an unknown one.
 std::optional<std::string> suggest_word(std::string_view word);
 
+/// "particles.per_axis", ...: every key that stands in a table; and the names of the tables.
+std::vector<std::string> key_paths();
+std::vector<std::string> table_paths();
+
 /// Every table with its keys. Texts stand beside their labels in lines of at most `columns` characters, where there is
 /// room for that; 0: each in one line.
 std::string overview_text(std::size_t columns = 0);

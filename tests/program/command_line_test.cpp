@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -20,10 +21,27 @@ TEST(CommandLine, AnswersHelpAndVersion) {
   EXPECT_NE(gaussdrift_in(folder, "run --help").out.find("--set"), std::string::npos);
 }
 
+TEST(CommandLine, TellsWhatToDoFirst) {
+  const ScratchFolder folder;
+  const Outcome first = gaussdrift_in(folder, "");
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  int commands = 0;
+  std::istringstream lines(first.out);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("  gaussdrift ", 0) == 0) {  // what it advises runs, in this order
+      const bool runs = line.find(" run ") != std::string::npos;
+      const Outcome followed = gaussdrift_in(folder, line.substr(13, line.find("  ", 13) - 13) +
+                                                         (runs ? " --set time.step=0.1 --set 'output.images=[]'" : ""));
+      EXPECT_EQ(followed.exit_code, 0) << line << "\n" << followed.err;
+      ++commands;
+    }
+  EXPECT_EQ(commands, 5) << first.out;
+}
+
 TEST(CommandLine, RefusesWhatItDoesNotKnow) {
   const ScratchFolder folder;
   write_file(folder / "small.toml", small_case);
-  for (const char* wrong : {"", "fly", "run", "run small.toml --frce", "run small.toml --threads 0",
+  for (const char* wrong : {"fly", "run", "run small.toml --frce", "run small.toml --threads 0",
                             "run small.toml --threads two", "reproduce moon"}) {
     const Outcome refused = gaussdrift_in(folder, wrong);
     EXPECT_EQ(refused.exit_code, 2) << wrong;

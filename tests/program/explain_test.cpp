@@ -1,4 +1,4 @@
-// gaussdrift explain and gaussdrift new: what a person who writes a case is told.
+// gaussdrift explain: what a person who writes a case is told.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,14 +10,6 @@
 
 namespace gaussdrift {
 namespace {
-
-std::vector<std::string> example_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(SOURCE_DIR "/cases"))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 TEST(Explain, TellsAKeyByItsNameAndByItsSymbol) {
   const ScratchFolder folder;
@@ -104,49 +96,6 @@ TEST(Explain, WritesTheGeneratedPartsOfTheGuide) {
   write_file(folder / "other.md", "no marks");
   EXPECT_EQ(gaussdrift_in(folder, "explain --markdown other.md").exit_code, 3);
   EXPECT_EQ(gaussdrift_in(folder, "explain --markdown missing.md").exit_code, 6);
-}
-
-TEST(New, ListsEveryExample) {
-  const ScratchFolder folder;
-  const auto list = parsed_json(gaussdrift_in(folder, "new --json").out);
-  std::vector<std::string> names;
-  for (const auto& example : list) {
-    names.push_back(example["name"]);
-    EXPECT_NE(example["title"], "") << example["name"];
-  }
-  EXPECT_EQ(names, example_names());
-  EXPECT_NE(gaussdrift_in(folder, "new").out.find("rotating_cone"), std::string::npos);
-}
-
-TEST(New, WritesEveryExampleAsItStandsAndItCanBeChecked) {
-  const ScratchFolder folder;
-  for (const std::string& name : example_names()) {
-    const Outcome written = gaussdrift_in(folder, "new " + name);
-    ASSERT_EQ(written.exit_code, 0) << written.err;
-    EXPECT_EQ(read_file(folder / (name + ".toml")), read_file(SOURCE_DIR "/cases/" + name + ".toml"));
-    const Outcome checked = gaussdrift_in(folder, "check " + name + ".toml --set particles.per_axis=21");
-    EXPECT_EQ(checked.exit_code, 0) << checked.err;
-    EXPECT_EQ(checked.err, "");  // no warnings
-  }
-}
-
-TEST(New, KeepsAFileThatIsThere) {
-  const ScratchFolder folder;
-  write_file(folder / "rotating_cone.toml", "mine");
-  const Outcome refused = gaussdrift_in(folder, "new rotating_cone");
-  EXPECT_EQ(refused.exit_code, 6);
-  EXPECT_EQ(read_file(folder / "rotating_cone.toml"), "mine");
-  EXPECT_EQ(gaussdrift_in(folder, "new rotating_cone --force").exit_code, 0);
-  EXPECT_NE(read_file(folder / "rotating_cone.toml"), "mine");
-  EXPECT_EQ(gaussdrift_in(folder, "new rotating_cone --out scenes/mine").exit_code, 0);
-  EXPECT_TRUE(fs::exists(folder / "scenes/mine/rotating_cone.toml"));
-}
-
-TEST(New, NamesTheExampleThatWasMeant) {
-  const ScratchFolder folder;
-  const Outcome refused = gaussdrift_in(folder, "new rotating_come");
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("did you mean \"rotating_cone\"?"), std::string::npos) << refused.err;
 }
 
 }  // namespace
