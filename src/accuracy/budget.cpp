@@ -14,7 +14,7 @@ namespace gaussdrift::accuracy {
 
 std::string budget_not_covered(const Case& spec) {
   if (const std::string reason = beyond_budgets(spec.effects, spec.domain.dimension); !reason.empty()) return reason;
-  if (spec.domain.has_edges()) return "what the edges of the domain do to errors is not known to it";
+  if (spec.domain.has(Edge::open)) return "what leaves through open edges of the domain is not known to it";
   if (!spec.sources.empty()) return "what sources release is not known to it";
   if (tracers_react(spec)) return "how named densities change into each other is not known to it";
   if (spec.domain.coast != AtCoast::refuse) return "what a coast does to errors is not known to it";

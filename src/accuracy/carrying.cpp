@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accuracy/other_lattices.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/carrier.hpp"
 #include "sim/landings.hpp"
 #include "sim/stepper.hpp"
@@ -33,9 +34,12 @@ void carry_by_steps(const Case& spec, const Scene& scene, Particles& particles, 
 
 bool carry(const Case& spec, const Scene& scene, const Carrying& how, Particles& particles) {
   if (particles.size() == 0) return true;
-  if (how.exactly)
-    return carry_exactly(*scene.velocity, scene.decay_rate.get(), particles, 0, spec.output.times.back(), how.paths)
-               .lost == 0;
+  if (how.exactly) {
+    const ExactPaths paths =
+        carry_exactly(*scene.velocity, scene.decay_rate.get(), particles, 0, spec.output.times.back(), how.paths);
+    fold_positions(folding_of(spec.domain), particles);
+    return paths.lost == 0;
+  }
   carry_by_steps(spec, scene, particles, how.factor, how.paths.threads);
   return true;
 }

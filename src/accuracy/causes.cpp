@@ -103,6 +103,13 @@ double bound_of_left_out(const Scene& scene, const SeedReport& report, const Par
   return growth * density_left_out(scene, report) / norm;
 }
 
+bool is_enclosed(const Domain& domain) {
+  bool enclosed = true;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(domain.dimension); ++k)
+    for (const Edge edge : domain.edges[k]) enclosed = enclosed && (edge == Edge::periodic || edge == Edge::closed);
+  return enclosed;
+}
+
 double extent(const Case& spec) { return longest_side(spec.domain.dimension, spec.domain.min, spec.domain.max); }
 
 double work_allowed(const Case& spec, const Scene& scene, std::size_t particles, double share) {

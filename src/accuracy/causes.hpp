@@ -60,6 +60,9 @@ bool is_fitted(const Scene& scene);
 double fit_of_samples(const Scene& scene, const Particles& start, const Particles& carried,
                       const std::vector<double>& rho, double time, double norm);
 
+/// True if every end of the domain is periodic or closed: what a shape has beyond them is no part of the scene.
+bool is_enclosed(const Domain& domain);
+
 /// The longest side of the domain.
 double extent(const Case& spec);
 

@@ -55,7 +55,7 @@ double interpolation_error(const Case& spec, const Scene& scene, const Particles
   const auto sums = [&](const Scene& by) {
     Particles moved = start;
     carry_by_steps(spec, by, moved, factor, threads);
-    return sums_at(probes, moved, scene.cutoff, threads);
+    return sums_at(probes, moved, scene.cutoff, spec.domain, threads);
   };
   const auto with_fewer = [&](const Thinned& thinned) {
     Case fewer = spec;

@@ -76,7 +76,7 @@ std::optional<ProbePlan> choose_probe_plan(const Case& spec, const Scene& scene,
     for (std::size_t i = 0; i < plans.size(); ++i) {
       ProbePlan& plan = plans[i];
       for (plan.probes = places; plan.probes.size() >= least; plan.probes.pop_back()) {
-        plan.around = near(plan.probes, particles, reach_of(scene.cutoff, plan.widths), scene.seeding.sphere);
+        plan.around = near(plan.probes, particles, reach_of(scene.cutoff, plan.widths), spec.domain);
         if (static_cast<double>(plan.around.size()) * (work[i][0] + work[i][1]) <= allowed) return plan;
       }
     }
@@ -89,7 +89,8 @@ Better smoothing_of_others(const Case& spec, const Scene& scene, const std::vect
   Better better;
   for (const std::string& name : higher_cutoffs(spec)) {
     const Cutoff cutoff = other_cutoff(scene, name);
-    better.emplace_back(name, largest_difference(sums_at(probes, particles, cutoff, threads), exact_of(probes)) / norm);
+    better.emplace_back(
+        name, largest_difference(sums_at(probes, particles, cutoff, spec.domain, threads), exact_of(probes)) / norm);
   }
   return better;
 }
@@ -126,7 +127,8 @@ class Measurement {
       budget_.not_covered = nothing_to_explain(last_.particles, budget_.outside, spec_.time.at(last_.time));
     if (!budget_.known()) return false;
     seeded_ = seed_scene(scene_, threads_, &seeding_);
-    budget_.not_covered = about_beyond(part_beyond(scene_.density->mass(), seeded_, scene_.seeding));
+    if (!is_enclosed(spec_.domain))
+      budget_.not_covered = about_beyond(part_beyond(scene_.density->mass(), seeded_, scene_.seeding));
     return budget_.known();
   }
 
@@ -196,7 +198,7 @@ class Measurement {
   /// From the particles near the probes, or some of them: where steps have brought them, and where they belong.
   bool measure_time_stepping() {
     const Particles ran = subset(last_.particles, plan_.around);
-    by_steps_ = sums_at(plan_.probes, ran, scene_.cutoff, threads_);
+    by_steps_ = sums_at(plan_.probes, ran, scene_.cutoff, spec_.domain, threads_);
     Particles ran_thin = plan_.stride > 1 ? thinned(ran, scene_.seeding, plan_.stride) : ran;
     double cells = std::pow(static_cast<double>(plan_.stride), ran.dimension);
     if (ran_thin.size() == 0) {  // all of few particles lie between those that would stay
@@ -212,8 +214,8 @@ class Measurement {
       if (std::isfinite(error)) budget_.interpolation = at_least_rounding(error / norm_);
     }
     if (!carry(spec_, scene_, plan_.sharp, followed)) return not_covered(lost_paths);
-    exactly_ = sums_at(plan_.probes, followed, scene_.cutoff, threads_);
-    const std::vector<double> stepped = sums_at(plan_.probes, ran_thin, scene_.cutoff, threads_);
+    exactly_ = sums_at(plan_.probes, followed, scene_.cutoff, spec_.domain, threads_);
+    const std::vector<double> stepped = sums_at(plan_.probes, ran_thin, scene_.cutoff, spec_.domain, threads_);
     budget_.time_stepping = largest_difference(exactly_, stepped) / norm_;
     if (!plan_.sharp.exactly) budget_.time_stepping *= of_halved_steps(spec_, scene_);
     budget_.time_stepping = at_least_rounding(budget_.time_stepping);
@@ -227,9 +229,9 @@ class Measurement {
   bool measure_smoothing_and_quadrature() {
     const std::vector<Probe>& probes = plan_.probes;
     std::vector<double> sums = plan_.moved.exactly ? exactly_ : by_steps_;
-    Particles aside = between(at_start(last_.particles, plan_.around, scene_), scene_);
+    Particles aside = between(at_start(last_.particles, plan_.around, scene_), scene_, spec_.domain);
     if (!carry(spec_, scene_, plan_.moved, aside)) return not_covered(lost_paths);
-    const std::vector<double> other = sums_at(probes, aside, scene_.cutoff, threads_);
+    const std::vector<double> other = sums_at(probes, aside, scene_.cutoff, spec_.domain, threads_);
     budget_.quadrature = at_least_rounding(largest_difference(sums, other) / 2 / norm_);
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = (sums[i] + other[i]) / 2;
     budget_.smoothing = at_least_rounding(largest_difference(sums, exact_of(probes)) / norm_);

@@ -10,20 +10,35 @@ namespace gaussdrift::accuracy {
 
 namespace {
 
+/// Whether there is a cell beyond the first point of an axis, and beyond the last, part of which lies in the domain.
+struct Rim {
+  bool low = false, high = false, periodic = false;
+};
+
+Rim rim_of(const Domain& domain, int axis) {
+  const auto [lower, upper] = domain.edges[static_cast<std::size_t>(axis)];
+  return {.low = lower == Edge::closed || lower == Edge::periodic,
+          .high = upper == Edge::closed,  // on a periodic axis the last cell is the first
+          .periodic = lower == Edge::periodic};
+}
+
 /// The cells of the lattice that have one of these particles at a corner. Cell i of an axis is left of lattice point i;
 /// there is one more than points.
-std::vector<std::size_t> cells_around(const Particles& start, const Lattice& lattice) {
+std::vector<std::size_t> cells_around(const Particles& start, const Lattice& lattice, const Domain& domain) {
   std::vector<std::size_t> cells;
   for (const auto id : start.id)
     for (int corner = 0; corner < (1 << start.dimension); ++corner) {
       std::size_t rest = static_cast<std::size_t>(id), cell = 0, stride = 1;
       bool inside = true;
       for (int k = 0; k < start.dimension; ++k) {
-        const std::size_t i = rest % lattice.points[k] + static_cast<std::size_t>(corner >> k & 1);
-        inside = inside && 0 < i && i < lattice.points[k];
+        const Rim rim = rim_of(domain, k);
+        const std::size_t points = lattice.points[k];
+        std::size_t i = rest % points + static_cast<std::size_t>(corner >> k & 1);
+        if (rim.periodic) i %= points;
+        inside = inside && (0 < i || rim.low) && (i < points || rim.high);
         cell += stride * i;
-        rest /= lattice.points[k];
-        stride *= lattice.points[k] + 1;
+        rest /= points;
+        stride *= points + 1;
       }
       if (inside) cells.push_back(cell);
     }
@@ -54,18 +69,29 @@ Particles at_start(const Particles& particles, const std::vector<std::size_t>& c
   return start;
 }
 
-Particles between(const Particles& start, const Scene& scene) {
+Particles between(const Particles& start, const Scene& scene, const Domain& domain) {
   const Lattice& lattice = scene.seeding;
   Particles moved;
   moved.dimension = start.dimension;
-  for (std::size_t cell : cells_around(start, lattice)) {
+  std::vector<double> parts;  // of a cell that lie in the domain
+  for (std::size_t cell : cells_around(start, lattice, domain)) {
+    double part = 1;
     for (int k = 0; k < start.dimension; ++k) {
-      moved.position[k].push_back(lattice.coordinate(k, cell % (lattice.points[k] + 1)) - lattice.spacing / 2);
+      const std::size_t i = cell % (lattice.points[k] + 1);
+      const bool first = i == 0, last = i == lattice.points[k];
+      const bool periodic = rim_of(domain, k).periodic;
+      if ((first && !periodic) || last) part /= 2;
+      moved.position[k].push_back(first && !periodic ? domain.min[k]
+                                  : first || last    ? domain.max[k]
+                                                     : lattice.coordinate(k, i) - lattice.spacing / 2);
+      if (first && periodic) moved.position[k].back() -= lattice.spacing / 2;
       cell /= lattice.points[k] + 1;
     }
+    parts.push_back(part);
     moved.id.push_back(0);
   }
   weigh(moved, scene);
+  for (std::size_t j = 0; j < parts.size(); ++j) moved.alpha[j] *= parts[j];
   return moved;
 }
 

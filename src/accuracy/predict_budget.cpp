@@ -12,9 +12,11 @@
 #include "accuracy/other_lattices.hpp"
 #include "accuracy/probes.hpp"
 #include "reference/sample.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/borders/outside.hpp"
 #include "sim/landings.hpp"
 #include "sim/stable_step.hpp"
+#include "sim/tiled_density.hpp"
 #include "sim/transform.hpp"
 #include "sim/work.hpp"
 #include "time/tableau.hpp"
@@ -66,8 +68,8 @@ double predict_time_stepping(const Case& spec, const Scene& scene, const Particl
   Carrying better{.exactly = smooth_paths, .paths = paths, .factor = 0.5};
   better.paths.tolerance = 1e-13;
   if (!carry(spec, scene, better, followed)) return nan;
-  double changed = largest_difference(sums_at(places, stepped, scene.cutoff, paths.threads),
-                                      sums_at(places, followed, scene.cutoff, paths.threads));
+  double changed = largest_difference(sums_at(places, stepped, scene.cutoff, spec.domain, paths.threads),
+                                      sums_at(places, followed, scene.cutoff, spec.domain, paths.threads));
   if (!smooth_paths) changed *= of_halved_steps(spec, scene);
   return at_least_rounding(changed / norm * std::pow(factor, -time::find_tableau(spec.time.method).time_order));
 }
@@ -138,7 +140,8 @@ class Prediction {
   bool seed() {
     seeded_ = seed_scene(scene_, threads_, &seeding_);
     budget_.particles = seeded_.size();
-    budget_.not_covered = about_beyond(part_beyond(scene_.density->mass(), seeded_, scene_.seeding));
+    if (!is_enclosed(spec_.domain))
+      budget_.not_covered = about_beyond(part_beyond(scene_.density->mass(), seeded_, scene_.seeding));
     return budget_.known();
   }
 
@@ -174,7 +177,7 @@ class Prediction {
     budget_.outside = part_outside(carried_, spec_.domain);
     budget_.not_covered = nothing_to_explain(carried_, budget_.outside, spec_.time.at(time()));
     if (!budget_.known()) return false;
-    Particles aside = between(seeded_, scene_);
+    Particles aside = between(seeded_, scene_, spec_.domain);
     if (!carry(spec_, scene_, how_, aside)) return not_covered(lost_paths);
     density_ = summed(carried_, scene_.cutoff);
     aside_ = summed(aside, scene_.cutoff);
@@ -223,9 +226,11 @@ class Prediction {
   /// As promised, or as found where parameters by hand promise much less than they keep.
   double error_of_sums() const {
     if (!spec_.evaluate.hermite) return spec_.evaluate.tolerance;
-    const DensityGrid by_hand = evaluate_density(
-        carried_, scene_.cutoff, scene_.evaluation,
-        {.method = spec_.evaluate.method, .hermite = spec_.evaluate.hermite, .threads = threads_, .measure = false});
+    const DensityOptions options{
+        .method = spec_.evaluate.method, .hermite = spec_.evaluate.hermite, .threads = threads_, .measure = false};
+    Particles images;
+    const Particles& all = summed_particles(spec_.domain, carried_, reach_of_blob(scene_.cutoff, options), images);
+    const DensityGrid by_hand = evaluate_density(all, scene_.cutoff, scene_.evaluation, options);
     return at_least_rounding(largest_difference(by_hand.rho, density_) / norm_);
   }
 
@@ -242,9 +247,10 @@ class Prediction {
 
   /// The density of the particles on the whole grid.
   std::vector<double> summed(const Particles& particles, const Cutoff& cutoff) const {
-    return evaluate_density(particles, cutoff, scene_.evaluation,
-                            {.tolerance = 1e-10, .threads = threads_, .measure = false})
-        .rho;
+    const DensityOptions options{.tolerance = 1e-10, .threads = threads_, .measure = false};
+    Particles images;
+    const Particles& all = summed_particles(spec_.domain, particles, reach_of_blob(cutoff, options), images);
+    return evaluate_density(all, cutoff, scene_.evaluation, options).rho;
   }
 
   /// The largest difference of a value from the exact density, over the sample where that is known.

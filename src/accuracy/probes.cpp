@@ -5,11 +5,15 @@
 #include <cmath>
 
 #include "base/sphere.hpp"
+#include "particle/images.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/transform.hpp"
 
 namespace gaussdrift::accuracy {
 
 namespace {
+
+constexpr double rounded_away = 6;  // widths of a Gaussian: beyond them it is below the rounding of its height
 
 double distance_squared(const Vector& a, const Vector& b, int dimension) {
   double square = 0;
@@ -75,9 +79,11 @@ std::vector<double> exact_of(const std::vector<Probe>& probes) {
 }
 
 std::vector<double> sums_at(const std::vector<Probe>& probes, const Particles& particles, const Cutoff& cutoff,
-                            int threads) {
+                            const Domain& domain, int threads) {
   const auto axis = places_of(probes, particles.dimension);
-  return sum_blobs(particles, cutoff, view_of(axis, particles.dimension), threads);
+  Particles images;
+  const Particles& all = summed_particles(domain, particles, reach_of(cutoff, rounded_away), images);
+  return sum_blobs(all, cutoff, view_of(axis, particles.dimension), threads);
 }
 
 double reach_of(const Cutoff& cutoff, double widths) {
@@ -87,17 +93,23 @@ double reach_of(const Cutoff& cutoff, double widths) {
 }
 
 std::vector<std::size_t> near(const std::vector<Probe>& probes, const Particles& particles, double reach,
-                              double sphere) {
+                              const Domain& domain) {
+  const Folding folding = domain.on_sphere() ? Folding() : folding_of(domain);  // chords know no edges
+  std::vector<std::size_t> of;
+  Particles images;
+  if (folding.folds()) images = with_images(particles, folding, reach, &of);
+  const Particles& all = folding.folds() ? images : particles;
   std::vector<std::size_t> found;
-  for (std::size_t j = 0; j < particles.size(); ++j) {
-    Vector x{};
-    for (int k = 0; k < particles.dimension; ++k) x[k] = particles.position[k][j];
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    const Vector x = all.view().at(j);
     if (std::any_of(probes.begin(), probes.end(), [&](const Probe& probe) {
-          if (sphere > 0) return sphere * angle_between(x, probe.x) <= reach;
+          if (domain.on_sphere()) return domain.sphere * angle_between(x, probe.x) <= reach;
           return distance_squared(x, probe.x, particles.dimension) <= reach * reach;
         }))
-      found.push_back(j);
+      found.push_back(of.empty() ? j : of[j]);
   }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

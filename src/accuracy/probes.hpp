@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "gaussdrift/case.hpp"
 #include "gaussdrift/lattice.hpp"
 #include "gaussdrift/particles.hpp"
 #include "particle/cutoff.hpp"
@@ -27,17 +28,16 @@ std::vector<Probe> choose_probes(const Lattice& lattice, const std::vector<std::
 
 std::vector<double> exact_of(const std::vector<Probe>& probes);
 
-/// The sum of all blobs at each probe.
+/// The sum of all blobs at each probe, and of their images beyond edges of the domain.
 std::vector<double> sums_at(const std::vector<Probe>& probes, const Particles& particles, const Cutoff& cutoff,
-                            int threads);
+                            const Domain& domain, int threads);
 
 /// Beyond `widths` of the widest Gaussian nothing is summed: 5 leave 1e-11 of a blob's height, 6 leave 1e-15.
 double reach_of(const Cutoff& cutoff, double widths);
 
-/// The particles within reach of a probe, as numbers.
-/// sphere: its radius, where places lie on one.
+/// The particles within reach of a probe, or with an image within reach of one, as numbers in ascending order.
 std::vector<std::size_t> near(const std::vector<Probe>& probes, const Particles& particles, double reach,
-                              double sphere = 0);
+                              const Domain& domain);
 
 /// NaN if some difference is NaN.
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b);

@@ -14,6 +14,7 @@
 #include "accuracy/would_run.hpp"
 #include "base/number.hpp"
 #include "gaussdrift/error.hpp"
+#include "sim/borders/edges.hpp"
 #include "sim/stable_step.hpp"
 #include "time/tableau.hpp"
 
@@ -108,6 +109,17 @@ std::optional<Settings> try_lattice(Case spec, int per_axis, double overlap, Sea
   return search.tried.back();
 }
 
+/// The nearest number, upwards first, with which the lattice divides all axes that are periodic or closed. Throws where
+/// there is none.
+int with_whole_cells(const Domain& domain, int per_axis) {
+  for (int away = 0; away < per_axis; ++away)
+    for (const int near : {per_axis + away, per_axis - away})
+      if (near >= 2 && !axis_without_whole_cells(domain, near)) return near;
+  throw InputError(
+      "no settings can be chosen for this accuracy: no lattice divides the lengths of all axes that are periodic or "
+      "closed. Make the lengths of the domain small multiples of one length");
+}
+
 /// The coarsest lattice of this cutoff and overlap that meets `wanted`, with no more particles than `most_carried`;
 /// nothing if none does, or if the search ends. `gaps`: more overlap would help, a finer lattice would not.
 std::optional<Settings> find_lattice(const Case& spec, double wanted, double overlap, double most_carried,
@@ -119,6 +131,7 @@ std::optional<Settings> find_lattice(const Case& spec, double wanted, double ove
   std::optional<Settings> good;
   int too_coarse = 0;
   for (int round = 0; round < 7; ++round) {
+    per_axis = with_whole_cells(spec.domain, per_axis);
     const std::optional<Settings> tried = try_lattice(spec, per_axis, overlap, search);
     if (!tried) {  // too dear: is a coarser one good enough?
       most = per_axis - 1;
@@ -203,8 +216,10 @@ void find_cheaper(const Case& spec, double wanted, Search& search, std::optional
 double left_by_fit(const Case& spec, double target, Search& search) {
   if (!is_fitted(make_scene(spec, search.threads))) return target;
   if (!find_cutoff(spec.particles.cutoff).parameters.empty() ||
-      !try_lattice(spec, std::clamp(spec.particles.per_axis, fewest_per_axis, most_per_axis(spec)),
-                   spec.particles.overlap, search))
+      !try_lattice(
+          spec,
+          with_whole_cells(spec.domain, std::clamp(spec.particles.per_axis, fewest_per_axis, most_per_axis(spec))),
+          spec.particles.overlap, search))
     return target;
   constexpr double least = 0.1;  // of the target: less is no room for settings
   if (search.fit > (1 - least) * target)

@@ -53,7 +53,7 @@ class InterpolationError : public GridFile {
     const auto sums = [&](const Case& spec, const Scene& scene) {
       Particles moved = start;
       accuracy::carry_by_steps(spec, scene, moved, 1, 1);
-      return accuracy::sums_at(probes, moved, by_data.cutoff, 1);
+      return accuracy::sums_at(probes, moved, by_data.cutoff, spec.domain, 1);
     };
     return {accuracy::interpolation_error(data, by_data, start, probes, 1, 1),
             accuracy::largest_difference(sums(data, by_data), sums(formula, by_formula))};

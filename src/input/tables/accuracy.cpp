@@ -38,9 +38,9 @@ void read_accuracy(Reader& in, Case& spec) {
   if (!target) return;
   spec.accuracy.target = target->number;
   const Entry* edges = in.find("domain", "edges");
-  if (const Entry* written = in.find("accuracy", "target"); written && edges && spec.domain.has_edges())
-    in.diagnostics.error(written->value.place, "no settings can be chosen for a target with domain.edges",
-                         "the error is predicted for domains without edges; leave out accuracy.target");
+  if (const Entry* written = in.find("accuracy", "target"); written && edges && spec.domain.has(Edge::open))
+    in.diagnostics.error(written->value.place, "no settings can be chosen for a target with open edges",
+                         "what leaves is not known to the prediction of the error; leave out accuracy.target");
   if (const Entry* written = in.find("accuracy", "target"); written && !spec.sources.empty())
     in.diagnostics.error(written->value.place, "no settings can be chosen for a target with [[source]]",
                          "the error is predicted for what is there at the start; leave out accuracy.target");
