@@ -63,10 +63,13 @@ file(RELATIVE_PATH installed_modules /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_L
 set(installed_modules "$ORIGIN/${installed_modules}")
 set(CMAKE_BUILD_RPATH "$ORIGIN" "$ORIGIN/." ${installed_modules})
 
-# loaded_module(name SOURCES a.cpp ... FOR target file): a shared library libgaussdrift_<name>.so that the program loads when it
+# loaded_module(name SOURCES a.cpp ... FOR target file [COMPONENT component]): a shared library libgaussdrift_<name>.so that the program loads when it
 # first needs it. The file of the target knows its name as GAUSSDRIFT_<NAME>, and where it is installed as GAUSSDRIFT_MODULES.
 function(loaded_module name)
-  cmake_parse_arguments(MODULE "" "" "SOURCES;FOR" ${ARGN})
+  cmake_parse_arguments(MODULE "" "COMPONENT" "SOURCES;FOR" ${ARGN})
+  if(NOT MODULE_COMPONENT)
+    set(MODULE_COMPONENT gaussdrift)
+  endif()
   list(GET MODULE_FOR 0 user)
   list(GET MODULE_FOR 1 file)
   add_library(gaussdrift_${name} MODULE ${MODULE_SOURCES})
@@ -78,6 +81,6 @@ function(loaded_module name)
   set_property(SOURCE ${file} APPEND PROPERTY COMPILE_DEFINITIONS GAUSSDRIFT_${upper}="libgaussdrift_${name}.so"
     GAUSSDRIFT_MODULES="${CMAKE_INSTALL_LIBDIR}/gaussdrift")
   if(GAUSSDRIFT_INSTALL)
-    install(TARGETS gaussdrift_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gaussdrift COMPONENT gaussdrift)
+    install(TARGETS gaussdrift_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/gaussdrift COMPONENT ${MODULE_COMPONENT})
   endif()
 endfunction()

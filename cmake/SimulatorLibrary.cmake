@@ -32,5 +32,10 @@ if(OpenMP_CXX_FOUND)
 endif()
 
 if(GAUSSDRIFT_INSTALL)
-  install_library(gaussdrift TARGET gaussdrift_library COMPONENT library CONFIG gaussdriftConfig.cmake.in)
+  set(modules fmt expat zlib muparser tomlplusplus)  # of pkg-config
+  if(GAUSSDRIFT_HAS_SLEEF)
+    list(APPEND modules sleef)
+  endif()
+  install_library(gaussdrift TARGET gaussdrift_library COMPONENT library CONFIG gaussdriftConfig.cmake.in
+    ABOUT "A density that moves with a flow, by smoothed particles" DEPENDS fgtd farfield rbf REQUIRES ${modules})
 endif()

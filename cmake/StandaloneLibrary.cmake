@@ -1,11 +1,11 @@
-# standalone_library(name SOURCES a.cpp ... DISPATCH dispatch.cpp KERNELS files ... [DEPENDS library ...]): a library that is
+# standalone_library(name ABOUT text SOURCES a.cpp ... DISPATCH dispatch.cpp KERNELS files ... [DEPENDS library ...]): a library that is
 # installed alone as the package `name`. It depends on Eigen, the standard library and, where present, OpenMP, on other such
 # libraries if they are named, and takes the objects of src/core into its own archive.
 include(InstructionSets)
 include(InstallLibrary)
 
 function(standalone_library name)
-  cmake_parse_arguments(LIBRARY "" "DISPATCH" "SOURCES;KERNELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(LIBRARY "" "ABOUT;DISPATCH" "SOURCES;KERNELS;DEPENDS" ${ARGN})
   add_library(${name} STATIC ${LIBRARY_SOURCES} ${LIBRARY_DISPATCH} $<TARGET_OBJECTS:gaussdrift_core>)
   add_kernels(${name} DISPATCH ${LIBRARY_DISPATCH} SOURCES ${LIBRARY_KERNELS})
   target_compile_options(${name} PRIVATE -ffp-contract=off)
@@ -21,6 +21,6 @@ function(standalone_library name)
   use_precompiled_headers(${name} libraries)
   add_library(${name}::${name} ALIAS ${name})
   if(GAUSSDRIFT_INSTALL)
-    install_library(${name} DEPENDS ${LIBRARY_DEPENDS})
+    install_library(${name} ABOUT ${LIBRARY_ABOUT} DEPENDS ${LIBRARY_DEPENDS})
   endif()
 endfunction()

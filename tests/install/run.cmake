@@ -4,9 +4,11 @@
 #   MODE=folder    the consumer adds the source folder with add_subdirectory
 #   MODE=page      the two blocks of code in docs/fgtd.md, "Using it in your project", against an installed copy
 #   MODE=library   examples/ and the project of docs/library.md, "In your project", against an installed and moved copy
-#   MODE=program   installs the program, moves it, asks it for its version, and lets it draw a picture
+#   MODE=modules   compiles the consumer with the flags that pkg-config tells for an installed and moved copy
+#   MODE=program   installs everything, moves it, asks the program for its version, lets it write a case elsewhere and draw a picture;
+#                  imports the Python packages
 # Usage: cmake -D MODE=... -D SOURCE=<source folder> -D BUILD=<build folder> -D SCRATCH=<folder> -D CONFIG=<build type>
-#              -D GENERATOR=... -D COMPILER=... -D FLAGS=... -P run.cmake
+#              -D GENERATOR=... -D COMPILER=... -D FLAGS=... -D PYTHON=<python, or empty> -D PYTHON_FOLDER=<below the prefix> -P run.cmake
 cmake_policy(VERSION 3.25)
 
 function(call)
@@ -33,7 +35,7 @@ function(install_libraries)
     call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --component ${component} --prefix ${SCRATCH}/first)
   endforeach()
   file(RENAME ${SCRATCH}/first ${SCRATCH}/prefix)
-  file(GLOB_RECURSE files ${SCRATCH}/prefix/*.cmake)
+  file(GLOB_RECURSE files ${SCRATCH}/prefix/*.cmake ${SCRATCH}/prefix/*.pc)
   foreach(file ${files})
     file(READ ${file} text)
     foreach(folder ${SOURCE} ${BUILD})
@@ -74,6 +76,41 @@ if(MODE STREQUAL "program")
   call(${CMAKE_COMMAND} --install ${BUILD} --config ${CONFIG} --prefix ${SCRATCH}/first)
   file(RENAME ${SCRATCH}/first ${SCRATCH}/prefix)
   call(${SCRATCH}/prefix/bin/gaussdrift --version)
+  foreach(file share/bash-completion/completions/gaussdrift share/zsh/site-functions/_gaussdrift
+      share/fish/vendor_completions.d/gaussdrift.fish share/gaussdrift/case.schema.json share/doc/gaussdrift/LICENSE
+      share/doc/gaussdrift/README.md share/doc/gaussdrift/docs/usage.md share/doc/gaussdrift/cases/rotating_cone.toml)
+    if(NOT EXISTS ${SCRATCH}/prefix/${file})
+      message(FATAL_ERROR "${file} was not installed")
+    endif()
+  endforeach()
+  file(READ ${SCRATCH}/prefix/share/gaussdrift/case.schema.json schema)
+  string(JSON title GET "${schema}" $schema)
+  file(GLOB manual ${SCRATCH}/prefix/share/man/man1/gaussdrift.1*)
+  find_program(MAN man)
+  if(MAN)
+    call(${MAN} --warnings -l ${manual})
+    if(NOT said MATCHES "SYNOPSIS" OR said MATCHES "warning:")
+      message(FATAL_ERROR "man says of the manual page:\n${said}")
+    endif()
+  endif()
+  # Cases and what explains them are in the program, so it needs no file.
+  call(${SCRATCH}/prefix/bin/gaussdrift new gridded_wind --out ${SCRATCH}/elsewhere)
+  call(${SCRATCH}/prefix/bin/gaussdrift check ${SCRATCH}/elsewhere/gridded_wind.toml)
+  call(${SCRATCH}/prefix/bin/gaussdrift explain particles.per_axis)
+  if(PYTHON)
+    file(WRITE ${SCRATCH}/elsewhere/imports.py "import importlib.metadata, pathlib, fgtd, farfield, rbf, gaussdrift
+for package in (fgtd, farfield, rbf, gaussdrift):
+    folder = pathlib.Path(package.__file__).parent
+    assert str(folder).startswith('${SCRATCH}/prefix/'), folder
+    assert (folder / 'py.typed').exists() and (folder / '_core.pyi').exists(), folder
+print(importlib.metadata.version('gaussdrift'), fgtd.transform([[0, 0]], [2.0], sigma=1, targets=[[0, 0]])[0],
+      gaussdrift.Case('${SCRATCH}/elsewhere/gridded_wind.toml').title)
+")
+    call(${CMAKE_COMMAND} -E env PYTHONPATH=${SCRATCH}/prefix/${PYTHON_FOLDER} PYTHONDONTWRITEBYTECODE=1 ${PYTHON} ${SCRATCH}/elsewhere/imports.py)
+    if(NOT said MATCHES "^[0-9.]+ (2.0|1.99999|2.00000)[0-9]* Wind from files")
+      message(FATAL_ERROR "the Python packages say:\n${said}")
+    endif()
+  endif()
   if(EXISTS ${BUILD}/libgaussdrift_drawing.so)  # it draws a picture, with the library that was installed
     call(${SCRATCH}/prefix/bin/gaussdrift doctor)
   endif()
@@ -86,6 +123,21 @@ elseif(MODE STREQUAL "package")
   install_libraries()
   configure_and_build(${consumer} -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
   call(${SCRATCH}/build/consumer)
+elseif(MODE STREQUAL "modules")
+  install_libraries(library)
+  find_program(PKG_CONFIG pkg-config)
+  if(NOT PKG_CONFIG)
+    message(STATUS "SKIPPED: there is no pkg-config (Debian: pkg-config)")
+    return()
+  endif()
+  file(GLOB_RECURSE module ${SCRATCH}/prefix/fgtd.pc)
+  get_filename_component(module_folder ${module} DIRECTORY)
+  set(ENV{PKG_CONFIG_PATH} ${module_folder})
+  call(${PKG_CONFIG} --cflags --libs gaussdrift)  # and so all that it requires is there
+  call(${PKG_CONFIG} --cflags --libs rbf farfield fgtd)
+  separate_arguments(flags UNIX_COMMAND "${FLAGS} ${said}")
+  call(${COMPILER} -std=c++20 ${consumer}/main.cpp ${flags} -o ${SCRATCH}/consumer)
+  call(${SCRATCH}/consumer)
 elseif(MODE STREQUAL "refuse")
   install_libraries()
   string(APPEND FLAGS " -mavx")
