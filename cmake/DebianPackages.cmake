@@ -74,7 +74,9 @@ set(same "(= ${PROJECT_VERSION})")
 if(TARGET gaussdrift)
   debian_package(gaussdrift gaussdrift SECTION science
     ABOUT "smoothed-particle advection of a density in a prescribed flow"
-    TEXT "A scene is a small text file. Particles move with the flow and carry the density, in two or three dimensions. A run draws pictures, writes files for ParaView, and says how accurate it is."
+    TEXT "A scene is a small text file. Particles move with the flow and carry the
+density, in two or three dimensions. A run draws pictures, writes files for
+ParaView, and says how accurate it is."
     RECOMMENDS "libnetcdf19, fonts-dejavu-core" SUGGESTS "ffmpeg, paraview, python3-gaussdrift")
   if(GAUSSDRIFT_HAS_MPI)
     debian_package(mpi gaussdrift-mpi SECTION science DEPENDS "gaussdrift ${same}" RECOMMENDS "openmpi-bin"
@@ -84,13 +86,18 @@ if(TARGET gaussdrift)
 endif()
 debian_package(fgtd libfgtd-dev SECTION libdevel DEPENDS "libeigen3-dev"
   ABOUT "fast Gauss transform with derivatives (C++ library)"
-  TEXT "Sums of many Gaussians, and their derivatives, at many points: N Gaussians at M points take a time like N + M. The error is below a tolerance that the caller chooses.")
+  TEXT "Sums of many Gaussians, and their derivatives, at many points: N Gaussians
+at M points take a time like N + M. The error is below a tolerance that the
+caller chooses.")
 debian_package(farfield libfarfield-dev SECTION libdevel DEPENDS "libeigen3-dev"
   ABOUT "fast sums of charges, logarithms and vortex blobs (C++ library)"
-  TEXT "Sums of functions that fall off slowly, such as fields of charges, at many points in a time that is nearly linear. The error is below a tolerance that the caller chooses.")
+  TEXT "Sums of functions that fall off slowly, such as fields of charges, at many
+points in a time that is nearly linear. The error is below a tolerance that
+the caller chooses.")
 debian_package(rbf librbf-dev SECTION libdevel DEPENDS "libeigen3-dev, libfgtd-dev ${same}"
   ABOUT "fast sums of radial basis functions (C++ library)"
-  TEXT "Sums of radial basis functions at many points, interpolation of scattered data with them, and integrals of what results.")
+  TEXT "Sums of radial basis functions at many points, interpolation of scattered
+data with them, and integrals of what results.")
 if(TARGET gaussdrift_library)
   set(needed "libfgtd-dev ${same}, libfarfield-dev ${same}, librbf-dev ${same}, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, libexpat1-dev, zlib1g-dev, libmuparser-dev, pkg-config")
   if(GAUSSDRIFT_HAS_SLEEF)
@@ -98,7 +105,8 @@ if(TARGET gaussdrift_library)
   endif()
   debian_package(library libgaussdrift-dev SECTION libdevel DEPENDS "${needed}"
     ABOUT "smoothed-particle advection inside of a program (C++ library)"
-    TEXT "The simulator of the package gaussdrift as a library: read a case, run it, look at its outputs.")
+    TEXT "The simulator of the package gaussdrift as a library: read a case, run it,
+look at its outputs.")
 endif()
 if(TARGET python_fgtd)
   # What Python compiles at its first import would be left behind when the package is removed.
@@ -110,11 +118,12 @@ if(TARGET python_fgtd)
       "#!/bin/sh\nset -e\nif command -v ${command} >/dev/null 2>&1; then\n  ${command} -p python3-gaussdrift\nfi\n")
     file(CHMOD ${debian_folder}/${name} PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
   endforeach()
-  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  math(EXPR next_minor "${GAUSSDRIFT_PYTHON_MINOR} + 1")
   debian_package(python python3-gaussdrift SECTION python SUGGESTS "gaussdrift, python3-matplotlib"
-    DEPENDS "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy" RECOMMENDS "libnetcdf19"
+    DEPENDS "python3 (>= 3.${GAUSSDRIFT_PYTHON_MINOR}), python3 (<< 3.${next_minor}), python3-numpy" RECOMMENDS "libnetcdf19"
     CONTROL ${debian_folder}/postinst ${debian_folder}/prerm
     ABOUT "smoothed-particle advection and fast Gauss transforms in Python"
-    TEXT "The modules gaussdrift, fgtd, farfield and rbf, with NumPy arrays in and out.")
+    TEXT "The modules gaussdrift, fgtd, farfield and rbf, with NumPy arrays in and
+out.")
 endif()
 include(CPack)

@@ -1,6 +1,7 @@
 # Where Python packages are installed, and how. Debian's Python looks into dist-packages: /usr/lib/python3 has what packages of Debian
 # install, /usr/local/lib/python3.11 what others do. Elsewhere it is site-packages.
 set(python_version ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
+set(GAUSSDRIFT_PYTHON_MINOR ${Python_VERSION_MINOR} PARENT_SCOPE)  # for DebianPackages.cmake
 if(NOT EXISTS /etc/debian_version OR NOT Python_EXECUTABLE MATCHES "^/usr/bin/")
   set(folder lib/python${python_version}/site-packages)
 elseif(CMAKE_INSTALL_PREFIX STREQUAL "/usr")
