@@ -1,4 +1,4 @@
-# Sourced by tools/run and tools/test: what the machine lacks is installed, then the release build is configured and built.
+# Sourced by tools/run, tools/test and tools/package: what the machine lacks is installed, then the release build is configured and built.
 # Nothing here is done twice: a second call finds packages, configuration and objects in place.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -7,7 +7,7 @@ program=$root/build/release/gaussdrift
 
 packages_to_build="g++ cmake ninja-build pkg-config libvtk9-dev libexpat1-dev zlib1g-dev libnetcdf-dev libsleef-dev libosmesa6-dev libeigen3-dev
   libtomlplusplus-dev libmuparser-dev libcli11-dev libfmt-dev nlohmann-json3-dev fonts-dejavu-core python3-dev python3-numpy pybind11-dev"
-packages_to_test="libgtest-dev python3 python3-scipy mypy python3-vtk9 clang libomp-dev clang-format-14 doxygen"
+packages_to_test="libgtest-dev python3 python3-scipy python3-pip python3-venv python3-wheel python3-setuptools man-db mypy python3-vtk9 clang libomp-dev clang-format-14 doxygen"
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -54,17 +54,20 @@ install_missing() {
   reconfigure=yes  # an earlier configuration may have gone without them
 }
 
+# configure PRESET
+configure() {
+  local log=build/configure.log
+  mkdir -p build
+  if ! cmake --preset "$1" >"$log" 2>&1; then
+    cat "$log" >&2
+    say "Configuring failed; build/configure.log has these lines too."
+    exit 1
+  fi
+  grep -E 'No pictures|No tests|No Python modules' "$log" >&2 || true
+}
+
 # build TARGET
 build() {
-  if [[ ! -f build/release/build.ninja || ${reconfigure:-no} == yes ]]; then
-    local log=build/configure.log
-    mkdir -p build
-    if ! cmake --preset release >"$log" 2>&1; then
-      cat "$log" >&2
-      say "Configuring failed; build/configure.log has these lines too."
-      exit 1
-    fi
-    grep -E 'No pictures|No tests|No Python modules' "$log" >&2 || true
-  fi
+  if [[ ! -f build/release/build.ninja || ${reconfigure:-no} == yes ]]; then configure release; fi
   cmake --build --preset release --target "$1" >&2
 }
