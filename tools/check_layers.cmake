@@ -66,12 +66,12 @@ set(public_field density/density density/radial_density density/shapes density/s
   gaussians/divergence_free gaussians/gaussian_velocity clocked/clocked folded/folded gridded/around_sphere gridded/every_second gridded/grid_data gridded/gridded gridded/land
   named/named_fields samples/sample_fit samples/sampled_density samples/sampled_velocity scalar spherical/around_centre spherical/on_sphere velocity/differences velocity/sampled_gradients velocity/block_carrier velocity/value_seconds
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
-set(public_read calendar grid_file missing_data netcdf/netcdf_file written_run)
+set(public_read calendar grid_file grid_file_error missing_data netcdf/netcdf_file npy point_file written_run)
 set(public_particle chord columns cutoff fgtd_points images pieces_by_id placing round_coordinates seeding subset tiles)
 set(public_effect catalogue diffusivity drift effect path_integral tracer_reactions)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample coordinates)
 set(public_sim carrier checks comparison borders/departures borders/edges fields_on_grid follow/particle_fields follow/time_units grid_fields grid_pieces landings make_fields moments borders/outside releases run_state scene sharing stable_step stepper tiled_density transform work)
-set(public_write atomic_file checkpoint folder_lock output_files provenance result_folder run_folder series_table summary track_files folder_facts vtk_files)
+set(public_write atomic_file checkpoint folder_lock npy_file output_files provenance result_folder run_folder series_table summary track_files folder_facts vtk_files)
 set(public_render animation chart colour film film_cost film_frames on_canvas panel picture picture_series solid styles)
 set(public_input blank_case case_dates data_files edit_case effect_rules examples explain foreign_keys markdown points_table same_past)
 set(public_blockmatrix block_matrix)
@@ -79,7 +79,7 @@ set(public_accuracy accuracy_table budget footprint forecast memory_limits next_
 set(public_report page reel_series)
 set(public_study study)
 set(public_reproduce claims cone coulomb fgtd figures interpolation kernels logkernel rbf)
-set(public_sum derivatives general pairs points radial)
+set(public_sum derivatives general pairs points points_request radial)
 
 cmake_policy(VERSION 3.25)
 get_filename_component(ROOT "${ROOT}" ABSOLUTE)

@@ -32,6 +32,15 @@ requires std::integral<Number> || std::floating_point<Number> std::optional<Numb
   return error == std::errc() && rest == end && !text.empty() ? std::optional(number) : std::nullopt;
 }
 
+/// "1.5e+00" of "1.5D+00", as Fortran writes exponents; empty if it is no such number.
+inline std::string with_e(std::string_view number) {
+  const std::size_t d = number.find_first_of("dD");
+  if (d == std::string_view::npos || number.find_first_not_of("0123456789.+-", 0) != d) return "";
+  std::string text(number);
+  text[d] = 'e';
+  return text;
+}
+
 /// The number with six digits, or as many more as show that it is none of the others: 0.7 beside 0.69999999 is "0.7",
 /// that is "0.69999999".
 template <class... Others>

@@ -46,6 +46,11 @@ class Reading {
     number_ = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (number_ < 0) fail(errno);
   }
+  /// Of standard input, which is waited for as long as somebody may write.
+  Reading(std::string_view kind, std::size_t most) : file_("standard input"), kind_(kind), most_(most) {
+    number_ = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
+    if (number_ < 0) fail(errno);
+  }
   ~Reading() {
     if (number_ >= 0) ::close(number_);
   }
@@ -103,7 +108,7 @@ class Reading {
     if (::poll(&ready, 1, -1) < 0 && errno != EINTR) fail(errno);
   }
 
-  const fs::path& file_;
+  const fs::path file_;
   const std::string_view kind_;
   std::size_t most_;
   int number_ = -1;
@@ -113,6 +118,10 @@ class Reading {
 
 std::string read_text_file(const fs::path& file, std::string_view kind, std::size_t most_bytes) {
   return Reading(file, kind, most_bytes).text();
+}
+
+std::string read_standard_input(std::string_view kind, std::size_t most_bytes) {
+  return Reading(kind, most_bytes).text();
 }
 
 std::string what_else_it_is(const fs::path& file) {

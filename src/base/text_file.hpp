@@ -16,6 +16,9 @@ constexpr std::size_t most_piped = std::size_t{1} << 30;
 /// InputError as soon as there are more than `most_bytes`, before they are read.
 std::string read_text_file(const std::filesystem::path& file, std::string_view kind, std::size_t most_bytes);
 
+/// The same of what comes through standard input, which messages call so. A terminal is refused: it is a device.
+std::string read_standard_input(std::string_view kind, std::size_t most_bytes);
+
 /// "a folder", "a device", ... for what is neither a regular file nor a pipe; empty for those and for what is not
 /// there.
 std::string what_else_it_is(const std::filesystem::path& file);

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -99,23 +97,6 @@ rbf::ShapeBy shape_by(const FitVerbOptions& options) {
       fmt::format("--shape-by {}: there is no such way; there are {}", options.shape_by, fmt::join(names, ", ")));
 }
 
-/// Is a column called z? Whatever else is wrong with the table is said when it is read.
-bool is_in_space(const fs::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  for (int lines = 0; lines < 100 && std::getline(in, line); ++lines) {
-    if (line.empty() || line[0] == '#') continue;
-    std::istringstream cells(line.substr(0, 10000));
-    cells.exceptions(std::ios::badbit);  // a stream keeps silent where there is no memory
-    for (std::string cell; std::getline(cells, cell, ',');) {
-      std::erase_if(cell, [](char c) { return c == ' ' || c == '"' || c == '\r' || c == '\t'; });
-      if (cell == "z") return true;
-    }
-    return false;
-  }
-  return false;
-}
-
 struct Data {
   int dimension = 2;
   std::vector<double> rows;  // [point][x, y, (z,) value]
@@ -199,7 +180,7 @@ ExitCode fit(const FitVerbOptions& options) {
   shape_by(options);
   const double left = 0.9 * accuracy::tightest_limit(most_memory(options.memory)).left();
   const auto memory = static_cast<std::size_t>(std::clamp(left, 0.0, 8e9));
-  Data data{.dimension = is_in_space(options.data) ? 3 : 2, .rows = {}};
+  Data data{.dimension = input::has_third_coordinate(options.data, memory) ? 3 : 2, .rows = {}};
   std::vector<std::string> names{"x", "y", "z"};
   names.resize(static_cast<std::size_t>(data.dimension));
   names.push_back(options.value);

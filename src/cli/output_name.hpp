@@ -34,14 +34,4 @@ inline void check_folder_name(const std::filesystem::path& out, std::string_view
                                      std::filesystem::path(out).replace_extension().string()));
 }
 
-/// For values that are written as a table.
-inline void check_table_name(const std::filesystem::path& out) {
-  const std::string ending = known_ending(out);
-  if (ending.empty() || ending == ".csv" || ending == ".txt") return;
-  throw CommandLineError(
-      fmt::format("--out {}: values are written as a table in text (CSV), which ParaView, spreadsheets and NumPy read; "
-                  "give a name such as {}",
-                  out.string(), std::filesystem::path(out).replace_extension(".csv").string()));
-}
-
 }  // namespace gaussdrift::cli

@@ -15,15 +15,6 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// "1.5e+00" of "1.5D+00"; empty if it is no such number.
-std::string with_e(std::string_view number) {
-  const std::size_t d = number.find_first_of("dD");
-  if (d == std::string_view::npos || number.find_first_not_of("0123456789.+-", 0) != d) return "";
-  std::string text(number);
-  text[d] = 'e';
-  return text;
-}
-
 /// Fortran drops the letter of an exponent with three digits: 1.5-103.
 bool lacks_its_letter(std::string_view number) {
   const std::size_t sign = number.find_last_of("+-");
@@ -40,9 +31,10 @@ CellNumber not_a_number(std::string_view cell) {
   if (lacks_its_letter(bare)) return {{}, problem, "the e of its exponent is missing, as Fortran leaves it out"};
   if (cell.find_first_not_of('*') == std::string_view::npos)
     return {{}, problem, "Fortran writes stars where a number does not fit"};
-  if (cell.size() > 2 && cell.front() == '"' && cell.back() == '"')
-    return {{}, problem, "write numbers without quotation marks"};
-  if (cell.find('#') != std::string_view::npos) return {{}, problem, "a comment has a line of its own"};
+  if (std::count(cell.begin(), cell.end(), ',') == 1 && cell.find_first_not_of("0123456789.,+-eE") == std::string::npos)
+    return {{}, problem, "the decimal sign is a point, not a comma"};
+  if (cell.find('#') != std::string_view::npos)
+    return {{}, problem, "a comment has a line of its own, or a blank before its #"};
   return {{}, problem, ""};
 }
 
@@ -50,7 +42,7 @@ CellNumber not_a_number(std::string_view cell) {
 
 CellNumber read_cell(std::string_view cell) {
   if (cell.empty()) return {{}, "there is no value"};
-  const std::string fortran = with_e(cell);
+  const std::string fortran = base::with_e(cell);
   const auto value = base::read_number<double>(fortran.empty() ? cell : std::string_view(fortran));
   if (value && std::isfinite(*value)) return {value};
   if (value) return {{}, fmt::format("{} is not finite", base::printable(base::shortened(cell, 24)))};

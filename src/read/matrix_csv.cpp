@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,17 @@
 #include "read/matrix.hpp"
 
 namespace gaussdrift::read {
+
+namespace {
+
+/// A number as tables have it, perhaps in quotation marks or with the exponent of Fortran.
+std::optional<double> number_of(std::string_view text) {
+  if (text.size() > 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+  const std::string fortran = base::with_e(text);
+  return base::read_number<double>(fortran.empty() ? text : std::string_view(fortran));
+}
+
+}  // namespace
 
 Matrix read_csv_matrix(const std::filesystem::path& file) {
   FileBytes bytes(file);
@@ -34,7 +46,7 @@ Matrix read_csv_matrix(const std::filesystem::path& file) {
       }
       std::size_t stop = at;
       while (stop < line.size() && !separates(line[stop]) && line[stop] != '#') ++stop;
-      const auto number = base::read_number<double>(line.substr(at, stop - at));
+      const auto number = number_of(line.substr(at, stop - at));
       if (!number)
         throw GridFileError(fmt::format("{}:{}:{}: {} is not a number", bytes.name(), line_number, at + 1,
                                         base::in_quotes(line.substr(at, stop - at), 60)),

@@ -41,7 +41,7 @@ std::string array_name(const Element& array) {
 }
 
 [[noreturn]] void fail_count(const FileBytes& file, const Element& array, bool more, std::size_t count) {
-  fail(file, array, fmt::format("has {} numbers than the {} that the extent needs", more ? "more" : "fewer", count));
+  fail(file, array, fmt::format("has {} numbers than the {} that are needed", more ? "more" : "fewer", count));
 }
 
 [[noreturn]] void fail_damaged(const FileBytes& file, const Element& array, std::string_view what) {

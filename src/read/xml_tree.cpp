@@ -18,10 +18,10 @@ namespace {
 constexpr std::size_t deepest = 64, longest_tag = 1000000;
 constexpr int block_bytes = 65536;
 
-constexpr std::array<std::string_view, 16> known_elements{
+constexpr std::array<std::string_view, 17> known_elements{
     "VTKFile",      "Collection", "DataSet",        "ImageData", "RectilinearGrid", "Piece",
     "PointData",    "CellData",   "Coordinates",    "FieldData", "DataArray",       "Array",
-    "AppendedData", "PImageData", "StructuredGrid", "Points"};
+    "AppendedData", "PImageData", "StructuredGrid", "Points",    "PolyData"};
 
 bool is_known(std::string_view name) {
   return std::find(known_elements.begin(), known_elements.end(), name) != known_elements.end();

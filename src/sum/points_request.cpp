@@ -67,7 +67,7 @@ std::vector<GridAxis> parse_grid(const std::string& text) {
   return grid;
 }
 
-input::CoordinateNames parse_columns(const std::string& text) {
+input::CoordinateNames parse_columns(const std::string& text, const std::string& weight) {
   constexpr std::size_t most = 4;
   input::CoordinateNames names;
   if (text.empty()) return names;
@@ -78,7 +78,8 @@ input::CoordinateNames parse_columns(const std::string& text) {
       throw CommandLineError(fmt::format("--columns {}: {}", text, why));
     };
     if (name.empty()) refuse("a name is missing; write --columns x,y");
-    if (name == "weight") refuse("\"weight\" is no coordinate; it is read anyway");
+    if (weight.empty() && name == "weight") refuse("\"weight\" is no coordinate; it is read anyway");
+    if (name == weight) refuse(fmt::format("\"{}\" is the weight, by --weight", name));
     if (std::find(names.begin(), names.end(), name) != names.end()) refuse(fmt::format("\"{}\" is there twice", name));
     names.emplace_back(name);
   }

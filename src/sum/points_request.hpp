@@ -31,13 +31,15 @@ struct PointsRequest {
   std::size_t memory_limit = std::size_t{8} << 30;                // bytes of points, values and plan together
   double most_seconds = std::numeric_limits<double>::infinity();  // of the clock, that may be predicted
   std::function<void(const std::string&)> tell = {};              // what takes long, before it begins
+  std::function<void(double)> predicted = {};                     // its seconds of the clock, then
 };
 
 /// "-1:1:200,-1:1:200". Throws CommandLineError.
 std::vector<GridAxis> parse_grid(const std::string& text);
 
-/// "x,y": names of columns. Throws CommandLineError.
-input::CoordinateNames parse_columns(const std::string& text);
+/// "x,y" or "1,2": names or numbers of columns, beside that of the weight ("": the name "weight"). Throws
+/// CommandLineError.
+input::CoordinateNames parse_columns(const std::string& text, const std::string& weight);
 
 /// The nodes of every axis. Throws CommandLineError for nodes that a double cannot tell apart.
 std::vector<std::vector<double>> nodes_of(const std::vector<GridAxis>& grid);

@@ -27,6 +27,7 @@ void tell_or_refuse(const PointsRequest& request, const PredictedWork& work,
       fmt::format("about {} on {} {}", base::duration_text(work.seconds), threads, threads == 1 ? "thread" : "threads");
   if (work.seconds <= request.most_seconds) {
     if (request.tell) request.tell(fmt::format("{} takes {}", work.method, by));
+    if (request.predicted) request.predicted(work.seconds);
     return;
   }
   const PredictedWork other = fastest();

@@ -9,31 +9,12 @@
 
 #include "base/seam.hpp"
 #include "write/atomic_file.hpp"
+#include "write/draining.hpp"
 #include "write/track_files.hpp"
 
 namespace gaussdrift::write {
 
 namespace {
-
-/// A text that goes to the disk as it is made.
-class Draining {
- public:
-  explicit Draining(std::FILE* file) : file_(file) {}
-  std::string text;
-
-  void some() {
-    constexpr std::size_t most = 1 << 20;
-    if (text.size() > most) all();
-  }
-  void all() {
-    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size())
-      throw std::system_error(errno, std::generic_category());
-    text.clear();
-  }
-
- private:
-  std::FILE* file_;
-};
 
 /// An array of `components` numbers a row, of a table that is read twice: for the range and for the numbers.
 template <class At>

@@ -11,6 +11,7 @@
 
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
+#include "write/draining.hpp"
 #include "write/output_files.hpp"
 #include "write/vtk_array.hpp"
 
@@ -76,18 +77,28 @@ void add_time(std::string& text, double time, double sphere) {
   text += "    </FieldData>\n";
 }
 
+/// Where the points of an image are.
+std::string image_tag(const std::string& extent, const std::array<double, 3>& origin,
+                      const std::array<double, 3>& spacing) {
+  return fmt::format(
+      "  <ImageData WholeExtent=\"{}\" Origin=\"{} {} {}\" Spacing=\"{} {} {}\" "
+      "Direction=\"1 0 0 0 1 0 0 0 1\">\n",
+      extent, shortest_text(origin[0]), shortest_text(origin[1]), shortest_text(origin[2]), shortest_text(spacing[0]),
+      shortest_text(spacing[1]), shortest_text(spacing[2]));
+}
+
+std::string piece_tag(const std::string& extent, const char* attributes) {
+  return fmt::format("  <Piece Extent=\"{}\">\n    <PointData{}>\n", extent, attributes);
+}
+
 /// Image data at the points of a box of a lattice, up to its arrays. `numbers`: of all arrays.
 std::string beginning_of_image(const Lattice& lattice, const LatticeBox& box, double time, std::size_t numbers,
                                const char* attributes) {
   std::string text = beginning("ImageData", numbers);
-  const std::string extent = extent_text(box), spacing = shortest_text(lattice.spacing);
-  text += fmt::format(
-      "  <ImageData WholeExtent=\"{0}\" Origin=\"{1} {2} {3}\" Spacing=\"{4} {4} {4}\" "
-      "Direction=\"1 0 0 0 1 0 0 0 1\">\n",
-      extent, shortest_text(lattice.origin[0]), shortest_text(lattice.origin[1]), shortest_text(lattice.origin[2]),
-      spacing);
+  const std::string extent = extent_text(box);
+  text += image_tag(extent, lattice.origin, {lattice.spacing, lattice.spacing, lattice.spacing});
   add_time(text, time, lattice.sphere);
-  text += fmt::format("  <Piece Extent=\"{}\">\n    <PointData{}>\n", extent, attributes);
+  text += piece_tag(extent, attributes);
   return text;
 }
 
@@ -178,6 +189,29 @@ std::string fields_text(const fs::path& file, const Lattice& lattice, const std:
   add_fields(text, file, fields, all.size());
   text += end_of_image;
   return text;
+}
+
+void write_image(std::FILE* file, const Image& image, const std::vector<ImageArray>& arrays) {
+  Draining out(file);
+  const LatticeBox all{{}, image.points};
+  const std::string extent = extent_text(all);
+  out.text = beginning("ImageData", 0) + image_tag(extent, image.origin, image.spacing) + piece_tag(extent, "");
+  for (const auto& [name, values] : arrays) {
+    const ArrayHeading heading{6, name};
+    ValueRange range;
+    for (std::size_t i = 0; i < all.size(); ++i) range.add(values[i]);
+    begin_array(out.text, heading, "Float64", range);
+    Base64Numbers numbers(out.text, all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      numbers.put(values[i]);
+      out.some();
+    }
+    numbers.end();
+    end_array(out.text, heading, nullptr);
+  }
+  out.text += end_of_image;
+  out.all();
+  flush(file);
 }
 
 std::string density_piece_text(const fs::path& file, const Frame& frame, const DensityPiece& piece) {

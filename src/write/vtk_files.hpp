@@ -2,6 +2,8 @@
 // Every file is written beside its name and renamed, so what is there is always whole. Arrays are Float64.
 #pragma once
 
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -33,6 +35,18 @@ std::string particle_text(const std::filesystem::path& file, const Particles& pa
 /// Image data with the fields alone.
 std::string fields_text(const std::filesystem::path& file, const Lattice& lattice,
                         const std::vector<FieldOnGrid>& fields, double time);
+
+/// Points at equal distances on each axis, first axis fastest. Axes that there are not have one point.
+struct Image {
+  std::array<std::size_t, 3> points{1, 1, 1};
+  std::array<double, 3> origin{}, spacing{1, 1, 1};
+};
+struct ImageArray {
+  std::string name;  // letters that XML takes as they are
+  const double* values;
+};
+/// Image data with these arrays, in little memory. Throws std::system_error.
+void write_image(std::FILE* file, const Image& image, const std::vector<ImageArray>& arrays);
 
 /// density/density_0000/0000.vti: the same of a piece; its extent is that within the whole grid.
 std::string density_piece_text(const std::filesystem::path& file, const Frame& frame, const DensityPiece& piece);

@@ -23,7 +23,7 @@ FUZZ_TARGET(table) {
   constexpr std::size_t memory = std::size_t{1} << 30;
   for (const input::PointsRole role : {input::PointsRole::sources, input::PointsRole::targets}) {
     answered([&] { input::parse_points_table(text, "table.csv", role, memory); });
-    answered([&] { input::parse_points_table(text, "table.csv", role, memory, {"x", "y"}); });
+    answered([&] { input::parse_points_table(text, "table.csv", role, memory, {{"x", "y"}, "", false}); });
   }
   answered([&] { input::parse_named_columns(text, "table.csv", {"x", "y", "u"}, memory); });
   answered([&] {

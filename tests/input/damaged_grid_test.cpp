@@ -96,9 +96,9 @@ TEST_F(DamagedGrid, NumbersInTextAreReadWholeAndAreAsManyAsTheExtentNeeds) {
     expect_refusal("image.vti", fmt::format("image.vti:3: \"{}\" is not a number: value ", word));
   }
   write_image("image.vti", 2, 2, data(array("rho", 1, "1 2 3 4 5")));
-  expect_refusal("image.vti", "image.vti:3: the array \"rho\" has more numbers than the 4 that the extent needs");
+  expect_refusal("image.vti", "image.vti:3: the array \"rho\" has more numbers than the 4 that are needed");
   write_image("image.vti", 2, 2, data(array("rho", 1, "1 2 3")));
-  expect_refusal("image.vti", "image.vti:3: the array \"rho\" has fewer numbers than the 4 that the extent needs");
+  expect_refusal("image.vti", "image.vti:3: the array \"rho\" has fewer numbers than the 4 that are needed");
   for (const auto& [values, type] :
        {std::pair{"1 2 3 4.5", "Int32"}, {"1 2 3 256", "UInt8"}, {"1 2 3 -1", "UInt64"}, {"1 2 3 1e39", "Float32"}}) {
     write_image("image.vti", 2, 2, data(array("rho", 1, values, type)));
@@ -110,8 +110,8 @@ TEST_F(DamagedGrid, NumbersInTextAreReadWholeAndAreAsManyAsTheExtentNeeds) {
   expect_refusal("grid.vtr", "\"2,5\" is not a number: value 3 of the array \"axis\"");
   // In base64: eight bytes of length, 40 of numbers, where the extent needs four numbers or six.
   const std::string five = "KAAAAAAAAAAAAAAAAADwPwAAAAAAAABAAAAAAAAACEAAAAAAAAAQQAAAAAAAABRA";
-  for (const auto& [nx, message] : {std::pair{2, "has more numbers than the 4 that the extent needs"},
-                                    {3, "has fewer numbers than the 6 that the extent needs"}}) {
+  for (const auto& [nx, message] : {std::pair{2, "has more numbers than the 4 that are needed"},
+                                    {3, "has fewer numbers than the 6 that are needed"}}) {
     const std::string extent = fmt::format("0 {} 0 1 0 0", nx - 1);
     std::ofstream(folder_ / "binary.vti")
         << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"><ImageData "

@@ -204,7 +204,7 @@ TEST_F(GaussianTables, GetThePromisedMessages) {
   write("empty.csv", "");
   write("commented.csv", "# made by a tool\n\nx,y,u,v\n0,0,1,0\n# between\n0.5,0,1,0\n0,0,1,1\n");
   write("id.csv", "id,x,y,u,v\n1,0,0,1,0\n");
-  write("blanks.csv", "x y u v\n0 0 1 0\n");
+  write("blanks.csv", "x y u v\n0 0 1\n");
   write("wind.nc", "CDF\001 and what follows");
   write("passwd", "root:x:0:0:root:/root:/bin/bash\n");
   struct Wrong {
@@ -228,9 +228,7 @@ TEST_F(GaussianTables, GetThePromisedMessages) {
             "commented.csv:7:1: the sample at (0, 0) stands in line 4 already, with different values"},
            {"gaussians = \"id.csv\"",
             "id.csv:1:1: column \"id\" is not one of those that are wanted; the columns must be x,y,u,v: remove it"},
-           {"gaussians = \"blanks.csv\"",
-            "blanks.csv:1:1: names are separated by blanks in \"x y u v\"; separate names and numbers by commas, as in "
-            "x,y,u,v"},
+           {"gaussians = \"blanks.csv\"", "blanks.csv:2:6: 3 values where 4 columns are named (x, y, u, v)"},
            {"gaussians = \"wind.nc\"", "wind.nc is a NetCDF file; with Python"},
            {"gaussians = \"passwd\"",
             "passwd:1:1: there is no column \"x\" among root:x:0:0:root:/root:/b...; the columns must be x,y,u,v"},

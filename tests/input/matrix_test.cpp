@@ -61,6 +61,8 @@ TEST_F(Matrices, of_a_table_fill_the_frame_with_the_first_row_on_top) {
   EXPECT_EQ(cells("rho.csv"), (Numbers{3, 4, 1, 2}));
   write("rho.csv", "1 2\n3\t4");
   EXPECT_EQ(cells("rho.csv"), (Numbers{3, 4, 1, 2}));
+  write("rho.csv", "\"1\";2D0\n3.0d+00;\"0.4D1\"\n");
+  EXPECT_EQ(cells("rho.csv"), (Numbers{3, 4, 1, 2}));
   write("rho.csv", "1,2\n3,x\n");
   EXPECT_NE(refusal("rho.csv", request()).find("rho.csv:2:3: \"x\" is not a number"), std::string::npos);
   write("rho.csv", "1,,2\n");

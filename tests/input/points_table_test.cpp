@@ -8,6 +8,7 @@
 
 #include "gaussdrift/error.hpp"
 #include "input/points_table.hpp"
+#include "message_of.hpp"
 #include "scratch_folder.hpp"
 
 namespace gaussdrift::input {
@@ -80,8 +81,8 @@ TEST(PointsTable, LeavesCommentsOutAnywhere) {
   EXPECT_EQ(refusal("# one\nx,weight\n# two\n1,1\n# three\n2,a\n"),
             "S.csv:6:3: \"a\" is not a number in column \"weight\"");
   EXPECT_EQ(refusal("# one\nx,wait\n"),
-            "S.csv:2:1: there is no column \"weight\" among x, wait; add one, with 1 in every "
-            "line if all sources count the same");
+            "S.csv:2:1: there is no column \"weight\" among x, wait; --weight names another one; or add one, with 1 in "
+            "every line if all sources count the same");
   // As numpy.savetxt writes its header.
   EXPECT_EQ(refusal("# x,weight\n0,1\n"),
             "S.csv:2:1: \"0\" is a number, and the names of the columns seem to stand in the comment above; remove the "
@@ -102,18 +103,93 @@ TEST(PointsTable, ReadsExponentsAsFortranWritesThem) {
     EXPECT_NE(refusal(std::string("x,weight\n") + wrong + ",1\n").find("S.csv:2:1: "), std::string::npos) << wrong;
 }
 
-TEST(PointsTable, NamesTheSeparatorThatIsWrong) {
-  const std::string rest = "; separate names and numbers by commas, as in x,y,weight";
-  EXPECT_EQ(refusal("x y weight\n0 0 1\n"), "S.csv:1:1: names are separated by blanks in \"x y weight\"" + rest);
-  EXPECT_EQ(refusal("x\ty\tweight\n"), "S.csv:1:1: names are separated by tabs in \"x\\x09y\\x09weight\"" + rest);
-  EXPECT_EQ(refusal("x;y;weight\n1;2;3\n"), "S.csv:1:1: names are separated by semicolons in \"x;y;weight\"" + rest);
+TEST(PointsTable, FindsTheSeparatorInTheLineOfNames) {
+  for (const char* text :
+       {"x,y,weight\n1,-2,3\n4,5,6\n", "x;y;weight\n1;-2;3\n4 ; 5; 6 \n", "x\ty\tweight\n1\t-2\t3\n4\t 5\t6\n",
+        "x y weight\n1 -2 3\n  4\t5  6  \n", " x  y   weight \n1\t-2 3\n4 5 6\n",
+        "\"x\";\"y\";weight\n1;\"-2\";3\n\"4\";\"5\";\"6\"\n"}) {
+    const PointsTable table = sources(text);
+    EXPECT_EQ(table.coordinates, (std::vector<std::string>{"x", "y"})) << text;
+    EXPECT_EQ(table.positions, (Numbers{1, -2, 4, 5})) << text;
+    EXPECT_EQ(table.weights, (Numbers{3, 6})) << text;
+  }
   EXPECT_EQ(refusal("x,y,weight\n0 0 1\n"),
             "S.csv:2:6: 1 value where 3 columns are named (x, y, weight); separate them by commas, not by blanks");
+  EXPECT_EQ(refusal("x;y;weight\n0,0,1\n"),
+            "S.csv:2:6: 1 value where 3 columns are named (x, y, weight); separate them by semicolons, not by commas");
+  EXPECT_EQ(refusal("x y weight\n0 0\n"), "S.csv:2:4: 2 values where 3 columns are named (x, y, weight)");
+  EXPECT_EQ(refusal("x\ty\tweight\n0\t\t1\n"), "S.csv:2:3: there is no value in column \"y\"");
   EXPECT_EQ(refusal("x,weight\n1,5,2,0\n"),
             "S.csv:2:4: 4 values where 2 columns are named (x, weight); the decimal sign is a point, not a comma");
-  EXPECT_EQ(refusal("x,weight\n\"1\",2\n"),
-            "S.csv:2:1: \"\"1\"\" is not a number in column \"x\"; write numbers without quotation marks");
+  EXPECT_EQ(refusal("x;weight\n1,5;2\n"),
+            "S.csv:2:1: \"1,5\" is not a number in column \"x\"; the decimal sign is a point, not a comma");
   EXPECT_NE(refusal("x,weight\r0,1\r").find("lines end with a carriage return alone"), std::string::npos);
+}
+
+TEST(PointsTable, ReadsCellsInQuotationMarks) {
+  EXPECT_EQ(targets("x,y\n\"1\",\"2\"\n\" 3 \" , \"+4e0\"\n").positions, (Numbers{1, 2, 3, 4}));
+  // Names with separators and quotation marks in them, and labels that are not looked at.
+  const std::string text =
+      "\"label, or \"\"name\"\"\",\"x, east\",\"y \"\"north\"\"\",weight\n\"a, b\",1,2,3\n\"say \"\"c\"\"\",4,5,6\n5\" "
+      "pipe,7,8,9\n";
+  const PointsTable table =
+      parse_points_table(text, "S.csv", PointsRole::sources, plenty, {{"x, east", "y \"north\""}, "", false});
+  EXPECT_EQ(table.coordinates, (std::vector<std::string>{"x, east", "y \"north\""}));
+  EXPECT_EQ(table.positions, (Numbers{1, 2, 4, 5, 7, 8}));
+  EXPECT_EQ(table.weights, (Numbers{3, 6, 9}));
+  const PointsTable german = parse_points_table("\"x, km\";y;mass\n0;1;2\n", "S.csv", PointsRole::sources, plenty,
+                                                {{"x, km", "y"}, "mass", false});
+  EXPECT_EQ(german.positions, (Numbers{0, 1}));
+  EXPECT_EQ(refusal("x,weight\n\"1\n\",2\n"), "S.csv:2:3: 1 value where 2 columns are named (x, weight)");
+  EXPECT_EQ(refusal("x,weight\n\"one\",2\n"), "S.csv:2:1: \"one\" is not a number in column \"x\"");
+  EXPECT_EQ(refusal("x,weight\n\"\",2\n"), "S.csv:2:1: there is no value in column \"x\"");
+}
+
+TEST(PointsTable, TakesColumnsByNumberAndAnyColumnAsWeight) {
+  const auto read = [](std::string_view text, const PointsColumns& columns, PointsRole role = PointsRole::sources) {
+    return parse_points_table(text, "S.csv", role, plenty, columns);
+  };
+  const std::string named = "id,x,y,mass\n7,1,2,3\n8,4,5,6\n", bare = "7 1 2 3\n8 4 5 6\n";
+  for (const std::string& text : {named, bare}) {
+    const PointsTable table = read(text, {{"2", "3"}, "4", false});
+    EXPECT_EQ(table.positions, (Numbers{1, 2, 4, 5}));
+    EXPECT_EQ(table.weights, (Numbers{3, 6}));
+    EXPECT_EQ(read(text, {{"3"}, "", false}, PointsRole::targets).positions, (Numbers{2, 5}));
+  }
+  EXPECT_EQ(read(named, {{"y", "x"}, "mass", false}).positions, (Numbers{2, 1, 5, 4}));
+  EXPECT_EQ(read(named, {{"y", "2"}, "mass", false}).coordinates, (std::vector<std::string>{"y", "x"}));
+  EXPECT_EQ(read(bare, {{}, "4", false}).positions, (Numbers{7, 1, 2, 8, 4, 5}));
+  EXPECT_EQ(read("x,y\n1,2\n3,4\n", {{}, "", true}).weights, (Numbers{1, 1}));
+  const auto refused = [&](std::string_view text, const PointsColumns& columns) {
+    return message_of<InputError>([&] { read(text, columns); });
+  };
+  EXPECT_EQ(refused(named, {{"2", "5"}, "4", false}),
+            "S.csv:1:1: there is no column 5; 4 columns are there, counted from 1");
+  EXPECT_EQ(refused(named, {{"0"}, "4", false}),
+            "S.csv:1:1: there is no column 0; 4 columns are there, counted from 1");
+  EXPECT_EQ(refused(named, {{"2", "x"}, "4", false}), "S.csv:1:4: the column \"x\" is named twice as a coordinate");
+  EXPECT_EQ(refused(named, {{"2"}, "x", false}), "S.csv:1:4: the column \"x\" is not a coordinate of sources");
+  EXPECT_EQ(refused(named, {{"x"}, "mas", false}),
+            "S.csv:1:1: there is no column \"mas\" among id, x, y, mass; is \"mass\" meant?");
+  EXPECT_EQ(
+      refused("x,weight,mass\n1,2,3\n", {{}, "mass", false}),
+      "S.csv:1:3: is the column \"weight\" a coordinate? --columns x takes the others, --columns x,weight takes all");
+  EXPECT_NE(
+      refused("0,1,2\n5,6,7\n", {{"1", "2"}, "3", false}).find("S.csv:1:1: \"0,1,2\" counts the columns, as pandas"),
+      std::string::npos);
+  EXPECT_NE(
+      refused(bare, {{"x"}, "4", false}).find("S.csv:1:1: \"7\" is a number; the first line must name the columns"),
+      std::string::npos);
+}
+
+TEST(PointsTable, LeavesOutCommentsAtTheEndOfALine) {
+  EXPECT_EQ(targets("x,y\n1,2 # first, of two\n3,4\t#\n").positions, (Numbers{1, 2, 3, 4}));
+  EXPECT_EQ(parse_points_table("name,x\nno #3,1\n", "T.csv", PointsRole::targets, plenty, {{"x"}, "", false}).positions,
+            (Numbers{1}));
+  EXPECT_EQ(
+      refusal("x,weight\n1,2#3\n"),
+      "S.csv:2:3: \"2#3\" is not a number in column \"weight\"; a comment has a line of its own, or a blank before "
+      "its #");
 }
 
 TEST(PointsTable, AsksAboutColumnsWhoseNamesAreNoCoordinates) {
@@ -146,15 +222,16 @@ TEST(PointsTable, DoubtsColumnsBesideAxesAndColumnsThatCount) {
 
 TEST(PointsTable, TakesTheCoordinatesThatAreNamed) {
   const std::string text = "id,y,label,x,weight\n7,1,north,2,10\n8,3,south,4,20\n";
-  const PointsTable table = parse_points_table(text, "S.csv", PointsRole::sources, plenty, {"x", "y"});
+  const PointsTable table = parse_points_table(text, "S.csv", PointsRole::sources, plenty, {{"x", "y"}, "", false});
   EXPECT_EQ(table.coordinates, (std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(table.positions, (Numbers{2, 1, 4, 3}));
   EXPECT_EQ(table.weights, (Numbers{10, 20}));
   EXPECT_TRUE(table.doubts.empty());
-  EXPECT_EQ(parse_points_table(text, "T.csv", PointsRole::targets, plenty, {"id"}).positions, (Numbers{7, 8}));
+  EXPECT_EQ(parse_points_table(text, "T.csv", PointsRole::targets, plenty, {{"id"}, "", false}).positions,
+            (Numbers{7, 8}));
   const auto refused = [&](const CoordinateNames& names) {
     try {
-      parse_points_table(text, "S.csv", PointsRole::sources, plenty, names);
+      parse_points_table(text, "S.csv", PointsRole::sources, plenty, {names, "", false});
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -172,10 +249,11 @@ TEST(PointsTable, SaysWhatAFileIsThatIsNoTable) {
       said("CDF\1"),
       "S.csv is a NetCDF file; with Python: xarray.open_dataset(\"in.nc\").to_dataframe().reset_index()"
       ".to_csv(\"out.csv\", index=False). A table is text: a line of names, as in x,y,weight, then a line of numbers "
-      "for every point, separated by commas");
+      "for every point, separated by commas, semicolons, tabs or blanks");
   EXPECT_NE(said("\x89HDF").find("is a NetCDF-4 or HDF5 file"), std::string::npos);
   EXPECT_NE(said("PK\3\4").find("as spreadsheets"), std::string::npos);
-  EXPECT_NE(said("\x93NUMPY").find("numpy.savetxt"), std::string::npos);
+  EXPECT_NE(said("PAR1").find("a Parquet file; with Python: pandas.read_parquet"), std::string::npos);
+  EXPECT_NE(said("\x89HDF").find("h5py"), std::string::npos);
   EXPECT_NE(said("<VTKFile").find("ParaView"), std::string::npos);
   EXPECT_NE(said("# vtk DataFile Version 3.0\n").find("ParaView"), std::string::npos);
 }
@@ -184,8 +262,8 @@ TEST(PointsTable, SaysWhatAFileIsThatIsNoTable) {
 TEST(PointsTable, QuotesLittleAndOnlyWhatIsPrintable) {
   EXPECT_EQ(
       refusal("root:x:0:0:root:/root:/bin/bash\n"),
-      "S.csv:1:1: there is no column \"weight\" among root:x:0:0:root:/root:/b...; add one, with 1 in every line if "
-      "all sources count the same");
+      "S.csv:1:1: there is no column \"weight\" among root:x:0:0:root:/root:/b...; --weight names another one; or "
+      "add one, with 1 in every line if all sources count the same");
   const std::string steering = "\x1b[2J\x07\xc2\x9b\xe2\x80\xae\xff";
   for (const std::string& text :
        {steering + ",weight\n1,1\n", "x," + steering + "\n1,1\n", "x,weight\n" + steering + ",1\n",
@@ -209,7 +287,7 @@ TEST(PointsTable, NamesFileLineAndColumnOfABadValue) {
   EXPECT_EQ(refusal("x,weight\n-inf,1\n"), "S.csv:2:1: -inf is not finite in column \"x\"");
   EXPECT_EQ(refusal("x,weight\r\n1,1\r\n1e400,1\r\n"),
             "S.csv:3:1: \"1e400\" is outside the range of double precision in column \"x\"");
-  for (const char* wrong : {"1e", "0x10", "1_000", "--1", "+-1", "+", "-", ".", "1 2", "1;2", "\"1\"", "1.2.3"})
+  for (const char* wrong : {"1e", "0x10", "1_000", "--1", "+-1", "-+1", "+", "-", ".", "1 2", "1;2", "1\"", "1.2.3"})
     EXPECT_NE(refusal(std::string("x,weight\n0,1\n") + wrong + ",1\n").find("S.csv:3:1: "), std::string::npos) << wrong;
 }
 
@@ -227,15 +305,18 @@ TEST(PointsTable, RefusesTablesWithoutPoints) {
 }
 
 TEST(PointsTable, RefusesHeadersThatItCannotTrust) {
-  EXPECT_EQ(refusal("1,2,3\n4,5,6\n"),
-            "S.csv:1:1: \"1\" is a number; the first line must name the columns, as in x,y,weight");
+  EXPECT_EQ(
+      refusal("1,2,3\n4,5,6\n"),
+      "S.csv:1:1: \"1\" is a number; the first line must name the columns, as in x,y,weight, unless columns are chosen "
+      "by number, as in --columns 1,2 --weight 3");
   EXPECT_EQ(refusal("x,,weight\n1,2,3\n"), "S.csv:1:3: column 2 has no name");
   EXPECT_EQ(refusal("x,x,weight\n1,2,3\n"), "S.csv:1:3: column \"x\" is there twice");
-  EXPECT_EQ(refusal("x,y\n1,2\n"),
-            "S.csv:1:1: there is no column \"weight\" among x, y; add one, with 1 in every line if all sources count "
-            "the same");
+  EXPECT_EQ(
+      refusal("x,y\n1,2\n"),
+      "S.csv:1:1: there is no column \"weight\" among x, y; --weight names another one; or add one, with 1 in every "
+      "line if all sources count the same");
   EXPECT_EQ(refusal("x,weigth\n1,2\n"),
-            "S.csv:1:1: there is no column \"weight\" among x, weigth; is \"weigth\" meant?");
+            "S.csv:1:1: there is no column \"weight\" among x, weigth; is \"weigth\" meant? --weight weigth takes it");
   EXPECT_EQ(refusal("weight\n1\n"), "S.csv:1:1: there are no coordinates; sources have 1 to 4");
   EXPECT_EQ(refusal("a,b,c,d,e,weight\n1,2,3,4,5,6\n"),
             "S.csv:1:9: \"e\" would be coordinate 5; sources have 1 to 4: name them, as in --columns x,y");

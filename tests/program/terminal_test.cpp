@@ -3,11 +3,15 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <condition_variable>
 #include <cstdlib>
+#include <mutex>
 #include <sstream>
 #include <thread>
 
@@ -125,8 +129,11 @@ class PseudoTerminal {
     ioctl(slave_, TIOCSWINSZ, &size);
     reader_ = std::thread([this] {
       std::array<char, 4096> piece;
-      for (ssize_t taken; (taken = read(master_, piece.data(), piece.size())) > 0;)
+      for (ssize_t taken; (taken = read(master_, piece.data(), piece.size())) > 0;) {
+        const std::lock_guard lock(mutex_);
         text_.append(piece.data(), static_cast<std::size_t>(taken));
+        more_.notify_all();
+      }
     });
   }
   ~PseudoTerminal() {
@@ -134,6 +141,11 @@ class PseudoTerminal {
     if (master_ >= 0) close(master_);
   }
   const std::string& name() const { return name_; }
+  /// Waits until it has shown these words. False if that takes a minute.
+  bool shows(const std::string& words) {
+    std::unique_lock lock(mutex_);
+    return more_.wait_for(lock, std::chrono::minutes(1), [&] { return text_.find(words) != std::string::npos; });
+  }
   /// All of it, once the last writer has gone.
   const std::string& text() {
     if (reader_.joinable()) {
@@ -146,6 +158,8 @@ class PseudoTerminal {
  private:
   int master_, slave_ = -1;
   std::string name_, text_;
+  std::mutex mutex_;
+  std::condition_variable more_;
   std::thread reader_;
 };
 
@@ -191,6 +205,30 @@ TEST(Progress, IsPlainWhereALineCannotBeTakenBack) {
   }
   const std::string empty = said_on(120, "export NO_COLOR=;");  // set to nothing, it asks for nothing
   EXPECT_TRUE(empty == "no pseudo terminal" || empty.find('\033') != std::string::npos) << empty;
+}
+
+// The program waits for its table until the line is there.
+TEST(Progress, OfASumTellsWhatItIsAt) {
+  const ScratchFolder folder;
+  PseudoTerminal terminal(120);
+  if (terminal.name().empty()) GTEST_SKIP() << "no pseudo terminal";
+  ASSERT_EQ(mkfifo((folder / "S.csv").c_str(), 0600), 0);
+  const int writer = open((folder / "S.csv").c_str(), O_RDWR | O_CLOEXEC);
+  ASSERT_GE(writer, 0);
+  Outcome sum;
+  std::thread program([&] {
+    sum = gaussdrift_in(folder, "sum --sources S.csv --sigma 1 2>" + terminal.name(),
+                        "unset COLUMNS NO_COLOR; export TERM=xterm;");
+  });
+  EXPECT_TRUE(terminal.shows("\r\033[Kreading S.csv  "));
+  const std::string table = "x,weight\n0,1\n";
+  EXPECT_EQ(write(writer, table.data(), table.size()), static_cast<ssize_t>(table.size()));
+  close(writer);
+  program.join();
+  EXPECT_EQ(sum.out, "d_0\n1\n");
+  const std::string& text = terminal.text();
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  EXPECT_EQ(text.substr(text.size() - 4), "\r\033[K") << text;
 }
 
 TEST(Explain, BreaksLinesAtTheWidthOfTheTerminalAlone) {

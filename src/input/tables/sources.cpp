@@ -28,8 +28,8 @@ Section sources_section() {
        .meaning = "the mass that a point releases at one time",
        .with = "point"},
       {.name = "points",
-       .meaning = "a table of blobs that are released, a text file with the columns x, y, z in space, t and amount, "
-                  "separated by commas. The path is relative to the case file"},
+       .meaning = "a table of blobs that are released, with the columns x, y, z in space, t and amount: text, .npy or "
+                  ".vtp. The path is relative to the case file"},
       {.name = "face",
        .type = Type::choice,
        .choices = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"},

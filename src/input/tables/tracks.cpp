@@ -62,8 +62,8 @@ Section tracks_section() {
         .range = {1, 1e9},
         .meaning = "every n-th particle: along each axis of the particle lattice, and of those that sources release"},
        {.name = "points",
-        .meaning = "a table of points that go with the flow from the start and carry no weight, a text file with the "
-                   "columns x, y and, in space, z, separated by commas. The path is relative to the case file. Their "
+        .meaning = "a table of points that go with the flow from the start and carry no weight, with the columns x, y "
+                   "and, in space, z: text, .npy or .vtp. The path is relative to the case file. Their "
                    "ids are -1, -2, ... in the order of the table"},
        {.name = "steps",
         .type = Type::whole,
