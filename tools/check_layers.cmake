@@ -72,7 +72,7 @@ set(public_effect catalogue diffusivity drift effect path_integral tracer_reacti
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample coordinates)
 set(public_sim carrier checks comparison borders/departures borders/edges fields_on_grid follow/particle_fields follow/time_units grid_fields grid_pieces landings make_fields moments borders/outside releases run_state scene sharing stable_step stepper tiled_density transform work)
 set(public_write atomic_file checkpoint folder_lock npy_file output_files provenance result_folder run_folder series_table summary track_files folder_facts vtk_files)
-set(public_render animation chart colour film film_cost film_frames on_canvas panel picture picture_series solid styles)
+set(public_render animation chart chart_page colour film film_cost film_frames on_canvas panel picture picture_series solid styles ticks)
 set(public_input blank_case case_dates data_files edit_case effect_rules examples explain foreign_keys markdown points_table same_past)
 set(public_blockmatrix block_matrix)
 set(public_accuracy accuracy_table budget footprint forecast memory_limits next_target rank_forecast ranks_memory target would_run)

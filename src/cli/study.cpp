@@ -11,6 +11,7 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "gaussdrift/error.hpp"
+#include "render/chart.hpp"
 #include "render/picture.hpp"
 #include "study/study.hpp"
 #include "write/atomic_file.hpp"
@@ -50,7 +51,8 @@ void declare(OptionList& options, StudyVerbOptions& given) {
 }
 
 ExitCode study(const StudyVerbOptions& options) {
-  check_folder_name(options.folder, "a study leaves a folder with tables (CSV) and charts (PNG)");
+  check_folder_name(options.folder,
+                    "a study leaves a folder with a page (HTML), tables (CSV) and charts (PNG, SVG, PDF)");
   study::StudyOptions wanted;
   wanted.file = options.case_options.file;
   wanted.overrides = options.case_options.overrides;
@@ -85,10 +87,11 @@ ExitCode study(const StudyVerbOptions& options) {
     owed.attempt([&] { write::write_text(place->claim(experiment.name + ".csv"), study::to_csv(experiment)); });
   owed.attempt([&] { write::write_text(place->claim("study.json"), json); });
   owed.attempt([&] { write::write_text(place->claim("study.md"), study::to_markdown(result)); });
+  owed.attempt([&] { write::write_text(place->claim("study.html"), study::to_html(result)); });
   owed.attempt([&] {
-    if (render::unavailable_reason().empty())
-      for (const study::Experiment& experiment : result.experiments) place->claim(experiment.name + ".png");
-    study::draw_charts(result, folder);
+    for (const study::Experiment& experiment : result.experiments)
+      for (const std::string_view ending : render::chart_endings()) place->claim(experiment.name + std::string(ending));
+    study::write_charts(result, folder);
   });
   owed.attempt([&] { place->has_result(), place->complete(); });
   if (!options.csv.empty())
@@ -97,11 +100,11 @@ ExitCode study(const StudyVerbOptions& options) {
                                                                     : study::to_csv(result));
     });
   if (const std::string reason = render::unavailable_reason(); !reason.empty())
-    note("warning: no charts are drawn: {}\n", reason);
+    note("warning: charts are written as SVG and PDF alone: {}\n", reason);
   if (options.case_options.json)
     put(stdout, json);
   else
-    say("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.md").string());
+    say("{}open   {}, charts beside it\n", study::to_text(result), (folder / "study.html").string());
   for (const std::string& why : owed.missing()) note("error: {}\n", why);
   return owed.code();
 }

@@ -7,7 +7,7 @@
 
 namespace gaussdrift::render {
 
-Scale::Scale(const Canvas& canvas) : unit_(canvas.type() * std::min(canvas.width() / 1280., canvas.height() / 960.)) {}
+Scale::Scale(const Canvas& canvas) : Scale(canvas.type() * std::min(canvas.width() / 1280., canvas.height() / 960.)) {}
 
 int Scale::font(int size) const { return std::max(6, static_cast<int>(std::lround(unit_ * size))); }
 
@@ -23,14 +23,8 @@ Axis value_axis(const std::string& quantity, const ColourRange& range, int inter
   if (!range.log) return axis;
   axis.log = true;
   axis.ticks = {};
-  const double powers = std::log10(range.max / range.min);
-  // Between the powers of ten 2 and 5, where these alone are few.
-  for (double power = std::floor(std::log10(range.min)); power <= std::log10(range.max) + 1e-9; ++power)
-    for (const double factor : {1., 2., 5.}) {
-      const double at = factor * std::pow(10., power);
-      if (at < range.min * (1 - 1e-9) || at > range.max * (1 + 1e-9) || (factor > 1 && powers > 2.5)) continue;
-      axis.ticks.list.push_back({at, factor == 1 ? power_of_ten(static_cast<int>(power)) : number(at, 5)});
-    }
+  axis.ticks.list = logarithmic_ticks(std::log10(range.min), std::log10(range.max), intervals);
+  for (Tick& tick : axis.ticks.list) tick.at = std::pow(10., tick.at);
   return axis;
 }
 

@@ -17,6 +17,7 @@ namespace gaussdrift::render {
 class Scale {
  public:
   explicit Scale(const Canvas& canvas);
+  explicit Scale(double unit) : unit_(unit) {}
   double operator()(double length) const { return unit_ * length; }
   int font(int size) const;
 

@@ -91,6 +91,11 @@ void Canvas::frame(const Rectangle& box, const Colour& colour, double line_width
         std::max(1., std::round(line_width)));
 }
 
+void Canvas::polygon(const std::vector<Point>& corners, const Colour& colour) {
+  if (corners.empty()) return;
+  strips_.put(image_, {std::vector<Point>(corners.size(), corners.front()), corners, colour});
+}
+
 void Canvas::area(const Rectangle& box, const Colour& colour) {
   const int left = static_cast<int>(std::lround(box.x)), bottom = static_cast<int>(std::lround(box.y));
   const int columns = std::max(1, static_cast<int>(std::lround(box.width))),

@@ -42,6 +42,8 @@ class Canvas {
     lines({{{from, to}, colour}}, line_width);
   }
   void frame(const Rectangle& box, const Colour& colour, double line_width);
+  /// A convex one, its corners in order.
+  void polygon(const std::vector<Point>& corners, const Colour& colour);
   void area(const Rectangle& box, const Colour& colour);
   /// columns x rows colours from the lower left, x fastest; one pixel each.
   void image(int left, int bottom, int columns, int rows, const std::vector<Colour>& colours);

@@ -1,11 +1,11 @@
 #include "render/text.hpp"
 
-#include <cstddef>
 #include <map>
 #include <mutex>
 #include <tuple>
 
 #include "render/drawing_library.hpp"
+#include "render/letters.hpp"
 
 namespace gaussdrift::render {
 
@@ -14,24 +14,7 @@ namespace {
 /// One line of well-formed UTF-8, with plain minus signs where the font has no others.
 std::string drawable(const std::string& text) {
   std::string clean;
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const std::size_t length = byte < 0x80                   ? 1
-                               : byte >= 0xC2 && byte < 0xE0 ? 2
-                               : byte >= 0xE0 && byte < 0xF0 ? 3
-                               : byte >= 0xF0 && byte < 0xF5 ? 4
-                                                             : 0;
-    bool whole = length > 0 && i + length <= text.size();
-    for (std::size_t k = 1; whole && k < length; ++k) whole = (static_cast<unsigned char>(text[i + k]) & 0xC0) == 0x80;
-    if (!whole) {
-      clean += '?';
-      ++i;
-      continue;
-    }
-    const std::string letter = text.substr(i, length);
-    clean += byte < 0x20 || byte == 0x7F ? " " : letter == "\u2212" && !drawing().has_font() ? "-" : letter;
-    i += length;
-  }
+  for (const char32_t code : code_points(text)) clean += code == U'\u2212' && !drawing().has_font() ? "-" : utf8(code);
   return clean;
 }
 

@@ -22,6 +22,16 @@ std::string tidy(std::string text) {
   return text;
 }
 
+/// Powers of ten that are written without an exponent.
+bool is_plain(int exponent) { return exponent >= -2 && exponent <= 3; }
+
+std::string with_exponent(int exponent) {
+  static const std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += raised[static_cast<std::size_t>(digit - '0')];
+  return text;
+}
+
 }  // namespace
 
 double round_step(double length, int intervals) {
@@ -35,11 +45,45 @@ double round_step(double length, int intervals) {
 std::string number(double value, int digits) { return tidy(fmt::format("{:.{}g}", value, digits)); }
 
 std::string power_of_ten(int exponent) {
-  if (exponent >= -2 && exponent <= 3) return number(std::pow(10., exponent), 5);
-  static const std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "10⁻" : "10";
-  for (const char digit : std::to_string(std::abs(exponent))) text += raised[static_cast<std::size_t>(digit - '0')];
-  return text;
+  return is_plain(exponent) ? number(std::pow(10., exponent), 5) : with_exponent(exponent);
+}
+
+std::vector<Tick> logarithmic_ticks(double min, double max, int intervals) {
+  const double low = min - 1e-9, high = max + 1e-9;
+  const int first = static_cast<int>(std::ceil(low)), last = static_cast<int>(std::floor(high));
+  const int lowest = last - first >= 2 ? first : static_cast<int>(std::floor(low + 2e-9));
+  const bool plain = is_plain(lowest) && is_plain(last);
+  const auto text = [plain](int factor, int exponent) {
+    if (plain) return number(factor * std::pow(10., exponent), 5);
+    const std::string power = exponent == 0 ? "1" : exponent == 1 ? "10" : with_exponent(exponent);
+    return factor == 1 ? power : exponent == 0 ? std::to_string(factor) : fmt::format("{}·{}", factor, power);
+  };
+  std::vector<Tick> ticks;
+  if (last - first >= 2) {
+    const int every = std::max(1, static_cast<int>(std::ceil((high - low) / intervals)));
+    for (int k = first; k <= last; ++k)
+      if (k % every == 0) ticks.push_back({double(k), text(1, k)});
+    return ticks;
+  }
+  for (int k = first - 1; k <= last; ++k)
+    for (const int factor : {1, 2, 5})
+      if (const double at = k + std::log10(factor); at >= low && at <= high) ticks.push_back({at, text(factor, k)});
+  if (ticks.size() >= 2) return ticks;
+  ticks.clear();  // less than a third of a decade: round numbers
+  for (const Tick& tick : make_ticks(std::pow(10., min), std::pow(10., max), intervals).list)
+    if (tick.at > 0) ticks.push_back({std::log10(tick.at), told_number(tick.at, 4)});
+  return ticks;
+}
+
+std::string told_number(double value, int digits) {
+  if (value == 0 || !std::isfinite(value)) return number(value, digits);
+  const std::string scientific = fmt::format("{:.{}e}", value, digits - 1);
+  const std::size_t e = scientific.find('e');
+  const int exponent = std::stoi(scientific.substr(e + 1));
+  if (exponent >= -3 && exponent <= 3) return number(value, std::max(digits, exponent + 1));
+  const std::string factor = number(std::stod(scientific.substr(0, e)), digits);
+  if (factor == "1") return with_exponent(exponent);
+  return fmt::format("{}·{}", factor, with_exponent(exponent));
 }
 
 std::string Ticks::title(const std::string& name) const {
@@ -47,7 +91,8 @@ std::string Ticks::title(const std::string& name) const {
   if (offset != 0)
     text += fmt::format(" {} {}", offset > 0 ? "\u2212" : "+", tidy(fmt::format("{:.15g}", std::fabs(offset))));
   if (scale == 1) return text;
-  return fmt::format(fmt::runtime(offset != 0 ? "({}) / {}" : "{} / {}"), text, tidy(fmt::format("{:g}", scale)));
+  return fmt::format(fmt::runtime(offset != 0 ? "({}) / {}" : "{} / {}"), text,
+                     with_exponent(static_cast<int>(std::lround(std::log10(scale)))));
 }
 
 Ticks make_ticks(double min, double max, int intervals) {

@@ -22,14 +22,21 @@ struct Ticks {
   double offset = 0;
   double scale = 1;
 
-  /// "x", "x − 1000000", "x / 1e-9", "(x − 5) / 1e-6".
+  /// "x", "x − 1000000", "x / 10⁻⁹", "(x − 5) / 10⁻⁶".
   std::string title(const std::string& name) const;
 };
 
 Ticks make_ticks(double min, double max, int intervals);
 
-/// "1000" for 3, "0.01" for -2, "1e-7" as 10 to the -7 beyond three digits.
+/// "1000" for 3, "0.01" for -2, "10⁻⁷" for -7: beyond three digits with an exponent.
 std::string power_of_ten(int exponent);
+
+/// Powers of ten between 10^min and 10^max, about `intervals` of them at most; 2 and 5 times them, too, where they are
+/// few. All are written with exponents if one is. `at` is the logarithm.
+std::vector<Tick> logarithmic_ticks(double min, double max, int intervals);
+
+/// "0.024", "2.4·10⁻⁵": for people, with a true minus sign.
+std::string told_number(double value, int digits);
 
 /// Shortest form with up to `digits` significant digits, with a true minus sign.
 std::string number(double value, int digits);

@@ -2,26 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/printable.hpp"
-
 namespace gaussdrift::report {
-
-std::string escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : base::printable_lines(text)) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
-}
 
 std::string base64(const std::string& bytes) {
   constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -4,11 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/escaped.hpp"
+
 namespace gaussdrift::report {
 
 using json = nlohmann::ordered_json;
 
-std::string escaped(const std::string& text);
+using base::escaped;
 std::string base64(const std::string& bytes);
 
 /// A dash for what is no number.

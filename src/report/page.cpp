@@ -8,6 +8,7 @@
 #include "base/json_file.hpp"
 #include "base/shell_word.hpp"
 #include "gaussdrift/error.hpp"
+#include "render/chart_page.hpp"
 #include "report/html.hpp"
 #include "report/player.hpp"
 #include "report/run_files.hpp"
@@ -93,7 +94,7 @@ class Page {
         "'unsafe-inline';script-src 'unsafe-inline'\">"
         "<title>{0}</title><style>{1}</style>\n<h1>{0}</h1><p class=quiet>{2}, by gaussdrift {3}</p>\n<p "
         "class=verdict id=verdict>{4}</p>\n",
-        escaped(title.empty() ? name : title), page_file("page.css"), escaped(name),
+        escaped(title.empty() ? name : title), page_file("page.css") + render::chart_style(), escaped(name),
         escaped(get(provenance_, "version").is_string() ? provenance_.at("version").get<std::string>() : ""),
         verdict(summary_));
     if (const json complete = get(summary_, "complete"); complete.is_boolean() && !complete.get<bool>())
@@ -125,6 +126,7 @@ class Page {
     if (compared) {
       const std::string curves = error_curves(summary_.at("frames"));
       text_ += fmt::format("<h2>Error over time</h2><p>{}</p>{}\n", about_comparison(summary_, last()), curves);
+      if (!curves.empty()) text_ += "<script>\n" + render::chart_script() + "</script>\n";
       if (curves.empty()) by_choice_.push_back("a curve of the error over time: the run was compared at one time only");
     } else {
       by_choice_.push_back("errors: the density was compared with nothing (reference.kind)");

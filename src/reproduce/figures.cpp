@@ -67,6 +67,12 @@ struct Maker {
   void add(const std::string& number, const std::string& caption, const base::Stopwatch& watch) const {
     made.push_back({number, caption, file(number), watch.seconds()});
   }
+  /// As a PNG, and beside it in the other formats of charts.
+  void chart(const std::string& number, const render::Chart& chart) const {
+    std::filesystem::path stem = file(number);
+    for (const std::string_view ending : render::chart_endings()) place.claim("figure_" + number + std::string(ending));
+    write_chart(chart, stem.replace_extension());
+  }
   void field(const std::string& number, const std::string& caption, const std::string& title,
              const render::Style& style, const std::pair<double, DensityGrid>& frame, const base::Stopwatch& watch,
              bool from_below = false) const {
@@ -96,11 +102,10 @@ void hermite_polynomials(const Maker& make) {
       before = std::exchange(value, 2 * t * value - 2 * n * before);
     }
   }
-  render::draw_chart({.title = "Hermite polynomials",
-                      .x = render::ChartAxis{.name = "t"},
-                      .y = render::ChartAxis{.name = "H_n(t)", .range = {-50, 120}},
-                      .series = std::move(curves)},
-                     make.file("2.1"));
+  make.chart("2.1", {.title = "Hermite polynomials",
+                     .x = render::ChartAxis{.name = "t"},
+                     .y = render::ChartAxis{.name = "H_n(t)", .range = {-50, 120}},
+                     .series = std::move(curves)});
   make.add("2.1", "the first five Hermite polynomials", watch);
 }
 
@@ -118,11 +123,10 @@ void gaussians(const Maker& make) {
       }
       curves.push_back(std::move(curve));
     }
-    render::draw_chart({.title = "Gaussians exp(-σ x²)",
+    make.chart("3.1a", {.title = "Gaussians exp(-σ x²)",
                         .x = render::ChartAxis{.name = "x"},
                         .y = render::ChartAxis{.name = "value"},
-                        .series = std::move(curves)},
-                       make.file("3.1a"));
+                        .series = std::move(curves)});
     make.add("3.1a", "three Gaussians in one dimension", watch);
   }
   const base::Stopwatch watch;
@@ -171,13 +175,12 @@ void points_of_tests(const Maker& make) {
     const base::Stopwatch watch;
     render::ChartSeries marks{.name = "", .look = render::ChartSeries::Look::marks};
     for (Eigen::Index i = 0; i < points.cols(); ++i) marks.points.push_back({points(0, i), points(1, i)});
-    render::draw_chart({.title = fmt::format("{} {} points", count, name),
+    make.chart(number, {.title = fmt::format("{} {} points", count, name),
                         .x = render::ChartAxis{.name = "x", .range = {0, 1}},
                         .y = render::ChartAxis{.name = "y", .range = {0, 1}},
                         .series = {marks},
                         .width = 1000,
-                        .height = 1000},
-                       make.file(number));
+                        .height = 1000});
     make.add(number, fmt::format("{} {} points in the unit square", count, name), watch);
   };
   constexpr std::uint64_t seed = 1;
@@ -216,13 +219,12 @@ void break_even(const Maker& make) {
     pairs.points.push_back({double(targets), sources * targets / 1e6});
   }
   const double even = p * p * sources / (sources - (2 * n + 1) * (2 * n + 1) * p * p);
-  render::draw_chart(
-      {.title = "Cost with 10 000 sources, d = 2",
-       .x = render::ChartAxis{.name = "evaluations M"},
-       .y = render::ChartAxis{.name = "million operations"},
-       .series = {fast, pairs},
-       .conclusion = fmt::format("The fast transform pays from {:.0f} evaluations on.", std::ceil(even))},
-      make.file("3.7"));
+  make.chart("3.7",
+             {.title = "Cost with 10 000 sources, d = 2",
+              .x = render::ChartAxis{.name = "evaluations M"},
+              .y = render::ChartAxis{.name = "million operations"},
+              .series = {fast, pairs},
+              .conclusion = fmt::format("The fast transform pays from {:.0f} evaluations on.", std::ceil(even))});
   make.add("3.7", "cost of both methods over the number of evaluations, N = 10 000", watch);
 }
 
@@ -265,7 +267,7 @@ void performance(const Maker& make) {
       slowest, fastest);
   chart.footer =
       "Schroeder 2006, Table 4.2: a 3.05 GHz Pentium 4; here method hermite with the same parameters on one thread.";
-  render::draw_chart(chart, make.file("4.2"));
+  make.chart("4.2", chart);
   make.add("4.2", "times of Table 4.2, printed (dashed) and measured; logarithmic axes here", watch);
 }
 

@@ -109,13 +109,13 @@ std::string times_csv(const LogKernelReproduction& result) {
   return text;
 }
 
-void draw_storage(const LogKernelReproduction& result, const std::filesystem::path& file) {
+render::Chart storage_chart(const LogKernelReproduction& result) {
   render::Chart chart{.title = "Storage of ln|x - y| in blocks",
-                      .x = render::ChartAxis{.name = "N", .logarithmic = true},
-                      .y = render::ChartAxis{.name = "numbers", .logarithmic = true},
+                      .x = render::ChartAxis{.name = "points N", .logarithmic = true},
+                      .y = render::ChartAxis{.name = "numbers kept", .logarithmic = true},
                       .series = {},
                       .footer = write::made_by()};
-  render::ChartSeries full{.name = "all entries, N^2", .look = render::ChartSeries::Look::dashed};
+  render::ChartSeries full{.name = "all entries, N²", .look = render::ChartSeries::Look::dashed};
   for (const LogKernelStorage& row : result.storage)
     if (row.degree == 0)
       full.points.push_back({static_cast<double>(row.points), std::pow(static_cast<double>(row.points), 2)});
@@ -131,10 +131,10 @@ void draw_storage(const LogKernelReproduction& result, const std::filesystem::pa
       "{} points, n = {}: {} numbers, {:.0f} times fewer than all entries; {} with shared bases and exact blocks of 16",
       last.points, last.degree, last.doubles,
       std::pow(static_cast<double>(last.points), 2) / static_cast<double>(last.doubles), last.both);
-  render::draw_chart(chart, file);
+  return chart;
 }
 
-void draw_errors(const LogKernelReproduction& result, const std::filesystem::path& file) {
+render::Chart error_chart(const LogKernelReproduction& result) {
   render::Chart chart{.title = "Error of ln|x - y| in blocks",
                       .x = render::ChartAxis{.name = "degree n", .range = {-0.2, degrees - 0.8}},
                       .y = render::ChartAxis{.name = "squared Frobenius error", .logarithmic = true},
@@ -152,7 +152,7 @@ void draw_errors(const LogKernelReproduction& result, const std::filesystem::pat
   const LogKernelError &first = result.errors[result.errors.size() - degrees], &last = result.errors.back();
   chart.conclusion = fmt::format("each further degree makes the error (not squared) {:.0f} times smaller",
                                  std::pow(first.squared / last.squared, 0.5 / (degrees - 1)));
-  render::draw_chart(chart, file);
+  return chart;
 }
 
 }  // namespace
@@ -200,13 +200,13 @@ LogKernelReproduction reproduce_logkernel(const LogKernelOptions& options,
   }
   if (!options.folder.empty()) {
     tell("plots");
-    const auto path = [&](const char* name) { return result.files.emplace_back(place->claim(name)); };
+    const auto path = [&](const std::string& name) { return result.files.emplace_back(place->claim(name)); };
     write::write_text(path("storage.csv"), storage_csv(result));
     write::write_text(path("error.csv"), error_csv(result));
     write::write_text(path("times.csv"), times_csv(result));
-    if (render::unavailable_reason().empty()) {
-      draw_storage(result, path("storage.png"));
-      draw_errors(result, path("error.png"));
+    for (const auto& [name, chart] : {std::pair{"storage", storage_chart(result)}, {"error", error_chart(result)}}) {
+      for (const std::string_view ending : render::chart_endings()) path(std::string(name) + std::string(ending));
+      render::write_chart(chart, options.folder / name);
     }
     place->has_result();
     place->complete();

@@ -10,6 +10,7 @@
 #include "base/number.hpp"
 #include "base/stopwatch.hpp"
 #include "particle/cutoff.hpp"
+#include "render/ticks.hpp"
 #include "study/standard_studies.hpp"
 
 namespace gaussdrift::study {
@@ -85,10 +86,10 @@ std::string orders_text() {
   return fmt::format("{}", fmt::join(orders, ", "));
 }
 
-/// The smallest error, and whether the case's own can be had for less.
-std::string conclusion_of(const Case& spec, const Experiment& experiment) {
-  const Sample *best = nullptr, *now = nullptr;
-  for (const Sample& sample : experiment.samples) {
+/// Marks the case's own settings and cheaper ones. The smallest error, and whether the case's own can be had for less.
+std::string conclusion_of(const Case& spec, Experiment& experiment) {
+  Sample *best = nullptr, *now = nullptr;
+  for (Sample& sample : experiment.samples) {
     if (!sample.failure.empty()) continue;
     if (!best || sample.error < best->error) best = &sample;
     if (sample.values[0] == spec.particles.cutoff && sample.values[1] == fmt::format("{:g}", spec.particles.overlap) &&
@@ -96,12 +97,16 @@ std::string conclusion_of(const Case& spec, const Experiment& experiment) {
       now = &sample;
   }
   if (!best) return no_error(experiment);
-  std::string text =
-      fmt::format("The smallest error here, {:.2g}, is that of {}", best->error, settings_of(*best, experiment.keys));
-  const Sample* same = now ? cheapest_below(experiment, 1.05 * now->error) : nullptr;
-  if (same && same != now)
-    text += fmt::format("; the case's own {:.2g} can be had with {} in {:.2g} instead of {:.2g} s", now->error,
-                        settings_of(*same, experiment.keys), same->seconds, now->seconds);
+  std::string text = fmt::format("The smallest error here, {}, is that of {}", render::told_number(best->error, 2),
+                                 settings_of(*best, experiment.keys));
+  Sample* same = now ? cheapest_below(experiment, 1.05 * now->error) : nullptr;
+  if (now) now->role = Sample::Role::current;
+  if (same && same != now) {
+    same->role = Sample::Role::recommended;
+    text += fmt::format("; the case's own {} can be had with {} in {} instead of {} s",
+                        render::told_number(now->error, 2), settings_of(*same, experiment.keys),
+                        render::told_number(same->seconds, 2), render::told_number(now->seconds, 2));
+  }
   return text + ".";
 }
 
@@ -112,7 +117,7 @@ Experiment study_lattice(const Case& spec, const StudyOptions& options, double s
                         .title = "Lattice, overlap and cutoff",
                         .question = "Finer, wider, or of higher order?",
                         .keys = {"particles.cutoff", "particles.overlap", "particles.per_axis"},
-                        .error_is = "Linf at the last output, of the whole run",
+                        .error_is = "Linf at the last output, relative to the largest density",
                         .seconds_are = "of seeding, transport, effects and density, without the reference",
                         .samples = {},
                         .conclusion = {},

@@ -203,7 +203,7 @@ class StepsStudy {
 
   /// The cheapest sample that is good enough and that `run` accepts; those that it refuses say why from then on. Null
   /// if there is none.
-  const Sample* recommend() {
+  Sample* recommend() {
     while (Sample* enough = cheapest_below(experiment_, 1e-3)) {
       const time::Tableau& tableau = time::find_tableau(enough->values[0]);
       const bool adaptive = time::is_adaptive(tableau);
@@ -301,7 +301,8 @@ Experiment study_steps(const Case& spec, int threads, double seconds) {
   StepsStudy study(spec, threads, seconds, experiment);
   for (const time::Tableau& tableau : time::tableaux()) study.try_method(tableau);
   study.add_notes();
-  const Sample* enough = study.recommend();
+  Sample* enough = study.recommend();
+  if (enough) enough->role = Sample::Role::recommended;
   finish(experiment, spec);
   experiment.conclusion =
       enough ? fmt::format(

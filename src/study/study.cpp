@@ -250,7 +250,7 @@ Experiment vary_keys(const Case& spec, const StudyOptions& options) {
                         .title = spec.title.empty() ? spec.name : spec.title,
                         .question = "What does accuracy cost here?",
                         .keys = {},
-                        .error_is = "Linf at the last output",
+                        .error_is = "Linf at the last output, relative to the largest density",
                         .seconds_are = "of seeding, transport, effects and density, without the reference",
                         .samples = {},
                         .conclusion = {},

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gaussdrift/case.hpp"
+#include "render/chart.hpp"
 
 namespace gaussdrift::study {
 
@@ -33,7 +34,11 @@ struct Sample {
   std::size_t particles = 0, steps = 0;
   double order = std::numeric_limits<double>::quiet_NaN();  // observed, against the sample before of the same series
   bool on_front = false;                                    // no other sample is both faster and more accurate
-  std::string failure{};                                    // why there is no number; empty: there is
+  double predicted_error = std::numeric_limits<double>::quiet_NaN();    // before it was run, where that was asked for
+  double predicted_seconds = std::numeric_limits<double>::quiet_NaN();  // the same
+  enum class Role { none, current, recommended };
+  Role role = Role::none;  // the settings of the case, those to take in their place
+  std::string failure{};   // why there is no number; empty: there is
 };
 
 /// One question, one chart.
@@ -87,10 +92,15 @@ std::string to_csv(const Experiment& experiment);
 /// All experiments in one table, with a column for the experiment and one for the settings, "key=value key=value".
 std::string to_csv(const Study& study);
 std::string to_json(const Study& study);
-/// A page for people: charts, tables, conclusions. The charts are the files <name>.png beside it.
+/// A text for people: charts, tables, conclusions. The charts are files beside it.
 std::string to_markdown(const Study& study);
-/// Draws <name>.png of every experiment into the folder; nothing where pictures are not available.
-void draw_charts(const Study& study, const std::filesystem::path& folder);
+/// The same as a page that needs no other file and no network: charts that tell their numbers, tables.
+std::string to_html(const Study& study);
+
+/// Error against seconds: every sample, the front, predictions, the current and the recommended settings.
+render::Chart chart_of(const Study& study, const Experiment& experiment);
+/// Writes the chart of every experiment into the folder, as files called like it (render/chart.hpp). Throws FileError.
+void write_charts(const Study& study, const std::filesystem::path& folder);
 
 // The standard studies; standard_studies.hpp lists them.
 Experiment study_transform(const Case& spec, int threads, double seconds);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "render/chart.hpp"
 #include "render/picture.hpp"
 #include "study/study.hpp"
 #include "write/provenance.hpp"
@@ -68,13 +67,15 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
-constexpr const char* csv_header = "error,L1,L2,seconds,order,particles,steps,front,failure\n";
+constexpr const char* csv_header =
+    "error,L1,L2,seconds,order,particles,steps,front,predicted_error,predicted_seconds,failure\n";
 
 std::string csv_numbers(const Sample& sample) {
   const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.6e}", value) : ""; };
-  return fmt::format("{},{},{},{},{},{},{},{},{}\n", number(sample.error), number(sample.l1), number(sample.l2),
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", number(sample.error), number(sample.l1), number(sample.l2),
                      number(sample.seconds), number(sample.order), sample.particles, sample.steps,
-                     sample.on_front ? 1 : 0, csv_field(sample.failure));
+                     sample.on_front ? 1 : 0, number(sample.predicted_error), number(sample.predicted_seconds),
+                     csv_field(sample.failure));
 }
 
 }  // namespace
@@ -132,6 +133,10 @@ std::string to_json(const Study& study) {
       row["particles"] = sample.particles;
       row["steps"] = sample.steps;
       row["front"] = sample.on_front;
+      if (std::isfinite(sample.predicted_error)) row["predicted_error"] = sample.predicted_error;
+      if (std::isfinite(sample.predicted_seconds)) row["predicted_seconds"] = sample.predicted_seconds;
+      if (sample.role != Sample::Role::none)
+        row["role"] = sample.role == Sample::Role::current ? "current" : "recommended";
       if (!sample.failure.empty()) row["failure"] = sample.failure;
       samples.push_back(row);
     }
@@ -154,9 +159,10 @@ std::string to_json(const Study& study) {
 
 std::string to_markdown(const Study& study) {
   std::string text = fmt::format("# What accuracy costs: {}\n\n", study.title.empty() ? study.case_name : study.title);
+  const char* ending = render::unavailable_reason().empty() ? ".png" : ".svg";
   for (const Experiment& experiment : study.experiments) {
-    text += fmt::format("## {}\n\n{}\n\n![{}]({}.png)\n\n**{}**\n\n", experiment.title, experiment.question,
-                        experiment.title, experiment.name, experiment.conclusion);
+    text += fmt::format("## {}\n\n{}\n\n![{}]({}{})\n\n**{}**\n\n", experiment.title, experiment.question,
+                        experiment.title, experiment.name, ending, experiment.conclusion);
     text += fmt::format("Error: {}. Seconds: {}. `*`: no other is faster and more accurate.\n\n```\n{}```\n\n",
                         experiment.error_is, experiment.seconds_are, table_of(experiment));
     for (const std::string& note : experiment.notes) text += fmt::format("* {}\n", note);
@@ -165,41 +171,6 @@ std::string to_markdown(const Study& study) {
   text += fmt::format("{}; {} threads, {:.0f} s in all; tables as CSV and JSON beside this page.\n", write::made_by(),
                       study.threads, study.seconds);
   return text;
-}
-
-void draw_charts(const Study& study, const std::filesystem::path& folder) {
-  if (!render::unavailable_reason().empty()) return;
-  for (const Experiment& experiment : study.experiments) {
-    render::Chart chart{.title = experiment.title,
-                        .x = render::ChartAxis{.name = "seconds", .logarithmic = true},
-                        .y = render::ChartAxis{.name = experiment.error_is.substr(0, experiment.error_is.find(',')),
-                                               .logarithmic = true},
-                        .series = {}};
-    // One series for each combination of all keys but the last. The front is drawn behind them.
-    std::vector<render::ChartPoint> front;
-    for (const Sample& sample : experiment.samples) {
-      if (!sample.failure.empty()) continue;
-      if (sample.on_front) front.push_back({sample.seconds, sample.error});
-      const std::string name = fmt::format("{}", fmt::join(sample.values.begin(), sample.values.end() - 1, ", "));
-      auto series =
-          std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.name == name; });
-      if (series == chart.series.end()) {
-        chart.series.push_back({.name = name});
-        if (experiment.keys.size() == 1) chart.series.back().look = render::ChartSeries::Look::marks;
-        series = chart.series.end() - 1;
-      }
-      series->points.push_back({sample.seconds, sample.error, sample.values.back()});
-    }
-    std::sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-    chart.series.insert(chart.series.begin(), {.name = "nothing faster is as accurate",
-                                               .points = front,
-                                               .look = render::ChartSeries::Look::dashed,
-                                               .quiet = true});
-    chart.conclusion = experiment.conclusion;
-    chart.footer = fmt::format("{}; {}; {} threads", study.title.empty() ? study.case_name : study.title,
-                               write::made_by(), study.threads);
-    render::draw_chart(chart, folder / (experiment.name + ".png"));
-  }
 }
 
 }  // namespace gaussdrift::study

@@ -14,6 +14,7 @@
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/simulation.hpp"
 #include "particle/cutoff.hpp"
+#include "render/ticks.hpp"
 #include "sim/borders/edges.hpp"
 #include "sim/scene.hpp"
 #include "sim/tiled_density.hpp"
@@ -182,12 +183,13 @@ Experiment study_transform(const Case& spec, int threads, double seconds) {
   }
   finish(experiment, spec);
   experiment.conclusion =
-      fmt::format("{}: {:.2g} ms at 1e-2, {:.2g} ms at 1e-12",
+      fmt::format("{}: {} ms at 10⁻², {} ms at 10⁻¹²",
                   dearest < 1.3 * cheapest
                       ? std::string("Digits of the sum are almost free")
                       : fmt::format("Ten digits more of the sum cost {:.2g} times the time", dearest / cheapest),
-                  1e3 * cheapest, 1e3 * dearest);
-  experiment.conclusion += std::isfinite(direct) ? fmt::format("; pair by pair it is {:.2g} ms.", 1e3 * direct) : ".";
+                  render::told_number(1e3 * cheapest, 2), render::told_number(1e3 * dearest, 2));
+  experiment.conclusion +=
+      std::isfinite(direct) ? fmt::format("; pair by pair it is {} ms.", render::told_number(1e3 * direct, 2)) : ".";
   return experiment;
 }
 

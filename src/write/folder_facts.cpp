@@ -53,7 +53,7 @@ std::string name_of_run(const fs::path& folder) {
 }
 
 OwnFiles files_of_study(const fs::path& folder) {
-  OwnFiles files({"study.json", "study.md"});
+  OwnFiles files({"study.html", "study.json", "study.md"});
   const fs::path list = folder / "study.json";
   constexpr const char* remedy =
       "what the earlier study wrote is not known; move its files away, or choose another folder with --out";
@@ -61,7 +61,8 @@ OwnFiles files_of_study(const fs::path& folder) {
   if (!told) return files;
   try {
     for (const auto& experiment : told->at("experiments"))
-      for (const char* ending : {".csv", ".png"}) files.add(experiment.at("name").get<std::string>() + ending);
+      for (const char* ending : {".csv", ".pdf", ".png", ".svg"})
+        files.add(experiment.at("name").get<std::string>() + ending);
   } catch (const nlohmann::json::exception&) {
     throw FileError(fmt::format("{} is damaged: it has no list of experiments; {}", list.string(), remedy));
   }

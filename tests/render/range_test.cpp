@@ -89,8 +89,27 @@ TEST(Ticks, AreRoundAndHaveATrueMinusSign) {
 TEST(Ticks, OfSmallNumbersShowAFactor) {
   const Ticks ticks = make_ticks(0, 1e-9, 5);
   EXPECT_EQ(labels(ticks), (Labels{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
-  EXPECT_EQ(ticks.title("x"), "x / 1e\u22129");
-  EXPECT_EQ(make_ticks(0, 5e7, 5).title("x"), "x / 1e7");
+  EXPECT_EQ(ticks.title("x"), "x / 10⁻⁹");
+  EXPECT_EQ(make_ticks(0, 5e7, 5).title("x"), "x / 10⁷");
+}
+
+TEST(Ticks, OfLogarithmsAreAllPowersOrAllPlain) {
+  EXPECT_EQ((Labels{"0.01", "0.1", "1", "10"}), labels({.list = logarithmic_ticks(-2, 1.3, 8)}));
+  EXPECT_EQ((Labels{"10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "1", "10"}), labels({.list = logarithmic_ticks(-4, 1.3, 8)}));
+  EXPECT_EQ((Labels{"10⁻⁵", "1"}), labels({.list = logarithmic_ticks(-8, 0.3, 2)})) << "not too many";
+  EXPECT_EQ((Labels{"5·10⁻⁴", "10⁻³", "2·10⁻³"}), labels({.list = logarithmic_ticks(-3.4, -2.5, 8)}));
+  EXPECT_GE(logarithmic_ticks(0.5, 0.51, 5).size(), 2u) << "of a short stretch, too";
+  EXPECT_EQ(logarithmic_ticks(-400, 400, 8).size(), 7u) << "beyond what numbers can be";
+}
+
+TEST(Numbers, AreToldWithPowersOfTen) {
+  EXPECT_EQ(told_number(0.0241, 2), "0.024");
+  EXPECT_EQ(told_number(2.4e-5, 2), "2.4·10⁻⁵");
+  EXPECT_EQ(told_number(1e-5, 3), "10⁻⁵");
+  EXPECT_EQ(told_number(-3e12, 3), "\u22123·10¹²");
+  EXPECT_EQ(told_number(1234, 2), "1234") << "no digit before the point is lost";
+  EXPECT_EQ(told_number(9.99e-4, 1), "0.001");
+  EXPECT_EQ(told_number(0, 3), "0");
 }
 
 TEST(Ticks, FarFromZeroShowADifference) {
