@@ -79,7 +79,7 @@ set(public_accuracy accuracy_table budget footprint forecast memory_limits next_
 set(public_report page reel_series)
 set(public_study study)
 set(public_reproduce claims cone coulomb fgtd figures interpolation kernels logkernel rbf)
-set(public_sum derivatives general pairs points points_request radial)
+set(public_sum density derivatives general pairs points points_request radial)
 
 cmake_policy(VERSION 3.25)
 get_filename_component(ROOT "${ROOT}" ABSOLUTE)

@@ -19,6 +19,7 @@
 #include "cli/verbs.hpp"
 #include "input/points_table.hpp"
 #include "rbf/rbf.hpp"
+#include "sum/density.hpp"
 #include "sum/derivatives.hpp"
 #include "sum/general.hpp"
 #include "sum/pairs.hpp"
@@ -56,7 +57,8 @@ double read_points(const SumOptions& options, sum::PointsRequest& request, Stage
   request.tell = [&stages](const std::string& what) { stages.aside([&] { note("{}\n", what); }); };
   request.predicted = [&stages](double seconds) { stages.expect(seconds); };
   if (!options.grid.empty()) request.grid = sum::parse_grid(options.grid);
-  const input::PointsColumns columns{sum::parse_columns(options.columns, options.weight), options.weight};
+  const input::PointsColumns columns{sum::parse_columns(options.columns, options.weight), options.weight,
+                                     options.normalise};
   // Nearly all that a limit leaves; the rest is for the program.
   const accuracy::MemoryLimit limit = accuracy::tightest_limit(most_memory(options.memory));
   if (limit.left() <= 0)
@@ -101,7 +103,7 @@ ExitCode write(Sums& sums, const sum::PointsRequest& request, const SumOptions& 
 
 ExitCode sum_gaussians(const SumOptions& options) {
   sum::SumRequest request;
-  request.sigma = *options.sigma;
+  request.sigma = options.sigma.value_or(0);
   request.method = named("--method", options.method, fgtd::methods());
   if (by_hand(options)) {
     fgtd::HermiteParameters& given = request.hermite.emplace();
@@ -112,7 +114,7 @@ ExitCode sum_gaussians(const SumOptions& options) {
   for (const std::string& text : options.derivatives) request.derivatives.push_back(sum::parse_derivative(text));
   StageLine stages;
   const double read_seconds = read_points(options, request, stages);
-  sum::PointSums sums = sum::sum_points(request);
+  sum::PointSums sums = sum::sum_shaped(request, {bandwidth_of(options), options.normalise});
   sums.read_seconds = read_seconds;
   return write(sums, request, options, stages);
 }

@@ -44,7 +44,16 @@ void declare_sum(OptionList& options, SumOptions& given) {
       .add("--grid", given.grid, "LOW:HIGH:COUNT,...",
            "a grid of targets: --grid=-1:1:200,0:1:100. Its first axis runs fastest")
       .excludes(targets);
-  options.add("--sigma", given.sigma, "X", "of the Gaussian exp(-sigma r^2)");
+  const Option sigma = options.add("--sigma", given.sigma, "X", "of the Gaussian exp(-sigma r^2)");
+  options
+      .add("--bandwidth", given.bandwidth, "B",
+           "in place of --sigma, how wide the Gaussian is: a standard deviation as 0.2, a covariance row by row as "
+           "1,0.5,0.5,1, or a rule that looks at the points: scott or silverman")
+      .excludes(sigma);
+  options.flag(
+      "--normalise", given.normalise,
+      "the sum becomes a density with the integral 1 (kernel density estimation): weights are divided by their "
+      "sum, and the Gaussian by its integral. No column of weights is needed. --bandwidth is scott by default");
   options.add("--shape", given.shape, "C", "c of a radial kernel, a length: --kernel multiquadric --shape 0.3");
   options
       .add("--derivative", given.derivatives, "A1,A2,...",
@@ -84,6 +93,10 @@ void declare_sum(OptionList& options, SumOptions& given) {
 }
 
 bool by_hand(const SumOptions& options) { return options.r || options.p || !options.n.empty(); }
+
+std::string bandwidth_of(const SumOptions& options) {
+  return options.bandwidth.empty() && !options.sigma && options.normalise ? "scott" : options.bandwidth;
+}
 
 double tolerance_of(const SumOptions& options) { return options.tolerance.value_or(1e-6); }
 
@@ -137,6 +150,9 @@ void check_shape(const SumOptions& options) {
 
 /// What belongs to the kernel gauss alone, or nearly so.
 void check_not_of_gauss(const SumOptions& options) {
+  if (options.normalise || !options.bandwidth.empty())
+    throw CommandLineError(fmt::format("{} belongs to the kernel gauss, not to {}",
+                                       options.normalise ? "--normalise" : "--bandwidth", options.kernel));
   if (options.sigma)
     throw CommandLineError(fmt::format(
         "--sigma belongs to the kernel gauss, not to {}{}", options.kernel,
@@ -157,8 +173,10 @@ void check_not_of_gauss(const SumOptions& options) {
 }
 
 void check_gauss(const SumOptions& options) {
-  if (!options.sigma) throw CommandLineError("--sigma is missing: the Gaussian is exp(-sigma r^2)");
-  if (!(*options.sigma > 0) || !std::isfinite(*options.sigma))
+  if (!options.sigma && bandwidth_of(options).empty())
+    throw CommandLineError(
+        "--sigma is missing: the Gaussian is exp(-sigma r^2). Or give --bandwidth, its standard deviation");
+  if (options.sigma && (!(*options.sigma > 0) || !std::isfinite(*options.sigma)))
     throw CommandLineError(fmt::format("--sigma {}: must be positive and finite", *options.sigma));
   if (!(tolerance_of(options) > 0) || !(tolerance_of(options) < 1))
     throw CommandLineError(

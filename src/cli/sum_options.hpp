@@ -18,6 +18,8 @@ struct SumOptions {
   std::string weight;                      // name or number of its column; empty: "weight"
   std::string grid;                        // "-1:1:200,-1:1:200"
   std::optional<double> sigma, shape;
+  std::string bandwidth;                 // in place of sigma; empty: not given
+  bool normalise = false;                // the sum becomes a density
   std::vector<std::string> derivatives;  // "0,1,2"; none: the plain sum
   std::optional<double> tolerance;       // 1e-6
   std::string method = "auto";
@@ -35,6 +37,9 @@ void declare_sum(OptionList& options, SumOptions& given);
 
 /// Throws CommandLineError for what contradicts itself, and FileError for an output that cannot be one.
 void check_sum_options(const SumOptions& options);
+
+/// --bandwidth, or what --normalise takes where there is neither that nor --sigma; empty: --sigma.
+std::string bandwidth_of(const SumOptions& options);
 
 /// --r, --p or --n
 bool by_hand(const SumOptions& options);

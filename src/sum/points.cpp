@@ -1,6 +1,7 @@
 #include "sum/points.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -137,6 +138,7 @@ PointSums sum_points(const SumRequest& request) {
   options.expected_targets = request.targets ? request.targets->size() : request.sources.size();
   options.derivative_order = highest_order_of(result.derivatives);
   for (const auto& derivative : result.derivatives) result.columns.push_back(column_name(derivative));
+  if (!request.column.empty() && request.derivatives.empty()) result.columns = {request.column};
   with_errors_of_fgtd([&] {
     in_dimension<1, 4>(result.dimension, [&](auto dimension) {
       constexpr int d = decltype(dimension)::value;
@@ -164,7 +166,19 @@ void measure_errors(const SumRequest& request, PointSums& sums) {
       [&] { in_dimension<1, 4>(sums.dimension, [&](auto d) { measure<decltype(d)::value>(request, sums); }); });
 }
 
-std::string to_text(const PointSums& sums) { return first_lines(sums) + precision_line(sums); }
+std::string to_text(const PointSums& sums) {
+  std::string text = first_lines(sums);
+  if (sums.normalised || !sums.bandwidth.empty()) {
+    text += "shape  ";
+    if (sums.covariance.empty())
+      text += fmt::format("standard deviation {:.6g}", std::sqrt(0.5 / sums.sigma));
+    else
+      text += fmt::format("covariance {:::.6g}", sums.covariance);
+    text += fmt::format("{}{}\n", sums.bandwidth.empty() ? "" : ", --bandwidth " + sums.bandwidth,
+                        sums.normalised ? "; a density with the integral 1" : "");
+  }
+  return text + precision_line(sums);
+}
 
 std::string to_json(const PointSums& sums) {
   const fgtd::Choice& choice = sums.choice;
@@ -180,26 +194,29 @@ std::string to_json(const PointSums& sums) {
     for (const MeasuredError& one : sums.measured) measured["errors"][one.of] = finite_or_null(one.error);
     measured["kept"] = broken_promises(sums.measured, sums.compared).empty();
   }
-  const nlohmann::ordered_json json = {{"kernel", "gauss"},
-                                       {"dimension", sums.dimension},
-                                       {"sources", choice.sources},
-                                       {"targets", sums.values.rows()},
-                                       {"sigma", sums.sigma},
-                                       {"columns", sums.columns},
-                                       {"derivatives", sums.derivatives},
-                                       {"tolerance", choice.tolerance},
-                                       {"method_asked", fgtd::to_string(sums.asked)},
-                                       {"method", fgtd::to_string(choice.method)},
-                                       {"parameters", parameters},
-                                       {"choice", base::printed(choice)},
-                                       {"bound", finite_or_null(choice.bound)},
-                                       {"error_bounds", errors},
-                                       {"measured", measured},
-                                       {"Q", finite_or_null(sums.weight_total)},
-                                       {"predicted_seconds", finite_or_null(choice.seconds)},
-                                       {"threads", sums.threads},
-                                       {"seconds", seconds_by_stage(sums)}};
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  nlohmann::ordered_json json = {{"kernel", "gauss"},
+                                 {"dimension", sums.dimension},
+                                 {"sources", choice.sources},
+                                 {"targets", sums.values.rows()},
+                                 {"sigma", sums.sigma},
+                                 {"columns", sums.columns},
+                                 {"derivatives", sums.derivatives},
+                                 {"tolerance", choice.tolerance},
+                                 {"method_asked", fgtd::to_string(sums.asked)},
+                                 {"method", fgtd::to_string(choice.method)},
+                                 {"parameters", parameters},
+                                 {"choice", base::printed(choice)},
+                                 {"bound", finite_or_null(choice.bound)},
+                                 {"error_bounds", errors},
+                                 {"measured", measured},
+                                 {"Q", finite_or_null(sums.weight_total)},
+                                 {"predicted_seconds", finite_or_null(choice.seconds)},
+                                 {"threads", sums.threads},
+                                 {"seconds", seconds_by_stage(sums)}};
+  if (!sums.covariance.empty()) json["sigma"] = nullptr, json["covariance"] = sums.covariance;
+  if (!sums.bandwidth.empty()) json["bandwidth"] = sums.bandwidth;
+  if (sums.normalised) json["normalised"] = true;
+  return text_of(json);
 }
 
 }  // namespace gaussdrift::sum

@@ -19,6 +19,7 @@ struct SumRequest : PointsRequest {
   std::vector<std::vector<int>> derivatives;  // none: the plain sum
   fgtd::Method method = fgtd::Method::automatic;
   std::optional<fgtd::HermiteParameters> hermite = {};  // by hand: their bound takes the place of the tolerance
+  std::string column = {};                              // what the plain sum is called; empty: "d_0_0"
 };
 
 /// "2", or "all": the n of HermiteParameters. Throws CommandLineError.
@@ -27,6 +28,9 @@ int parse_neighbours(const std::string& text);
 struct PointSums {
   int dimension = 0;
   double sigma = 0;
+  std::string bandwidth;                        // that was asked for in place of sigma (sum/density.hpp)
+  std::vector<std::vector<double>> covariance;  // of the Gaussians where they are not round by themselves; else none
+  bool normalised = false;                      // the sum is a density
   std::vector<std::vector<int>> derivatives;
   std::vector<std::string> columns;  // "d_0_1_2", one for every derivative
   Eigen::MatrixXd values;            // targets x derivatives; a grid's first axis runs fastest

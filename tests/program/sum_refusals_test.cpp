@@ -75,7 +75,7 @@ TEST(Sum, RefusesAWrongCommandLine) {
       {"--sources S.csv --sigma 2 --columns x,x", "\"x\" is there twice"},
       {"--sources S.csv --sigma 2 --columns x,weight", "\"weight\" is no coordinate"},
       {"--sources S.csv --sigma 2 --columns a,b,c,d,e", "names 5 coordinates"},
-      {"--sources S.csv --sigma 2 --bandwidth 2", "--bandwidth"}};
+      {"--sources S.csv --sigma 2 --bandwith 2", "--bandwidth"}};
   for (const auto& [arguments, said] : wrong) {
     const Outcome refused = gaussdrift_in(folder, "sum " + arguments);
     EXPECT_EQ(refused.exit_code, 2) << arguments << "\n" << refused.err;

@@ -1,4 +1,5 @@
 // fgtd._core: what the Python package fgtd takes from the library. Its pages are in __init__.py.
+#include <fgtd/density.hpp>
 #include <fgtd/fgtd.hpp>
 #include <sstream>
 
@@ -52,6 +53,53 @@ std::unique_ptr<Sums> plan(const py::object& sources, const py::object& weights,
   });
 }
 
+/// A covariance d x d.
+template <int d>
+fgtd::Covariance<d> covariance_of(const py::object& matrix) {
+  const Rows rows(matrix, "bandwidth");
+  const auto given = rows.columns<d>();
+  if (given.cols() != d) throw std::invalid_argument("a matrix as bandwidth must have as many rows as columns");
+  return given.transpose();
+}
+
+/// bandwidth: the name of a rule, a number or a matrix.
+py::array bandwidth_matrix(const py::object& points, const py::object& weights, const py::object& bandwidth) {
+  const Rows rows(points, "points");
+  const Weights columns(weights, "weights");
+  return in_dimension<4>(rows, "points", [&]<int d>() {
+    fgtd::Bandwidth<d> given;
+    if (py::isinstance<py::str>(bandwidth))
+      given = one_named("bandwidth", fgtd::bandwidth_rules(), bandwidth.cast<std::string>());
+    else if (py::array::ensure(bandwidth).ndim() == 0)
+      given = bandwidth.cast<double>();
+    else
+      given = covariance_of<d>(bandwidth);
+    return array_of(without_lock(
+        [&] { return Eigen::MatrixXd(fgtd::bandwidth_matrix<d>(rows.columns<d>(), columns.matrix().col(0), given)); }));
+  });
+}
+
+py::array normalised_weights(const py::object& weights) {
+  const Weights columns(weights, "weights");
+  return array_of(Eigen::MatrixXd(fgtd::normalised_weights(columns.matrix().col(0))));
+}
+
+/// Root and peak of the whitening of a covariance.
+py::tuple whitening(const py::object& covariance) {
+  return in_dimension<4>(Rows(covariance, "bandwidth"), "bandwidth", [&]<int d>() {
+    const fgtd::Whitening<d> white(covariance_of<d>(covariance));
+    return py::make_tuple(array_of(Eigen::MatrixXd(white.root())), white.peak());
+  });
+}
+
+py::array whitened(const py::object& points, const py::object& covariance) {
+  const Rows rows(points, "points");
+  return in_dimension<4>(rows, "points", [&]<int d>() {
+    const fgtd::Whitening<d> white(covariance_of<d>(covariance));
+    return array_of_points<d>(without_lock([&] { return white.of(rows.columns<d>()); }));
+  });
+}
+
 }  // namespace
 
 }  // namespace gaussdrift::python
@@ -63,5 +111,9 @@ PYBIND11_MODULE(_core, module) {
   });
   gaussdrift::python::bind_sums(module);
   module.def("plan", &gaussdrift::python::plan);
+  module.def("bandwidth_matrix", &gaussdrift::python::bandwidth_matrix);
+  module.def("normalised_weights", &gaussdrift::python::normalised_weights);
+  module.def("whitening", &gaussdrift::python::whitening);
+  module.def("whitened", &gaussdrift::python::whitened);
   module.attr("smallest_tolerance") = fgtd::smallest_tolerance;
 }

@@ -5,13 +5,10 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
+from . import _core
 from ._plan import Array, Grid, InvalidArgument, Plan, Targets
 
 Bandwidth = Union[str, float, Any]
-
-
-def _effective_number(weights: Array) -> float:
-    return float(weights.sum() ** 2 / (weights ** 2).sum())
 
 
 def bandwidth_matrix(points: Any, weights: Any = None, bandwidth: Bandwidth = "scott") -> Array:
@@ -58,18 +55,13 @@ def density_estimate(points: Any, weights: Any = None, bandwidth: Bandwidth = "s
     True
     """
     rows, factors = _checked(points, weights)
+    shares = _core.normalised_weights(factors)[:, 0]
     covariance = _covariance(rows, factors, bandwidth)
-    try:
-        root = np.linalg.cholesky(covariance)
-    except np.linalg.LinAlgError:
-        raise InvalidArgument("fgtd: the covariance of the Gaussians is not positive definite: the points lie in fewer "
-                              f"than {len(covariance)} dimensions, or the bandwidth does. Give a number as bandwidth, "
-                              "or leave out coordinates") from None
     # In coordinates L^-1 x the Gaussian is exp(-|x|^2 / 2) for L L^T = covariance.
-    peak = float((2 * np.pi) ** (-len(root) / 2) / np.prod(np.diag(root)))
-    targets = _whitened_targets(rows if at is None else at, root)
+    root, peak = _core.whitening(covariance)
+    targets = _whitened_targets(rows if at is None else at, covariance, root)
     options.setdefault("expected", targets if isinstance(targets, Grid) else len(targets))
-    plan = Plan(_whitened(rows, root), factors * (peak / factors.sum()), 0.5, tolerance=tolerance, **options)
+    plan = Plan(_whitened(rows, covariance), peak * shares, 0.5, tolerance=tolerance, **options)
     density = plan.evaluate(targets)
     return density.reshape(at.shape) if isinstance(at, Grid) else density
 
@@ -83,52 +75,31 @@ def _checked(points: Any, weights: Any) -> tuple[Array, Array]:
     factors = np.ones(len(rows)) if weights is None else np.asarray(weights, dtype=np.float64)
     if factors.shape != (len(rows),):
         raise InvalidArgument(f"fgtd: weights must be {len(rows)} numbers, one a point; their shape is {factors.shape}")
-    if not (factors >= 0).all() or not 0 < factors.sum() < np.inf:
-        raise InvalidArgument("fgtd: weights of a density must not be negative, and some must be positive and finite")
     return rows, factors
 
 
 def _covariance(rows: Array, factors: Array, bandwidth: Bandwidth) -> Array:
-    number, dimension = _effective_number(factors), rows.shape[1]
-    if isinstance(bandwidth, str):
-        if bandwidth == "scott":
-            factor = number ** (-1 / (dimension + 4))
-        elif bandwidth == "silverman":
-            factor = (number * (dimension + 2) / 4) ** (-1 / (dimension + 4))
-        else:
-            raise InvalidArgument(f'fgtd: there is no bandwidth "{bandwidth}". There are: scott, silverman, a number, a '
-                                  "matrix")
-        if number <= 1:
-            raise InvalidArgument(f'fgtd: bandwidth "{bandwidth}" needs the covariance of two points at least. Give a '
-                                  "number or a matrix")
-        covariance: Array = np.atleast_2d(np.cov(rows, rowvar=False, aweights=factors)) * factor ** 2
-        return covariance
-    given = np.asarray(bandwidth, dtype=np.float64)
-    if given.ndim == 0:
-        if not 0 < given < np.inf:
-            raise InvalidArgument(f"fgtd: bandwidth = {bandwidth}, must be positive and finite")
-        isotropic: Array = given ** 2 * np.eye(dimension)
-        return isotropic
-    if given.shape != (dimension, dimension) or not np.isfinite(given).all() or not np.allclose(given, given.T):
-        raise InvalidArgument(f"fgtd: a matrix as bandwidth must be finite, symmetric and {dimension} x {dimension}; its "
-                              f"shape is {given.shape}")
-    return given
+    dimension = rows.shape[1]
+    if not isinstance(bandwidth, str):
+        bandwidth = np.asarray(bandwidth, dtype=np.float64)
+        if bandwidth.ndim and bandwidth.shape != (dimension, dimension):
+            raise InvalidArgument(f"fgtd: a matrix as bandwidth must be finite, symmetric and {dimension} x {dimension}; "
+                                  f"its shape is {bandwidth.shape}")
+    return _core.bandwidth_matrix(rows, factors, bandwidth)
 
 
-def _whitened(rows: Array, root: Array) -> Array:
-    if rows.shape[1] != len(root):
-        raise InvalidArgument(f"fgtd: the places of the density have {rows.shape[1]} coordinates, the points {len(root)}")
-    if not np.any(root - np.diag(np.diag(root))):
-        return rows / np.diag(root)
-    solved: Array = np.ascontiguousarray(np.linalg.solve(root, rows.T).T)
-    return solved
+def _whitened(rows: Array, covariance: Array) -> Array:
+    if rows.shape[1] != len(covariance):
+        raise InvalidArgument(f"fgtd: the places of the density have {rows.shape[1]} coordinates, the points "
+                              f"{len(covariance)}")
+    return _core.whitened(rows, covariance)
 
 
-def _whitened_targets(at: Targets, root: Array) -> Targets:
+def _whitened_targets(at: Targets, covariance: Array, root: Array) -> Targets:
     """A grid stays one where no axes mix."""
     if isinstance(at, Grid):
         if len(at.axes) == len(root) and not np.any(root - np.diag(np.diag(root))):
             return Grid(*(axis / scale for axis, scale in zip(at.axes, np.diag(root))))
-        return _whitened(at.points(), root)
+        return _whitened(at.points(), covariance)
     rows = np.asarray(at, dtype=np.float64)
-    return _whitened(rows[:, None] if rows.ndim == 1 else rows, root)
+    return _whitened(rows[:, None] if rows.ndim == 1 else rows, covariance)
