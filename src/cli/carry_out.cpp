@@ -179,12 +179,13 @@ class Run {
                               {"seconds", keeper_->seconds()},
                               {"time", spec_.time.at(keeper_->last().time)},
                               {"bytes", keeper_->last().bytes}};
+    // Before the summary, which says that the run is whole: `resume` cannot make these frames of a run that has one.
+    write_reel();
     summary_text_ = write::summary_json(spec_, summary_, more_);
     const bool told = owed_.attempt([&] { write::write_text(folder_ / "summary.json", summary_text_); });
     make_films();
     // The log before the page: `resume` makes the page of a run that was killed here, and cannot make the log.
     const std::string before_page = write_log("");
-    write_reel();
     const std::string without =
         told && spec_.output.report ? write_page(folder_, spec_, owed_, pictures_come_later()) : "";
     if (log_text(without) != before_page) write_log(without);
