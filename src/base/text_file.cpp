@@ -100,7 +100,8 @@ class Reading {
 
   [[noreturn]] void refuse_size(std::size_t bytes) const {
     throw InputError(file_.string() + " has " + size_in_words(bytes) + " or more; " + std::string(kind_) +
-                     " has at most " + size_in_words(most_));
+                     " has at most " + size_in_words(most_) +
+                     (most_ == most_piped ? " where it comes through a pipe: write it to a file" : ""));
   }
 
   void wait() const {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -35,8 +36,42 @@ struct RowPlan {
   std::size_t weight() const { return coordinates; }
 };
 
-/// Reads a row without quotation marks and comments, of numbers that std::from_chars takes as they stand. False for any
-/// other, of which `coordinates` and `weight` then hold nothing.
+/// The number that begins at `at`, also one with the exponent of Fortran, and where it ends; nullptr if none is there.
+const char* read_plain_number(const char* at, const char* const end, double& number) {
+  if (at < end && *at == '+') {  // std::from_chars takes none
+    ++at;
+    if (at < end && *at == '-') return nullptr;
+  }
+  auto [rest, error] = std::from_chars(at, end, number);
+  if (error == std::errc() && rest < end && (*rest == 'D' || *rest == 'd')) {
+    std::array<char, 48> copy;
+    const auto before = static_cast<std::size_t>(rest - at);
+    const char* behind = rest + 1;
+    while (behind < end && ((*behind >= '0' && *behind <= '9') || *behind == '+' || *behind == '-')) ++behind;
+    const auto length = static_cast<std::size_t>(behind - at);
+    if (length > copy.size()) return nullptr;
+    std::copy(at, behind, copy.begin());
+    copy[before] = 'e';
+    const auto again = std::from_chars(copy.data(), copy.data() + length, number);
+    error = again.ec;
+    if (again.ptr != copy.data() + length) return nullptr;
+    rest = behind;
+  }
+  return error == std::errc() && std::isfinite(number) ? rest : nullptr;
+}
+
+/// Behind the quotation mark that ends what begins with one at `at`; nullptr if there is none.
+const char* behind_quotes(const char* at, const char* const end) {
+  for (++at; at < end; ++at)
+    if (*at == '"') {
+      if (at + 1 >= end || at[1] != '"') return at + 1;
+      ++at;
+    }
+  return nullptr;
+}
+
+/// Reads a row of numbers, without a comment. False for any other, and for whatever is not clear: `coordinates` and
+/// `weight` then hold nothing.
 template <Separator separator>
 bool read_plain_row(const char* at, const char* const end, const RowPlan& plan, double* coordinates, double& weight) {
   constexpr char letter = separator == Separator::comma ? ',' : separator == Separator::semicolon ? ';' : '\t';
@@ -46,17 +81,21 @@ bool read_plain_row(const char* at, const char* const end, const RowPlan& plan, 
   };
   for (std::size_t k = 0; k < plan.target.size(); ++k) {
     skip_blanks();
+    const bool quoted = at < end && *at == '"';
     if (const std::size_t target = plan.target[k]; target != none) {
-      if (at < end && *at == '+') {  // std::from_chars takes none
+      if (quoted) {
         ++at;
-        if (at < end && *at == '-') return false;
+        skip_blanks();
       }
-      double& number = target == plan.coordinates ? weight : coordinates[target];
-      const auto [rest, error] = std::from_chars(at, end, number);
-      if (error != std::errc() || !std::isfinite(number)) return false;
-      at = rest;
-    } else if (at < end && *at == '"') {
-      return false;
+      at = read_plain_number(at, end, target == plan.coordinates ? weight : coordinates[target]);
+      if (!at) return false;
+      if (quoted) {
+        skip_blanks();
+        if (at == end || *at++ != '"') return false;
+      }
+    } else if (quoted) {
+      at = behind_quotes(at, end);
+      if (!at) return false;
     } else {
       while (at < end && (separator == Separator::blanks ? !is_blank(*at) : *at != letter)) ++at;
     }

@@ -78,6 +78,8 @@ TEST(PointsOfNumPy, AreRefusedWhereTheHeadIsNotTrue) {
       {npy(head("(2, 3, 1)"), rows), "S.npy has 3 axes; a table has two, rows and columns, or one"},
       {npy(head("()"), std::vector<double>{1}), "S.npy has 0 axes"},
       {npy(head("(0, 3)"), std::vector<double>{}), "S.npy has no points"},
+      {npy(head("(9223372036854775807, 0)"), std::vector<double>{}), "there is no column 3; 0 columns are there"},
+      {npy(head("(0, 9223372036854775807)"), std::vector<double>{}), "columns, at most 10000 are possible"},
       {npy(head("(2, 3)", ">f8"), rows), "numbers of the type \">f8\"; \"<f8\" and \"<f4\" are read"},
       {npy(head("(2, 3)", "<i8"), rows), "numbers of the type \"<i8\""},
       {npy(head("(2, 3)", "|O"), rows), "numbers of the type \"|O\""},

@@ -91,7 +91,9 @@ TEST(PointsTable, LeavesCommentsOutAnywhere) {
 }
 
 TEST(PointsTable, ReadsExponentsAsFortranWritesThem) {
-  EXPECT_EQ(targets("x,y\n1.5D+00,2d0\n-0.25D-2,+1.D3\n").positions, (Numbers{1.5, 2, -0.0025, 1000}));
+  EXPECT_EQ(targets("x,y\n1.5D+00,2d0\n-0.25D-2,+1.D3\n\"1D1\", .5d+1\n").positions,
+            (Numbers{1.5, 2, -0.0025, 1000, 10, 5}));
+  EXPECT_EQ(targets("x\n0.10000000000000000000000000000000000000000000000000D1\n").positions, (Numbers{1}));
   EXPECT_EQ(refusal("x,weight\n1.5-103,1\n"),
             "S.csv:2:1: \"1.5-103\" is not a number in column \"x\"; the e of its exponent is missing, as Fortran "
             "leaves it out");
@@ -99,7 +101,8 @@ TEST(PointsTable, ReadsExponentsAsFortranWritesThem) {
       refusal("x,weight\n********,1\n"),
       "S.csv:2:1: \"********\" is not a number in column \"x\"; Fortran writes stars where a number does not fit");
   EXPECT_EQ(refusal("x,weight\n1D999,1\n").substr(0, 22), "S.csv:2:1: \"1D999\" is ");
-  for (const char* wrong : {"1d", "d5", "1d5d", "1e5d2", "1d+", "0x1d2", "1 d5", "1.5d0.5", "inf", "1e400", "1e-400"})
+  for (const char* wrong : {"1d", "d5", "1d5d", "1d5-", "1d-+5", "nand1", "\"1d", "\"1d2", "1e5d2", "1d+", "0x1d2",
+                            "1 d5", "1.5d0.5", "inf", "1e400", "1e-400"})
     EXPECT_NE(refusal(std::string("x,weight\n") + wrong + ",1\n").find("S.csv:2:1: "), std::string::npos) << wrong;
 }
 

@@ -50,10 +50,11 @@ void write_file(const fs::path& file, const Write& write) {
   std::fclose(out);
 }
 
-/// The table with other letters.
-fs::path changed(const fs::path& table, const char* name, char from, const std::string& to) {
+/// The table with other letters; its names stay, or go.
+fs::path changed(const fs::path& table, const char* name, char from, const std::string& to, bool named = true) {
   std::ifstream in(table, std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(in), {});
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  if (!named) text.erase(0, text.find('\n') + 1);
   const fs::path file = table.parent_path() / name;
   std::ofstream out(file, std::ios::binary);
   for (const char c : text) c == from ? out << to : out << c;
@@ -65,7 +66,7 @@ fs::path changed(const fs::path& table, const char* name, char from, const std::
 int main(int argc, char** argv) {
   const auto rows = static_cast<Eigen::Index>(argc > 1 ? std::strtod(argv[1], nullptr) : 1e6);
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::uniform_real_distribution<double> uniform(0.001, 1);  // without exponents
   const Eigen::MatrixXd values = Eigen::MatrixXd::NullaryExpr(rows, 3, [&] { return uniform(random); });
   const fs::path folder = fs::temp_directory_path() / fmt::format("bench_tables_{}", std::random_device{}());
   fs::create_directory(folder);
@@ -86,6 +87,14 @@ int main(int argc, char** argv) {
   tell("read one column of it and the weight", table, [&] { read(table, {.coordinates = {"x"}}); });
   const fs::path blanks = changed(table, "blanks.txt", ',', "  ");
   tell("read it with blanks between the columns", blanks, [&] { read(blanks, {}); });
+  const fs::path labels = changed(table, "labels.csv", ',', ",\"a, b\",", false);
+  tell("read it between labels in quotation marks", labels, [&] {
+    read(labels, {.coordinates = {"1", "3"}, .weight = "5"});
+  });
+  const fs::path fortran = changed(table, "fortran.txt", ',', "D+00 ", false);
+  tell("read it with exponents of Fortran", fortran, [&] {
+    read(fortran, {.coordinates = {"1", "2"}, .weight = "3"});
+  });
   tell("read .npy", array, [&] { read(array, {.weight = "3"}); });
   fs::remove_all(folder);
 }
