@@ -55,34 +55,37 @@ bool Simulation::Parts::shows_where_particles_began() const {
 
 // Of the particles of a frame; density files get those that belong to the places where particles began.
 std::vector<FieldOnGrid> Simulation::Parts::add_particle_fields(const Frame& frame, DensityGrid& density) const {
-  std::vector<FieldOnGrid> weights;
-  if (frame.particle_pieces == 1) weights = weights_of_tracers(*frame.particles);
-  if (particle_fields_of(case_.output).empty()) return weights;
+  // Where they come in pieces, the file that names these has to know of the arrays.
+  const std::vector<FieldOnGrid> besides =
+      for_files_of_particles(frame.particle_pieces == 1 ? *frame.particles : Particles());
+  if (particle_fields_of(case_.output).empty()) return besides;
   const ParticlesThere here = there(*frame.particles, frame.elapsed);
   std::vector<FieldOnGrid> fields = particle_fields(case_.output, here);
   if (shows_where_particles_began())
     for (FieldOnGrid& field :
          where_particles_began(case_.output, fields, carrier_.memory().gone(), here, scene_.evaluation))
       density.fields.push_back(std::move(field));
-  fields.insert(fields.end(), weights.begin(), weights.end());
+  fields.insert(fields.end(), besides.begin(), besides.end());
   return fields;
 }
 
-// Those of each named density, for files of particles.
-std::vector<FieldOnGrid> Simulation::Parts::weights_of_tracers(const Particles& particles) const {
-  std::vector<FieldOnGrid> weights;
-  if (!base::has_one(case_.output.files, &OutputFile::needs_velocity)) return weights;
+// What files of particles have besides: the radius of the blobs at this time, and the weights of each named density.
+std::vector<FieldOnGrid> Simulation::Parts::for_files_of_particles(const Particles& particles) const {
+  std::vector<FieldOnGrid> fields;
+  if (!base::has_one(case_.output.files, &OutputFile::needs_velocity)) return fields;
+  const double radius = std::sqrt(scene_.core_radius * scene_.core_radius + particles_.spread);
+  fields.push_back({"core_radius", 1, std::vector<double>(particles.size(), radius)});
   for (std::size_t k = 0; k < case_.tracers.size(); ++k)
-    weights.push_back({"alpha_" + case_.tracers[k].name, 1,
-                       k < particles.tracers.size() ? particles.tracers[k] : std::vector<double>()});
-  return weights;
+    fields.push_back({"alpha_" + case_.tracers[k].name, 1,
+                      k < particles.tracers.size() ? particles.tracers[k] : std::vector<double>()});
+  return fields;
 }
 
 void Simulation::Parts::hand_out_pieces(const Frame& frame, const std::vector<double>& velocity) {
   std::vector<FieldOnGrid> fields;
   ranks_.agree_on([&] {
     fields = particle_fields(case_.output, there(particles_, frame.elapsed));
-    for (FieldOnGrid& weights : weights_of_tracers(particles_)) fields.push_back(std::move(weights));
+    for (FieldOnGrid& field : for_files_of_particles(particles_)) fields.push_back(std::move(field));
   });
   hand_out_particles(particles_, velocity, fields, frame.particle_pieces, ranks_, [&](const ParticlePiece& piece) {
     for (const auto& observer : observers) {

@@ -132,7 +132,7 @@ class Simulation::Parts {
   bool shows_where_particles_began() const;
   void hand_out_pieces(const Frame& frame, const std::vector<double>& velocity);
   std::vector<FieldOnGrid> add_particle_fields(const Frame& frame, DensityGrid& density) const;
-  std::vector<FieldOnGrid> weights_of_tracers(const Particles& particles) const;
+  std::vector<FieldOnGrid> for_files_of_particles(const Particles& particles) const;
   ParticlesThere there(const Particles& particles, double time) const;
 
   // run_state.cpp: what the run has come to, for another process that goes on.

@@ -11,15 +11,6 @@ double bytes(const Extent& extent) {
          1500 * extent.pieces;
 }
 
-std::string view(int dimension) {
-  return std::string(
-             "shown = Show(density, view)\n"
-             "ColorBy(shown, ('POINTS', 'rho'))\n"
-             "shown.RescaleTransferFunctionToDataRange(False, True)\n"
-             "shown.SetScalarBarVisibility(view, True)\n") +
-         (dimension == 2 ? "shown.SetRepresentationType('Surface')\n" : "shown.SetRepresentationType('Volume')\n");
-}
-
 }  // namespace
 
 FileKind density_files() {
@@ -37,7 +28,7 @@ FileKind density_files() {
           .index_ending = ".pvti",
           .bytes = bytes,
           .memory = [](const Extent& extent) { return bytes(extent) / extent.pieces; },
-          .view = view};
+          .view = [](int) { return std::string("show_density(density, view)\n"); }};
 }
 
 }  // namespace gaussdrift::write

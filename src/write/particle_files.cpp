@@ -1,4 +1,4 @@
-// The particles with their weights and velocities: points of ParaView.
+// The particles with their weights, velocities and core radii: points of ParaView.
 #include "write/output_files.hpp"
 #include "write/vtk_files.hpp"
 
@@ -6,16 +6,16 @@ namespace gaussdrift::write {
 
 namespace {
 
-// Three coordinates, three components of the velocity, weight, id, and two numbers that make each a cell.
+// Three coordinates, three components of the velocity, weight, id, core radius, and two numbers that make each a cell.
 double bytes(const Extent& extent) {
-  return bytes_as_text(10 + extent.particle_numbers) * extent.particles + 2500 * extent.particle_pieces;
+  return bytes_as_text(11 + extent.particle_numbers) * extent.particles + 2500 * extent.particle_pieces;
 }
 
-// The text. Particles of a piece are brought together before.
+// The text, and the core radii. Particles of a piece are brought together before.
 double memory(const Extent& extent) {
-  const double all = bytes(extent);
+  const double all = bytes(extent) + 8 * extent.particles;
   return extent.particle_pieces > 1
-             ? (all + (256 + 16 * extent.particle_numbers) * extent.particles) / extent.particle_pieces
+             ? (all + (272 + 16 * extent.particle_numbers) * extent.particles) / extent.particle_pieces
              : all;
 }
 
@@ -24,7 +24,7 @@ double memory(const Extent& extent) {
 FileKind particle_files() {
   return {
       .about = {.name = "particles",
-                .meaning = "the particles with their weights and velocities",
+                .meaning = "the particles with their weights, velocities and core radii",
                 .by_default = true,
                 .needs_velocity = true},
       .ending = ".vtp",
@@ -43,7 +43,7 @@ FileKind particle_files() {
       .index_ending = ".pvtp",
       .bytes = bytes,
       .memory = memory,
-      .view = [](int) { return std::string("Show(particles, view)\n"); }};
+      .view = [](int) { return std::string("show_particles(particles, view)\n"); }};
 }
 
 }  // namespace gaussdrift::write

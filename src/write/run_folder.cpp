@@ -21,6 +21,7 @@
 #include "write/provenance.hpp"
 #include "write/series_table.hpp"
 #include "write/track_files.hpp"
+#include "write/view_script.hpp"
 
 namespace gaussdrift::write {
 
@@ -173,39 +174,6 @@ void check_links(const fs::path& folder) {
   for (const FileKind& kind : output_files()) folders.emplace_back(kind.about.name);
   for (const std::string& name : folders) check(name, 1);
   check(earlier_name, 2);
-}
-
-std::string view_script(const Case& spec) {
-  std::string script =
-      "# Opens this run in ParaView:   paraview --script=view.py   (in this folder), or   pvpython view.py\n"
-      "import os\n"
-      "\n"
-      "from paraview.simple import *\n"
-      "\n"
-      "try:\n"
-      "    here = os.path.dirname(os.path.abspath(__file__))\n"
-      "except NameError:  # some versions of ParaView do not say where a script lies\n"
-      "    here = os.getcwd()\n"
-      "\n"
-      "view = GetActiveViewOrCreate('RenderView')\n";
-  bool first = true;  // the others are read and hidden
-  for (const FileKind& kind : output_files()) {
-    if (std::none_of(spec.output.files.begin(), spec.output.files.end(),
-                     [&](const OutputFile& file) { return file.name == kind.about.name; }))
-      continue;
-    script += fmt::format("{0} = PVDReader(registrationName='{0}', FileName=os.path.join(here, '{0}.pvd'))\n",
-                          kind.about.name);
-    script += first ? kind.view(spec.domain.dimension) : fmt::format("Hide({}, view)\n", kind.about.name);
-    first = false;
-  }
-  if (spec.output.tracks)
-    for (const TrackFile& file : spec.output.tracks->files)
-      if (const TrackFileKind& kind = find_track_file(file.name); kind.view) script += kind.view(kind.file);
-  script +=
-      "GetAnimationScene().UpdateAnimationUsingDataTimeSteps()\n"
-      "ResetCamera(view)\n"
-      "Render(view)\n";
-  return script;
 }
 
 }  // namespace

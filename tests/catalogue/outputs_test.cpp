@@ -100,7 +100,7 @@ TEST(OutputFile, OfACatalogueIsWrittenByARunAndRemovedByTheNext) {
     said(run);
     EXPECT_TRUE(has(read_file(folder / "out/toy/toy_0001.txt"), " particles move\n"));
     EXPECT_TRUE(has(read_file(folder / "out/toy.pvd"), "toy/toy_0000.txt"));
-    EXPECT_TRUE(has(read_file(folder / "out/view.py"), "toy = PVDReader(registrationName='toy'"));
+    EXPECT_TRUE(has(read_file(folder / "out/view.py"), "toy = open_series(\"toy\")"));
     std::vector<std::string> again = run;
     again.insert(again.end(), {"--set", "output.vtk=[\"density\"]"});
     said(again);
