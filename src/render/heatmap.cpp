@@ -38,6 +38,7 @@ Style heatmap_style() {
   return {.about = {.name = "heatmap", .meaning = "colours from above", .most_dimension = 2},
           .cost = {.a_point = 0.7e-8},
           .in_panels = true,
+          .white_at_zero = true,
           .takes_velocity = true,
           .painting = heatmap};
 }

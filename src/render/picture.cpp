@@ -25,7 +25,12 @@ ColourRange colour_range(const Style& style, const DensityGrid& density, const P
   range.map = options.looks.colour_map.empty() ? style.colours : find_colour_map(options.looks.colour_map).map;
   range.min = options.range_min, range.max = options.range_max, range.log = options.looks.log;
   const bool is_given = std::isfinite(range.min) && std::isfinite(range.max) && range.min < range.max;
-  if (is_given && (!range.log || range.min > 0)) return range;
+  const auto with_middle = [&] {  // such a range was chosen for values of both signs
+    if (options.looks.colour_map.empty() && style.white_at_zero && !range.log && range.min == -range.max)
+      range.map = blue_white_red;
+    return range;
+  };
+  if (is_given && (!range.log || range.min > 0)) return with_middle();
   double minimum = 0, maximum = 0;
   if (range.log) {
     const ValueFacts facts = facts_of(density.rho);
@@ -34,7 +39,7 @@ ColourRange colour_range(const Style& style, const DensityGrid& density, const P
   for (const double value : density.rho)
     if (!range.log && std::isfinite(value)) minimum = std::min(minimum, value), maximum = std::max(maximum, value);
   std::tie(range.min, range.max) = range_of(style, options.looks, minimum, maximum);
-  return range;
+  return with_middle();
 }
 
 /// The first point to show along an axis, and how many: all that lie in [low, high] and one beyond each end.

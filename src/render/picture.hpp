@@ -69,6 +69,9 @@ std::pair<double, double> rounded_range(double minimum, double maximum);
 /// more than six powers of ten. [0.1, 1] where no value is positive.
 std::pair<double, double> logarithmic_range(double minimum, double maximum);
 
+/// Whether values fall well below 0 and do not only overshoot it, as blobs of high order do.
+bool has_both_signs(double minimum, double maximum);
+
 /// The range of a style for these extremes, and for its looks: logarithmic, or as far below 0 as above where the colours
 /// have a middle.
 std::pair<double, double> range_of(const Style& style, const PicturesSpec& looks, double minimum, double maximum);

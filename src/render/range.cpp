@@ -63,9 +63,15 @@ std::pair<double, double> logarithmic_range(double minimum, double maximum) {
   return {low, high};
 }
 
+bool has_both_signs(double minimum, double maximum) {
+  constexpr double overshoot = 0.05;
+  return minimum < 0 && minimum < -overshoot * maximum;
+}
+
 std::pair<double, double> range_of(const Style& style, const PicturesSpec& looks, double minimum, double maximum) {
   if (looks.log) return logarithmic_range(minimum, maximum);
-  const bool has_middle = !looks.colour_map.empty() && find_colour_map(looks.colour_map).map == blue_white_red;
+  const bool has_middle = looks.colour_map.empty() ? style.white_at_zero && has_both_signs(minimum, maximum)
+                                                   : find_colour_map(looks.colour_map).map == blue_white_red;
   return has_middle ? symmetric_range(minimum, maximum) : style.range(minimum, maximum);
 }
 

@@ -60,6 +60,7 @@ Style slices_style() {
           .cost = {.a_point_in_space = 0.7e-8},
 
           .in_panels = true,
+          .white_at_zero = true,
           .painting = slices};
 }
 

@@ -42,6 +42,7 @@ struct Style {
   std::pair<double, double> (*range)(double, double) = rounded_range;  // round ends for smallest and largest value
   Cost cost{};
   bool in_panels = false;       // legible as a small picture among others: the summary of a run is drawn in it
+  bool white_at_zero = false;   // of values of both signs, unless the case names a map: blue, white and red
   bool takes_velocity = false;  // looks.velocity is drawn over it, in 2D
   /// The density must live until the painting is done. Throws Error(ExitCode::internal) for a density that the style
   /// does not show, or that has no value at some point.

@@ -106,7 +106,7 @@ Style surface_style() {
                    .most_points = most_points * most_points,  // a triangle for every point
                    .memory = 1.36e8,
                    .memory_of_pixel = 130},
-
+          .white_at_zero = true,
           .painting = surface};
 }
 

@@ -220,8 +220,7 @@ void mark_signed(std::vector<render::Panel>& panels) {
     if (!panel.is_difference)
       for (const double value : panel.density.rho)
         if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
-  constexpr double overshoot = 0.05;  // of blobs of high order
-  if (low >= -overshoot * high) return;
+  if (!render::has_both_signs(low, high)) return;
   for (render::Panel& panel : panels) panel.is_difference = true;
 }
 

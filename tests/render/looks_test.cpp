@@ -69,6 +69,27 @@ TEST(LogarithmicRange, IsRoundAndAtMostSixPowersWide) {
   EXPECT_EQ(logarithmic_range(-1, 0), std::pair(0.1, 1.));
 }
 
+TEST(RangeOfAStyle, IsAsFarBelowZeroAsAboveForBothSigns) {
+  const Style &map = find_style("heatmap"), &lines = find_style("contour");
+  EXPECT_EQ(range_of(map, {}, -0.5, 1), std::pair(-1., 1.));
+  EXPECT_EQ(range_of(map, {}, -1, 0), std::pair(-1., 1.));
+  EXPECT_EQ(range_of(map, {}, -0.005, 1), std::pair(0., 1.)) << "an overshoot of blobs of high order";
+  EXPECT_EQ(range_of(map, {.colour_map = "viridis"}, -0.5, 1), lines.range(-0.5, 1)) << "as the case wishes";
+  EXPECT_EQ(range_of(lines, {}, -0.5, 1), lines.range(-0.5, 1)) << "white lines are not seen";
+}
+
+TEST_F(Looks, ValuesOfBothSignsHaveWhiteAtZeroAndOthersNot) {
+  const auto of = [](double low) {
+    const auto density = sampled([low](double x, double) { return x < 0.5 ? low : 1; });
+    const Image image = picture_of(find_style("heatmap"), density, {.range_max = 0, .width = 640, .height = 480});
+    return std::pair(count(image, blue_white_red(1)), count(image, viridis(1)));
+  };
+  EXPECT_GT(of(-1).first, 10'000u);
+  EXPECT_LT(of(-1).second, 100u);
+  EXPECT_GT(of(0).second, 10'000u);
+  EXPECT_LT(of(0).first, 100u);
+}
+
 TEST_F(Looks, ColourMapReplacesThatOfTheStyle) {
   const auto density = sampled([](double, double) { return 0.5; });
   for (const ColourMap& map : colour_maps())
