@@ -37,6 +37,7 @@ void take_heading(const fs::path& folder, Drawable& drawable) {
     const std::string name = write::name_of_run(folder);
     drawable.title = !spec.title.empty() ? spec.title : name.empty() ? drawable.title : name;
     drawable.date = spec.time.date;
+    drawable.label = spec.label;
   } catch (const Error&) {  // pictures need none of it; a run may have lost its data
   }
 }
@@ -85,6 +86,7 @@ Drawable start_to_draw(const fs::path& file) {
   Drawable drawable;
   drawable.title = spec->title.empty() ? spec->name : spec->title;
   drawable.date = spec->time.date;
+  drawable.label = spec->label;
   drawable.times = {spec->time.at(0)};
   drawable.numbers = {0};
   const auto rho = std::shared_ptr<const InitialDensity>(make_density(*spec));

@@ -15,6 +15,7 @@ namespace gaussdrift::cli {
 
 struct Drawable {
   std::string title;
+  std::string label = "density";              // what the density is called
   std::vector<std::optional<double>> times;   // one of each density
   std::vector<std::size_t> numbers;           // of them, for names of files
   std::function<std::string(double)> date{};  // of a time; empty: there is none

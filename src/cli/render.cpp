@@ -229,7 +229,9 @@ std::vector<std::string> draw_pictures(const Plan& plan, std::pair<double, doubl
     const std::optional<double>& time = plan.drawable.times[i];
     draw(*plan.style, plan.density(i),
          {.title = plan.drawable.title,
-          .quantity = plan.array.empty() ? "density" : plan.array,
+          .quantity = !plan.array.empty()             ? plan.array
+                      : plan.style->about.shows_error ? plan.style->quantity
+                                                      : plan.drawable.label,
           .time = time,
           .date = time && plan.drawable.date ? plan.drawable.date(*time) : "",
           .range_min = range.first,

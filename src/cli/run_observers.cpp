@@ -27,6 +27,7 @@ void observe_pictures(Simulation& simulation, const Case& spec, const fs::path& 
                                {.warn = [&](const std::string& line) { later.push_back(line); },
                                 .date = spec.time.date,
                                 .tracer = tracer,
+                                .label = spec.label,
                                 .sphere = spec.domain.sphere,
                                 .looks = spec.output.pictures,
                                 .beside = beside,

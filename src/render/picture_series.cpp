@@ -63,6 +63,7 @@ class PictureSeries : public Observer {
         warn_(std::move(options.warn)),
         date_(std::move(options.date)),
         tracer_(std::move(options.tracer)),
+        label_(std::move(options.label)),
         looks_(std::move(options.looks)),
         beside_wanted_(options.beside),
         // Of a named density, and of fields, none are written for pictures alone.
@@ -220,7 +221,9 @@ class PictureSeries : public Observer {
     PictureOptions options = options_;
     options.time = times_[index];
     if (date_) options.date = date_(times_[index]);
-    options.quantity = array().empty() ? std::string(style.quantity) : array();
+    options.quantity = !array().empty()                            ? array()
+                       : label_.empty() || style.about.shows_error ? std::string(style.quantity)
+                                                                   : label_;
     std::tie(options.range_min, options.range_max) = looks_.range ? std::pair((*looks_.range)[0], (*looks_.range)[1])
                                                      : looks_.per_frame ? std::pair(0., 0.)
                                                                         : range;
@@ -236,6 +239,7 @@ class PictureSeries : public Observer {
   std::function<void(const std::string&)> warn_;
   std::function<std::string(double t)> date_;
   std::string tracer_;  // empty: the density
+  std::string label_;   // of the density; empty: as the style calls it
   PicturesSpec looks_;
   bool beside_wanted_;
   std::vector<Drawn> styles_;

@@ -20,6 +20,7 @@ struct SeriesOptions {
   std::function<void(const std::string&)> warn{};  // gets lines for people
   std::function<std::string(double t)> date{};     // of an output, shown beside its time; empty: there is none
   std::string tracer{};  // the pictures show this named density, not that of all: images/A_surface_0000.png, ...
+  std::string label{};   // what the density is called; empty: as the style does
   double sphere = 0;     // of the lattice of every density
   PicturesSpec looks{};  // a zoom or a velocity where all styles can show them
   bool beside = false;   // drawn by another thread while the run goes on, of copies of the densities

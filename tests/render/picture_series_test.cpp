@@ -150,6 +150,19 @@ TEST_F(PictureSeries, OfARunWithoutDensityFilesAreTheSameToo) {
   EXPECT_TRUE(said.empty());
 }
 
+TEST_F(PictureSeries, NamesTheDensityAsTheCaseDoes) {
+  const auto pictures_with = [](const std::string& label) {
+    const ScratchFolder folder;
+    Growing scene(make_lattice(2, {-1, -1, 0}, {1, 1, 0}, 21));
+    const auto pictures = picture_series(folder.path(), called({"heatmap"}), "hill", {.label = label});
+    scene.show(*pictures, 0);
+    pictures->finish();
+    return pictures_in(folder);
+  };
+  EXPECT_EQ(pictures_with(""), pictures_with("density"));
+  EXPECT_NE(pictures_with("vorticity"), pictures_with("density"));
+}
+
 /// What a run keeps for its pictures stays as long as a checkpoint does.
 TEST_F(PictureSeries, KeepsItsDensitiesBesideACheckpoint) {
   const ScratchFolder folder;
