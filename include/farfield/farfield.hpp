@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
@@ -113,6 +114,28 @@ std::string to_string(Method method);
 /// How the method sums and when it is good, in one line.
 std::string meaning(Method method);
 
+/// What lies beyond the ends of an axis; docs/farfield.md, "Periodic boxes and mirrors".
+enum class Ends {
+  unbounded,   ///< nothing
+  periodic,    ///< copies of all points, shifted by high - low, without end
+  mirrors,     ///< mirrored copies at `low` and at `high`, and their mirror images, without end
+  mirror_low,  ///< one mirrored copy, at `low`; `high` is not looked at
+  mirror_high  ///< one mirrored copy, at `high`; `low` is not looked at
+};
+
+/// One axis of the box, in the units of the points.
+struct Axis {
+  Ends ends = Ends::unbounded;  ///< what is beyond it
+  double low = 0;               ///< where the box begins
+  double high = 0;              ///< where it ends; > low where both count
+};
+
+/// The charge of a mirror image.
+enum class MirrorImages {
+  equal,    ///< that of the source: the field of charges does not cross the mirror
+  opposite  ///< its opposite: the velocity of vortices does not cross the mirror, and the potential of charges is 0 on it
+};
+
 /// What a Plan is asked for. The defaults are valid.
 struct Options {
   double tolerance = 1e-6;                          ///< see Plan; smallest_tolerance <= tolerance < 1
@@ -123,10 +146,16 @@ struct Options {
   std::size_t memory_limit = std::size_t{8} << 30;  ///< bytes that plan and evaluation may hold together
   double most_seconds = std::numeric_limits<double>::infinity();  ///< that may be predicted, for one thread
   std::size_t leaf_size = 0;  ///< clusters of more points are divided; 0: chosen by the predicted time
+  /// What is beyond the ends of each axis; d = 2, 3, and one process. In 3D all three axes are periodic or between two
+  /// mirrors, or none is.
+  std::array<Axis, 3> axes{};
+  MirrorImages mirror_images = MirrorImages::equal;  ///< charges of mirror images
 };
 
 /// Tolerances below are not promised by `tree` and `symmetric`; `direct` is then taken by `automatic`.
 constexpr double smallest_tolerance = 1e-11;
+/// Tolerances below are not promised where an axis has copies without end: Ends::periodic and Ends::mirrors.
+constexpr double smallest_folded_tolerance = 1e-11;
 
 // ---------------------------------------------------------------------------------------------------------------
 // Results
@@ -167,6 +196,8 @@ struct Choice {
   std::size_t leaf_size = 0;  ///< tree, symmetric: clusters of more points are divided
   std::size_t clusters = 0;   ///< tree, symmetric: of all levels
   int levels = 0;             ///< tree, symmetric: of the tree
+  std::size_t copies = 1;     ///< of the sources, that are summed as sources: their own, and those next to the box
+  int rest_degree = 0;        ///< of the polynomial for all other copies; 0: there are no others
 };
 
 /// One line: method, parameters, bound and predicted seconds.
@@ -208,7 +239,7 @@ struct Received {
 
 namespace detail {
 template <int d>
-class Engine;
+class Evaluator;
 }
 
 /// Sums for fixed points and any charges. What is promised, for all points, all charges and every target i, with f~ the
@@ -271,7 +302,7 @@ class Plan {
   Received received() const;
 
  private:
-  std::unique_ptr<detail::Engine<d>> engine_;
+  std::unique_ptr<detail::Evaluator<d>> evaluator_;
 };
 
 namespace detail {

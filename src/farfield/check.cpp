@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "farfield/catalogue.hpp"
+#include "farfield/images/copies.hpp"
 
 namespace farfield::detail {
 
@@ -31,6 +32,7 @@ void check_options(Kernel kernel, const Options& options, int dimension) {
     refuse("Options::most_seconds = " + text(options.most_seconds) + ", must be at least 0");
   if (options.threads < 0)
     refuse("Options::threads = " + std::to_string(options.threads) + ", must be positive, or 0 for all");
+  check_axes(options, dimension);
 }
 
 void check_points(const char* kind, const double* points, std::size_t dimension, std::size_t count, std::size_t stride,

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "farfield/check.hpp"
 #include "farfield/choose.hpp"
+#include "farfield/images/copies.hpp"
 #include "farfield/ranks/shared_site.hpp"
 
 namespace farfield::detail {
@@ -120,6 +121,8 @@ Engine<d>::Engine(Kernel kernel, const Eigen::Ref<const Points<d>>& points, std:
   const std::size_t count = static_cast<std::size_t>(points.cols());
   together([&] {
     check_options(kernel, options, d);
+    if (has_copies(options))
+      throw InvalidArgument("farfield: Options::axes must be unbounded where points are on several ranks");
     if (numbers.size() != count)
       throw InvalidArgument("farfield: there are " + std::to_string(numbers.size()) + " numbers for " +
                             std::to_string(count) + " points; there must be one for every point");

@@ -8,14 +8,14 @@
 #include <span>
 #include <vector>
 
-#include "farfield/farfield.hpp"
+#include "farfield/evaluator.hpp"
 #include "farfield/problem.hpp"
 #include "farfield/ranks/channel.hpp"
 
 namespace farfield::detail {
 
 template <int d>
-class Engine {
+class Engine : public Evaluator<d> {
  public:
   /// targets: null if the sources are the targets.
   Engine(Kernel kernel, const Eigen::Ref<const Points<d>>& sources, const Eigen::Ref<const Points<d>>* targets,
@@ -26,9 +26,9 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds& seconds) const;
-  const Choice& choice() const { return choice_; }
-  Received received() const { return received_; }
+  Values<d> evaluate(const Eigen::Ref<const Eigen::VectorXd>& charges, Seconds& seconds) const override;
+  const Choice& choice() const override { return choice_; }
+  Received received() const override { return received_; }
 
  private:
   void set_problem(Kernel kernel, int exponent);
