@@ -68,7 +68,7 @@ set(public_field density/density density/radial_density density/shapes density/s
   velocity/expression_field velocity/streamfunction_field velocity/sum_field velocity/velocity)
 set(public_read calendar grid_file grid_file_error missing_data netcdf/netcdf_file npy point_file written_run)
 set(public_particle chord columns cutoff fgtd_points images pieces_by_id placing round_coordinates seeding subset tiles)
-set(public_effect catalogue diffusivity drift effect path_integral tracer_reactions)
+set(public_effect catalogue diffusivity drift effect pair_images path_integral tracer_reactions)
 set(public_reference characteristics exact_paths formula lost_velocity norms reference sample coordinates)
 set(public_sim carrier checks comparison borders/departures borders/edges fields_on_grid follow/particle_fields follow/time_units grid_fields grid_pieces landings make_fields moments borders/outside releases run_state scene sharing stable_step stepper tiled_density transform work)
 set(public_write atomic_file checkpoint folder_lock npy_file output_files provenance result_folder run_folder series_table summary track_files folder_facts vtk_files)

@@ -157,6 +157,15 @@ constexpr double smallest_tolerance = 1e-11;
 /// Tolerances below are not promised where an axis has copies without end: Ends::periodic and Ends::mirrors.
 constexpr double smallest_folded_tolerance = 1e-11;
 
+/// How many copies of the sources a Plan with these options sums as sources, their own among them, for points that fill the
+/// box of Options::axes; along an axis that is not bounded they are taken to reach as far as along the longest that is.
+/// More are summed for tolerances below 1e-8 and for blobs with wide cores.
+/// @throws InvalidArgument, ToleranceError  as a Plan
+template <int d>
+std::size_t near_copies(const Options& options);
+extern template std::size_t near_copies<2>(const Options& options);
+extern template std::size_t near_copies<3>(const Options& options);
+
 // ---------------------------------------------------------------------------------------------------------------
 // Results
 

@@ -91,6 +91,7 @@ EffectMemory memory_of_effects(const Case& spec) {
     const EffectMemory one = effect->memory(written, spec.domain.dimension);
     effects.integrals += one.integrals, effects.columns += one.columns;
     effects.kept += one.kept, effects.step += one.step;
+    if (effect->memory_of_images) effects.step += effect->memory_of_images(spec);
     if (effect->traits.adds_particles.of(written, spec.domain.dimension))  // it exchanges each named density
       effects.step += 6 * number * static_cast<double>(spec.tracers.size());
   }

@@ -136,6 +136,8 @@ struct NamedEffect {
   /// Work of a particle in a step besides stages, in evaluations of a velocity (sim/work.hpp, Work).
   double (*work)(const EffectSpec& effect, const Case& spec) = nullptr;
   EffectMemory (*memory)(const EffectSpec& effect, int dimension) = nullptr;
+  /// Further bytes of a particle during a step, where images of it beyond the edges of the domain act too.
+  double (*memory_of_images)(const Case& spec) = nullptr;
   /// The same effect on a lattice `times` as coarse, for a trial: in units of the spacing nothing changes.
   void (*coarsen)(EffectSpec& effect, double times) = nullptr;
   /// From values that complete_effect() has made complete.

@@ -10,14 +10,20 @@
 #include "base/exact_sum.hpp"
 #include "effect/catalogue.hpp"
 #include "effect/nodes.hpp"
+#include "effect/pair_images.hpp"
 
 namespace gaussdrift {
 
 std::string Charge::describe() const {
-  return fmt::format("charges drift, X_j' += {:g} sum_k q_k (X_j - X_k)/r^{}{}, q = {}, to {:g} of sum |q|/r^{}",
+  return fmt::format("charges drift, X_j' += {:g} sum_k q_k (X_j - X_k)/r^{}{}{}, q = {}, to {:g} of sum |q|/r^{}",
                      options_.mobility, options_.dimension, options_.dimension == 2 ? " (1 - exp(-r^2/eps^2))" : "",
+                     images_text(options_.domain, false),
                      options_.own ? "h^d (" + options_.written + ") at the start" : "alpha", options_.tolerance,
                      options_.dimension - 1);
+}
+
+std::string Charge::conserves() const {
+  return images_text(options_.domain, false).empty() ? "charge and, without a flow, its centroid" : "charge";
 }
 
 void Charge::begin(Particles& particles, double /*time*/) {
@@ -64,7 +70,7 @@ void Charge::add(double t, const Particles& particles, const PointsView& x, cons
   if (options_.dimension == 2) {
     // The field of a Gaussian charge is the velocity of a vortex blob turned by a quarter, times 2 pi.
     const double core = std::sqrt(options_.core_radius * options_.core_radius + options_.spreading * t);
-    const farfield::Points<2> turned = pairs_.vortices(x, particles.id, charges, core);
+    const farfield::Points<2> turned = pairs_.vortices(x, particles.id, charges, core, farfield::MirrorImages::equal);
     const double factor = 2 * std::numbers::pi * options_.mobility;
     for (std::size_t j = 0; j < x.count; ++j) {
       u.axis[0][j] += factor * turned(1, static_cast<Eigen::Index>(j));
@@ -78,11 +84,13 @@ void Charge::add(double t, const Particles& particles, const PointsView& x, cons
 }
 
 Numbers Charge::numbers() const {
-  return {{"evaluations", static_cast<double>(pairs_.evaluations())},
-          {"tolerance", options_.tolerance},
-          {"clusters", static_cast<double>(pairs_.last_choice().clusters)},
-          {"charge", total_},
-          {"largest_rate", largest_rate_}};
+  Numbers numbers{{"evaluations", static_cast<double>(pairs_.evaluations())},
+                  {"tolerance", options_.tolerance},
+                  {"clusters", static_cast<double>(pairs_.last_choice().clusters)},
+                  {"charge", total_},
+                  {"largest_rate", largest_rate_}};
+  if (has_background(options_.domain, false)) numbers.emplace_back("background", background(options_.domain, total_));
+  return numbers;
 }
 
 namespace {
@@ -97,7 +105,8 @@ std::unique_ptr<Effect> make_charge(const EffectSpec& effect, const EffectScene&
                           .tolerance = effect.number("tolerance"),
                           .dimension = scene.spec.domain.dimension,
                           .threads = scene.threads,
-                          .ranks = &scene.ranks};
+                          .ranks = &scene.ranks,
+                          .domain = scene.spec.domain};
   if (scene.carried) {
     // The density of charge times the volume of a particle. Particles of other ranks may have come, so places are those
     // of the nodes that they started on.
@@ -165,8 +174,11 @@ NamedEffect charge() {
                  .needs_lengths = {.words = "the forces are those of the plane and of space"}},
       .carried = "density",
       .carried_name = "charge",
+      .problems = [](const EffectSpec& effect,
+                     const Case& spec) { return tolerance_of_images(effect.number("tolerance"), spec.domain); },
       .memory = [](const EffectSpec&,
                    int dimension) { return EffectMemory{.step = PairVelocity::bytes_of_particle(dimension)}; },
+      .memory_of_images = bytes_of_images,
       .make = make_charge};
 }
 

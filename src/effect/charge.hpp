@@ -24,18 +24,19 @@ class Charge : public Effect, private Drift {
     int dimension = 2;
     int threads = 0;
     base::Communicator* ranks = nullptr;  // that share the particles; null: all are here
+    Domain domain{};                      // images are beyond its periodic and closed edges
     /// Charges of particles at the start, from the nodes of the lattice that they started on; null: their weights, at all
     /// times.
     std::function<std::vector<double>(const Particles&)> own{};
     std::string written{};  // the density of those, for people
   };
   explicit Charge(Options options)
-      : options_(std::move(options)), pairs_(options_.tolerance, options_.threads, options_.ranks) {}
+      : options_(std::move(options)), pairs_(options_.tolerance, options_.threads, options_.ranks, options_.domain) {}
 
   std::string name() const override { return "charge"; }
   std::string describe() const override;
   Changes changes() const override { return {.position = true}; }
-  std::string conserves() const override { return "charge and, without a flow, its centroid"; }
+  std::string conserves() const override;
   /// Within 1 / (mobility div E) the density changes by its own size.
   double stable_step() const override;
   std::string warning() const override;

@@ -4,7 +4,7 @@
 
 #include <exception>
 
-#include "base/users_words.hpp"
+#include "effect/pair_images.hpp"
 #include "gaussdrift/error.hpp"
 
 namespace gaussdrift {
@@ -27,16 +27,23 @@ void in_words_of_particles(const Work& work, const IdOf& id_of) {
                     "too close to another",
                     error.quantity, id_of(error.target)));
   } catch (const farfield::Error& error) {  // positions or weights that are not finite, points too close
-    throw NumericalError(
-        fmt::format("the velocities that particles give each other cannot be summed: {}",
-                    base::in_users_words(error.what(), {{"Options::tolerance = ", "a tolerance of "}})));
+    throw NumericalError(fmt::format("the velocities that particles give each other cannot be summed: {}",
+                                     in_words_of_domains(error.what())));
   }
 }
 
 }  // namespace
 
-PairVelocity::PairVelocity(double tolerance, int threads, base::Communicator* ranks)
-    : tolerance_(tolerance), threads_(threads), ranks_(ranks && ranks->size() > 1 ? ranks : nullptr) {
+PairVelocity::PairVelocity(double tolerance, int threads, base::Communicator* ranks, const Domain& domain)
+    : tolerance_(tolerance),
+      threads_(threads),
+      ranks_(ranks && ranks->size() > 1 ? ranks : nullptr),
+      axes_(axes_of(domain)) {
+  if (ranks_ && (domain.has(Edge::periodic) || domain.has(Edge::closed)))
+    throw InputError(fmt::format(
+        "the velocities that particles and their images beyond periodic and closed edges give each other are summed on "
+        "one rank alone, and there are {}. Run the case on one rank, with as many threads as the machine has.",
+        ranks_->size()));
   if (ranks_) farfield_ranks_ = std::make_unique<FarfieldRanks>(*ranks_);
 }
 
@@ -77,15 +84,22 @@ farfield::Points<d> PairVelocity::field_of(farfield::Kernel kernel, const Points
 }
 
 farfield::Points<2> PairVelocity::vortices(const PointsView& x, const std::vector<std::int64_t>& ids,
-                                           const std::vector<double>& weights, double core) const {
+                                           const std::vector<double>& weights, double core,
+                                           farfield::MirrorImages mirrored) const {
   return field_of<2>(farfield::Kernel::vortex_blob, x, ids, weights,
-                     {.tolerance = tolerance_, .threads = threads_, .core_radius = core, .potential = false}, plane_);
+                     {.tolerance = tolerance_,
+                      .threads = threads_,
+                      .core_radius = core,
+                      .potential = false,
+                      .axes = axes_,
+                      .mirror_images = mirrored},
+                     plane_);
 }
 
 farfield::Points<3> PairVelocity::charges(const PointsView& x, const std::vector<std::int64_t>& ids,
                                           const std::vector<double>& weights) const {
   return field_of<3>(farfield::Kernel::coulomb, x, ids, weights,
-                     {.tolerance = tolerance_, .threads = threads_, .potential = false}, space_);
+                     {.tolerance = tolerance_, .threads = threads_, .potential = false, .axes = axes_}, space_);
 }
 
 }  // namespace gaussdrift

@@ -1,6 +1,7 @@
 // Sums of farfield over all particles, as the effects charge and vortex need them: a plan for each set of positions.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "base/communicator.hpp"
 #include "base/state_bytes.hpp"
 #include "farfield/farfield.hpp"
+#include "gaussdrift/case.hpp"
 #include "gaussdrift/particles.hpp"
 #include "gaussdrift/points.hpp"
 
@@ -58,13 +60,15 @@ class FarfieldRanks : public farfield::Ranks {
 class PairVelocity {
  public:
   /// threads: 0 for all. tolerance: as the promise of farfield has it. ranks: that share the particles; null: all are
-  /// here. All of them call the functions together, and agree on errors.
-  PairVelocity(double tolerance, int threads, base::Communicator* ranks = nullptr);
+  /// here. All of them call the functions together, and agree on errors. domain: whose edges have images beyond them.
+  /// Throws InputError if there are such edges and several ranks.
+  PairVelocity(double tolerance, int threads, base::Communicator* ranks = nullptr, const Domain& domain = {});
 
   /// Velocity at x of vortex blobs of core radius `core` and circulations `weights`: 2 x particles. On several ranks sums
-  /// have the order of ids.
+  /// have the order of ids. mirrored: the circulations of images in closed edges.
   farfield::Points<2> vortices(const PointsView& x, const std::vector<std::int64_t>& ids,
-                               const std::vector<double>& weights, double core) const;
+                               const std::vector<double>& weights, double core,
+                               farfield::MirrorImages mirrored = farfield::MirrorImages::opposite) const;
   /// Field of point charges: 3 x particles.
   farfield::Points<3> charges(const PointsView& x, const std::vector<std::int64_t>& ids,
                               const std::vector<double>& weights) const;
@@ -87,6 +91,7 @@ class PairVelocity {
   double tolerance_;
   int threads_;
   base::Communicator* ranks_;  // null: one rank
+  std::array<farfield::Axis, 3> axes_;
   std::unique_ptr<FarfieldRanks> farfield_ranks_;
   // The plan of the last evaluation. It is kept because plans share their tables as long as one of them lives.
   mutable std::unique_ptr<farfield::Plan<2>> plane_;

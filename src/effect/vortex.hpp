@@ -18,14 +18,15 @@ class Vortex : public Effect, private Drift {
     double tolerance = 1e-6;
     int threads = 0;
     base::Communicator* ranks = nullptr;  // that share the particles; null: all are here
+    Domain domain{};                      // images are beyond its periodic and closed edges
   };
   explicit Vortex(const Options& options)
-      : options_(options), pairs_(options.tolerance, options.threads, options.ranks) {}
+      : options_(options), pairs_(options.tolerance, options.threads, options.ranks, options.domain) {}
 
   std::string name() const override { return "vortex"; }
   std::string describe() const override;
   Changes changes() const override { return {.position = true}; }
-  std::string conserves() const override { return "circulation and, without a flow, its centroid"; }
+  std::string conserves() const override;
   /// A turn of the fastest vortex is 4 pi / vorticity; a step of 1 / vorticity is accurate with rk4.
   double stable_step() const override;
 
@@ -34,7 +35,7 @@ class Vortex : public Effect, private Drift {
   bool talks_to_ranks() const override { return options_.ranks != nullptr; }
   Numbers numbers() const override;
   void pass_state(base::StateBytes& bytes, const Particles& /*particles*/) override {
-    bytes(largest_vorticity_);
+    bytes(largest_vorticity_, circulation_);
     pairs_.pass_state(bytes);
   }
 
@@ -43,7 +44,7 @@ class Vortex : public Effect, private Drift {
 
   Options options_;
   PairVelocity pairs_;
-  double largest_vorticity_ = 0;
+  double largest_vorticity_ = 0, circulation_ = 0;
 };
 
 }  // namespace gaussdrift

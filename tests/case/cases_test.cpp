@@ -126,6 +126,7 @@ const std::vector<Reduced> reduced_cases = {
     {"channel", {"particles.per_axis=201", "evaluate.per_axis=61"}, 0.029},
     {"kirchhoff", {"particles.per_axis=81", "evaluate.per_axis=61"}, 0.14},
     {"lamb_oseen", {"particles.per_axis=49", "evaluate.per_axis=61", "time.step=0.04"}, 0.062},  // (eps/R)^2
+    {"vortex_array", {"particles.per_axis=33", "evaluate.per_axis=33"}, 0.05},                   // eps^2/2
 };
 
 std::vector<FrameNumbers> run_reduced(const Reduced& reduced) {

@@ -226,7 +226,9 @@ INSTANTIATE_TEST_SUITE_P(
              {"time.step=0.01", "effects.diffusion.D=0.01", "effects.diffusion.method=particle-exchange",
               "domain.edges=[\"periodic\", \"closed\"]"}},
         Kind{"charge", {"time.step=0.05", "effects.charge.mobility=0.3"}},
-        Kind{"vortex", {"time.step=0.05", "effects.vortex.tolerance=1e-6"}}),
+        Kind{"vortex", {"time.step=0.05", "effects.vortex.tolerance=1e-6"}},
+        Kind{"vortex_and_images",
+             {"time.step=0.05", "effects.vortex.tolerance=1e-6", "domain.edges=[\"periodic\", \"closed\"]"}}),
     [](const auto& kind) { return kind.param.name; });
 
 /// What [effects] can have, and no effect.

@@ -92,8 +92,19 @@ TEST(Edges, DoNotGoWithWhatKnowsNothingOfThem) {
     expect_has(with_edges(edges, {}, exchange), "method = \"core-spreading\" or \"random-walk\"");
     expect_has(with_edges(edges, {}, target), "no settings can be chosen for a target with open edges");
   }
-  expect_has(with_edges("[\"periodic\", \"open\"]", {}, charge),
-             "edges that are periodic or closed do not go with [effects.charge]: the images of particles");
+  for (const char* edges :
+       {"[\"periodic\", \"closed\"]", "[\"periodic\", \"open\"]", "[[\"closed\", \"open\"], \"unbounded\"]"})
+    EXPECT_EQ(with_edges(edges, {}, charge), "");
+  expect_has(with_edges("[\"periodic\", \"closed\"]", {"effects.charge.tolerance=1e-12"}, charge),
+             "must be at least 1e-11 with edges that are periodic or closed, found 1e-12");
+  expect_has(with_edges("[\"periodic\", \"closed\"]", {"domain.max=[1, 99]", "particles.per_axis=501"}, charge),
+             "domain.edges does not go with [effects.charge]: the domain along x has the length 2, must be at least");
+  const std::string in_space =
+      "gaussdrift = 1\n[domain]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nedges = [\"periodic\", \"periodic\", \"open\"]\n"
+      "[velocity]\nu = [\"0\", \"0\", \"0\"]\n[density]\nexpression = \"1\"\n[particles]\nper_axis = 21\n"
+      "[time]\nend = 1\nstep = 0.1\n[effects.charge]\nmobility = 1\n";
+  expect_has(errors(in_space, {}),
+             "in three dimensions the images of particles are summed where all axes are periodic or");
   EXPECT_EQ(with_edges("[\"open\", \"unbounded\"]", {}, charge), "");
   EXPECT_EQ(with_edges("[\"unbounded\", \"unbounded\"]", {}, remesh), "") << "as if nothing were said";
 }

@@ -160,3 +160,23 @@ template class Copies<2>;
 template class Copies<3>;
 
 }  // namespace farfield::detail
+
+namespace farfield {
+
+template <int d>
+std::size_t near_copies(const Options& options) {
+  detail::check_axes(options, d);
+  double longest = 0, low[3] = {}, high[3] = {};
+  for (const Axis& axis : options.axes) longest = std::max(longest, axis.high - axis.low);
+  for (std::size_t l = 0; l < d; ++l) {
+    const Axis& axis = options.axes[l];
+    low[l] = axis.ends == Ends::mirror_high ? axis.high : axis.low;
+    high[l] = low[l] + longest;
+  }
+  return detail::Copies<d>(options, low, high, detail::good_distance).near().size();
+}
+
+template std::size_t near_copies<2>(const Options& options);
+template std::size_t near_copies<3>(const Options& options);
+
+}  // namespace farfield

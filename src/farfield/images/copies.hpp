@@ -38,6 +38,10 @@ struct Copy {
   double charge = 1;  // of a source, in units of its own
 };
 
+/// Copies next to the box reach as far as this part of the longest reach of an axis: then 3 to 6 degrees of the rest make
+/// a digit.
+constexpr double good_distance = 0.8;
+
 /// True if there is something beyond the ends of any axis.
 bool has_copies(const Options& options);
 

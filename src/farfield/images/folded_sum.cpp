@@ -12,10 +12,6 @@ namespace {
 /// The part of the tolerance that the rest may cost.
 constexpr double rest_share = 0.125;
 
-/// Copies reach as far as this part of the longest reach of an axis: then 3 to 6 degrees of the rest make a digit. For
-/// the smallest tolerances that takes too many degrees, and the copies reach twice as far.
-constexpr double good_distance = 0.8;
-
 template <int d>
 Points<d> points_in_box(const Options& options, const Eigen::Ref<const Points<d>>& points,
                         std::vector<unsigned char>* mirrored) {
@@ -96,11 +92,12 @@ FoldedSum<d>::FoldedSum(Kernel kernel, const Eigen::Ref<const Points<d>>& source
 
 template <int d>
 void FoldedSum<d>::choose_copies(const double* low, const double* high) {
+  // The smallest tolerances would take too many degrees.
   for (const double distance : {good_distance, 2 * good_distance}) {
     copies_.emplace(options_, low, high, distance);
     if (!copies_->repeats()) return;
     try {
-      rest_.emplace(*copies_, RestShape<d>::get(*copies_, rest_share * options_.tolerance, options_.threads));
+      rest_.emplace(*copies_, RestShape<d>::get(*copies_, rest_share * options_.tolerance));
       return;
     } catch (const ToleranceError&) {
       if (distance > good_distance) throw;

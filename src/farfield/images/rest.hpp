@@ -18,8 +18,8 @@ class RestShape {
  public:
   /// Equal axes and tolerances share one as long as somebody holds it. `tolerable`: the error in field and potential of a
   /// charge, relative to what the promise is relative to. Throws ToleranceError.
-  static std::shared_ptr<const RestShape> get(const Copies<d>& copies, double tolerable, int threads);
-  RestShape(const Copies<d>& copies, double tolerable, int threads);
+  static std::shared_ptr<const RestShape> get(const Copies<d>& copies, double tolerable);
+  RestShape(const Copies<d>& copies, double tolerable);
 
   int degree() const { return degree_; }
   /// By the image's turn, then by function (harmonics.hpp), in coordinates scale() z.

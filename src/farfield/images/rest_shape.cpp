@@ -4,7 +4,6 @@
 #include <mutex>
 #include <numbers>
 
-#include "base/parallel.hpp"
 #include "farfield/check.hpp"
 #include "farfield/images/lattice_sum.hpp"
 #include "farfield/images/rest.hpp"
@@ -59,8 +58,7 @@ struct Largest {
 template <int d>
 class Fit {
  public:
-  Fit(const LatticeSum<d>& sum, const double* reach, double scale, int threads)
-      : sum_(sum), reach_(reach), scale_(scale), threads_(threads) {}
+  Fit(const LatticeSum<d>& sum, const double* reach, double scale) : sum_(sum), reach_(reach), scale_(scale) {}
 
   /// Least squares on the faces, where a harmonic function is largest.
   std::vector<double> polynomial(int degree) const {
@@ -108,26 +106,23 @@ class Fit {
  private:
   std::vector<Sample> wanted_at(const std::vector<double>& nodes) const {
     std::vector<Sample> samples = on_faces<d>(reach_, nodes);
-    gaussdrift::base::parallel_for(
-        {samples.size(), 3e-5 * static_cast<double>(samples.size())}, threads_, [&](std::size_t i) {
-          Sample& sample = samples[i];
-          double z[3] = {}, squared = 0;
-          for (std::size_t l = 0; l < d; ++l) {
-            z[l] = sample.t[l] / scale_;
-            squared += z[l] * z[l];
-          }
-          sample.wanted = sum_.at(z);
-          sample.wanted.value -= sum_.laplacian() / (2 * d) * squared;
-          for (std::size_t l = 0; l < d; ++l)
-            sample.wanted.gradient[l] = (sample.wanted.gradient[l] - sum_.laplacian() / d * z[l]) / scale_;
-        });
+    for (Sample& sample : samples) {
+      double z[3] = {}, squared = 0;
+      for (std::size_t l = 0; l < d; ++l) {
+        z[l] = sample.t[l] / scale_;
+        squared += z[l] * z[l];
+      }
+      sample.wanted = sum_.at(z);
+      sample.wanted.value -= sum_.laplacian() / (2 * d) * squared;
+      for (std::size_t l = 0; l < d; ++l)
+        sample.wanted.gradient[l] = (sample.wanted.gradient[l] - sum_.laplacian() / d * z[l]) / scale_;
+    }
     return samples;
   }
 
   const LatticeSum<d>& sum_;
   const double* reach_;
   double scale_;
-  int threads_;
 };
 
 /// What the promise is relative to, at least, for a charge and its near images. At a difference z the images at c and at -c
@@ -151,7 +146,7 @@ constexpr int highest_degree = 64;  // where rounding begins to show
 }  // namespace
 
 template <int d>
-RestShape<d>::RestShape(const Copies<d>& copies, double tolerable, int threads)
+RestShape<d>::RestShape(const Copies<d>& copies, double tolerable)
     : axes_(copies.axes()), charge_(copies.turned().back().charge), tolerable_(tolerable) {
   double longest = 0;
   for (const CopiedAxis& axis : axes_) longest = std::max(longest, axis.reach());
@@ -167,7 +162,7 @@ RestShape<d>::RestShape(const Copies<d>& copies, double tolerable, int threads)
     polynomials_.clear();
     error_ = 0;
     for (const LatticeSum<d>& sum : sums) {
-      const Fit<d> fit(sum, reach, scale_, threads);
+      const Fit<d> fit(sum, reach, scale_);
       polynomials_.push_back(fit.polynomial(degree_));
       const Largest error = fit.error(degree_, polynomials_.back());
       error_ += std::max(error.potential / unit.potential, error.field / unit.field);
@@ -204,13 +199,13 @@ bool RestShape<d>::fits(const std::array<CopiedAxis, 3>& axes, double charge, do
 }
 
 template <int d>
-std::shared_ptr<const RestShape<d>> RestShape<d>::get(const Copies<d>& copies, double tolerable, int threads) {
+std::shared_ptr<const RestShape<d>> RestShape<d>::get(const Copies<d>& copies, double tolerable) {
   static std::mutex mutex;
   static std::weak_ptr<const RestShape> last;
   const std::lock_guard lock(mutex);
   std::shared_ptr<const RestShape> shape = last.lock();
   if (!shape || !shape->fits(copies.axes(), copies.turned().back().charge, tolerable)) {
-    shape = std::make_shared<const RestShape>(copies, tolerable, threads);
+    shape = std::make_shared<const RestShape>(copies, tolerable);
     last = shape;
   }
   return shape;

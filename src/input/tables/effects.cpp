@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "effect/catalogue.hpp"
+#include "effect/pair_images.hpp"
 #include "input/effect_rules.hpp"
 #include "input/tables/tables.hpp"
 #include "time/tableau.hpp"
@@ -169,12 +170,11 @@ void refuse_edges(Reader& in, const NamedEffect& effect, const EffectSpec& value
                         : "leave out one of them");
     return;
   }
-  if (traits.particles_interact && (spec.domain.has(Edge::periodic) || spec.domain.has(Edge::closed)))
+  if (!traits.particles_interact) return;
+  if (const Unsummable images = unsummable_images(spec.domain); !images.reason.empty())
     in.diagnostics.error(edges->value.place,
-                         fmt::format("edges that are periodic or closed do not go with [{}]: the images of particles "
-                                     "beyond them would move the particles too, and their sum is not known here",
-                                     table_of(effect)),
-                         "\"open\" and \"unbounded\" edges go with it");
+                         fmt::format("domain.edges does not go with [{}]: {}", table_of(effect), images.reason),
+                         images.remedy);
 }
 
 /// Effects that know particles of the lattice alone.
