@@ -11,6 +11,7 @@
 #include "accuracy/known_density.hpp"
 #include "accuracy/other_lattices.hpp"
 #include "accuracy/probes.hpp"
+#include "base/nan.hpp"
 #include "reference/sample.hpp"
 #include "sim/borders/edges.hpp"
 #include "sim/borders/outside.hpp"
@@ -26,7 +27,7 @@ namespace gaussdrift::accuracy {
 namespace {
 
 constexpr double share_predicted = 0.05;  // of a run's work, for the prediction of its errors
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr const char* too_much_work =
     "this would take longer than a prediction may; accuracy.budget = \"measured\" lets the run tell its errors apart";

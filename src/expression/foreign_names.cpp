@@ -13,7 +13,7 @@ struct Word {
 constexpr std::string_view choice = "a choice is written condition ? a : b";
 constexpr std::string_view no_random = "results must be the same every time, so there are no random numbers";
 
-constexpr Word functions[] = {
+constexpr Word foreign_functions[] = {
     {"sgn", "write sign(a)"},
     {"signum", "write sign(a)"},
     {"if", choice},
@@ -118,7 +118,7 @@ std::string_view found(const Words& words, std::string_view word) {
 
 }  // namespace
 
-std::string_view instead_of_function(std::string_view name) { return found(functions, name); }
+std::string_view instead_of_function(std::string_view name) { return found(foreign_functions, name); }
 std::string_view instead_of_name(std::string_view name) { return found(names, name); }
 std::string_view instead_of_symbol(std::string_view symbol) { return found(symbols, symbol); }
 

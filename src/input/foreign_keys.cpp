@@ -21,7 +21,7 @@ constexpr const char* no_mesh =
     "points where density is written";
 constexpr const char* end_of_run = "a run goes from time.start to time.end";
 constexpr const char* width = "particles.overlap is the core radius of a blob divided by the particles' spacing";
-constexpr const char* formats =
+constexpr const char* data_formats =
     "output.vtk writes files for ParaView, series.csv has numbers for every output time, pictures are PNG";
 constexpr const char* no_random = "nothing is random here: the same case gives the same results";
 constexpr const char* again =
@@ -32,7 +32,7 @@ struct Written {
   std::string_view word, key, answer;
 };
 
-constexpr Written written[] = {
+constexpr Written written_elsewhere[] = {
     {"boundary", "", edges},
     {"boundaries", "", edges},
     {"boundarycondition", "", edges},
@@ -94,12 +94,12 @@ constexpr Written written[] = {
     {"seed", "", no_random},
     {"restart", "", again},
     {"checkpoint", "", again},
-    {"format", "", formats},
-    {"netcdf", "", formats},
-    {"nc", "", formats},
-    {"hdf5", "", formats},
-    {"csv", "", formats},
-    {"png", "", formats},
+    {"format", "", data_formats},
+    {"netcdf", "", data_formats},
+    {"nc", "", data_formats},
+    {"hdf5", "", data_formats},
+    {"csv", "", data_formats},
+    {"png", "", data_formats},
 };
 
 /// Words for the time step.
@@ -107,7 +107,7 @@ constexpr std::string_view steps[] = {"dt", "deltat", "timestep", "stepsize", "c
 
 std::vector<ForeignKey> all_keys() {
   std::vector<ForeignKey> all;
-  for (const auto& [word, key, answer] : written) all.push_back({word, key, std::string(answer)});
+  for (const auto& [word, key, answer] : written_elsewhere) all.push_back({word, key, std::string(answer)});
   const std::string answer =
       fmt::format("time.step is the time step; method = {} chooses its own", time::adaptive_names());
   for (const std::string_view word : steps) all.push_back({word, "time.step", answer});

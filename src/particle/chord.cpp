@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "base/sphere.hpp"
+#include "particle/factorial.hpp"
 
 namespace gaussdrift {
 
 namespace {
 
 constexpr const char* not_round = "a cutoff that is not round has no chord";
-
-double factorial(int n) { return std::tgamma(n + 1.0); }
 
 /// The coefficients of powers of the plane's Laplacian: those of D^(2n, 0). The others follow from them, and must.
 std::vector<double> of_laplacians(const std::map<std::array<int, max_dimension>, double>& coefficients) {

@@ -6,13 +6,12 @@
 #include <numbers>
 #include <numeric>
 
+#include "particle/factorial.hpp"
 #include "particle/round_coordinates.hpp"
 
 namespace gaussdrift {
 
 namespace {
-
-double factorial(int n) { return std::tgamma(n + 1.0); }
 
 // Of a round term.
 double at_centre(const CutoffTerm& term) {

@@ -6,12 +6,11 @@
 #include <stdexcept>
 
 #include "particle/cutoff.hpp"
+#include "particle/factorial.hpp"
 
 namespace gaussdrift {
 
 namespace {
-
-double factorial(int n) { return std::tgamma(n + 1.0); }
 
 // Order 2m from one width: zeta = sum_{j<m} (-Laplacian/4)^j / j!  of  G = pi^{-d/2} exp(-|x|^2). The Fourier transform
 // of G is exp(-s), s = |xi|^2/4, and that of -Laplacian/4 is s, so zeta^ = e^{-s} (1 + s + ... + s^{m-1}/(m-1)!) = 1 +

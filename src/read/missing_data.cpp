@@ -8,13 +8,14 @@
 #include <cmath>
 #include <limits>
 
+#include "base/nan.hpp"
 #include "read/grid_file_error.hpp"
 
 namespace gaussdrift::read {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 // Fill values of netCDF (9.96921e36), CF files and models (1e20, 1e30, ...), GrADS, Ferret (-1e34), Vis5D (1e35), and
 // the largest numbers of the types. No wind and few densities have these sizes, so one of them is enough.

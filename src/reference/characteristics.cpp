@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/nan.hpp"
 #include "base/parallel.hpp"
 #include "field/velocity/value_seconds.hpp"
 #include "reference/coordinates.hpp"
@@ -19,7 +20,7 @@ namespace gaussdrift {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 // Points that take the same steps; 13 rates of them fit the second-level cache.
 constexpr std::size_t most_together = 256;
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/nan.hpp"
 #include "base/seam.hpp"
 #include "expression/expression.hpp"
 #include "reference/coordinates.hpp"
@@ -15,8 +16,8 @@ namespace gaussdrift {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t most_together = 256;  // points in one call of the expression
+using base::nan;
+constexpr std::size_t points_together = 256;  // points in one call of the expression
 
 class Formula : public Reference {
  public:
@@ -44,12 +45,12 @@ class Formula : public Reference {
   template <class PointOf>
   ReferenceReport fill(double time, std::vector<double>& rho, const PointOf& point_of) const {
     ReferenceReport report;
-    const std::vector<double> times(most_together, clock_ ? clock_(time) : time);
-    std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * most_together);
-    std::vector<std::size_t> points(most_together);
-    for (std::size_t first = 0; first < rho.size(); first += most_together) {
+    const std::vector<double> times(points_together, clock_ ? clock_(time) : time);
+    std::vector<double> coordinates(static_cast<std::size_t>(lattice_.dimension) * points_together);
+    std::vector<std::size_t> points(points_together);
+    for (std::size_t first = 0; first < rho.size(); first += points_together) {
       base::seam();
-      const std::size_t count = std::min(most_together, rho.size() - first);
+      const std::size_t count = std::min(points_together, rho.size() - first);
       for (std::size_t i = 0; i < count; ++i) points[i] = point_of(first + i);
       fill_coordinates(lattice_, points.data(), count, coordinates.data());
       std::array<const double*, max_dimension + 1> arguments{};

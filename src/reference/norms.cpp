@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/nan.hpp"
+
 namespace gaussdrift {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 /// rho and weight are functions of the number of a value of `exact`.
 template <class Rho, class Weight>

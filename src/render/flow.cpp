@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/nan.hpp"
 #include "base/sphere.hpp"
 #include "gaussdrift/error.hpp"
 
@@ -42,7 +43,7 @@ FlowPlane::FlowPlane(const DensityGrid& density, std::string_view name)
 }
 
 Point FlowPlane::at(const Point& place) const {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  using base::nan;
   if (!(place.x >= 0 && place.x <= width() && place.y >= 0 && place.y <= height())) return {nan, nan};
   const auto i = std::min(static_cast<std::size_t>(place.x), nx_ - 2);
   const auto j = std::min(static_cast<std::size_t>(place.y), ny_ - 2);

@@ -22,10 +22,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_points = 128;  // along an axis, in space
+constexpr std::size_t most_points_in_space = 128;  // along an axis, in space
 
 Lattice kept_lattice(const Lattice& lattice) {
-  return lattice.dimension == 3 ? thinned_lattice(lattice, most_points) : lattice;
+  return lattice.dimension == 3 ? thinned_lattice(lattice, most_points_in_space) : lattice;
 }
 
 std::uint64_t sum_of(double time, const std::vector<float>& rho) {
@@ -38,7 +38,7 @@ std::uint64_t sum_of(double time, const std::vector<float>& rho) {
 // Single precision is plenty for colours and halves what a long run keeps; in space thinned, for the same reason.
 KeptDensities::Kept KeptDensities::kept_of(const DensityGrid& density) {
   if (density.lattice.dimension != 3) return {density.lattice, {density.rho.begin(), density.rho.end()}};
-  const DensityGrid thin = thinned(density, most_points);
+  const DensityGrid thin = thinned(density, most_points_in_space);
   return {thin.lattice, {thin.rho.begin(), thin.rho.end()}};
 }
 

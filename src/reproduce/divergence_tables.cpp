@@ -89,8 +89,6 @@ class MeasuredField {
   double direct_seconds_ = 0, unit_error_ = 0;
 };
 
-int timed_threads(const FgtdOptions& options) { return options.threads > 0 ? options.threads : 1; }
-
 }  // namespace
 
 std::vector<Table> field_table(const FgtdOptions& options) {

@@ -100,6 +100,9 @@ struct FgtdOptions {
   }
 };
 
+/// Where seconds are measured.
+inline int timed_threads(const FgtdOptions& options) { return options.threads > 0 ? options.threads : 1; }
+
 struct FgtdReproduction {
   std::string source;  // "Schroeder 2006, Tables ..."
   std::vector<Table> tables;

@@ -36,8 +36,6 @@ std::size_t within_terms(const FgtdOptions& options, double terms_a_target, doub
   return static_cast<std::size_t>(std::clamp(options.most_terms / terms_a_target, 1.0, targets));
 }
 
-int timed_threads(const FgtdOptions& options) { return options.threads > 0 ? options.threads : 1; }
-
 std::string sampled(const FgtdOptions& options) {
   if (std::isinf(options.most_pairs)) return "";
   return fmt::format("; direct sums beyond {:.0e} pairs at a sample of the targets", options.most_pairs);

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/nan.hpp"
+
 namespace gaussdrift {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 double mass_that_left(const CheckSpec& check, const FrameNumbers& numbers) {
   double mass = 0;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "base/nan.hpp"
 #include "reference/sample.hpp"
 
 namespace gaussdrift {
@@ -56,7 +57,7 @@ void PieceComparison::tell(base::Communicator& ranks, FrameNumbers& numbers) {
   ranks.max(std::span(&largest_error_, 1));
   ranks.max(std::span(&largest_, 1));
   ranks.sum(std::span(&untraced_, 1));
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  using base::nan;
   numbers.error = ErrorNorms{nan, nan, nan};
   if (largest_ > 0)
     numbers.error = ErrorNorms{sums_[error_1].value() / sums_[norm_1].value(),

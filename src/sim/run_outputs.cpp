@@ -10,6 +10,7 @@
 
 #include "base/broadcast.hpp"
 #include "base/has_one.hpp"
+#include "base/nan.hpp"
 #include "base/parallel.hpp"
 #include "base/sphere.hpp"
 #include "reference/norms.hpp"
@@ -500,7 +501,7 @@ void Simulation::Parts::judge_norms(const std::vector<double>& exact, FrameNumbe
     numbers.no_norms = numbers.weight == 0 && has_left(numbers)
                            ? "nothing is left to compare (all of the mass has left the domain)"
                            : why_nothing_is_left(numbers.outside, numbers.weight);
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using base::nan;
     numbers.error = ErrorNorms{nan, nan, nan};
   }
 }

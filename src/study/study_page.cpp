@@ -36,7 +36,7 @@ constexpr Column columns[] = {{"error", &Sample::error},
                               {"predicted seconds", &Sample::predicted_seconds},
                               {"order", &Sample::order}};
 
-std::string table_of(const Experiment& experiment) {
+std::string html_table_of(const Experiment& experiment) {
   std::vector<Column> shown;
   for (const Column& column : columns)
     if (std::any_of(experiment.samples.begin(), experiment.samples.end(),
@@ -76,7 +76,7 @@ std::string section_of(const Study& study, const Experiment& experiment) {
   text += render::chart_figure(chart_of(study, experiment));
   text += fmt::format("<p class=quiet>Error: {}. Seconds: {}. Rows in bold: nothing faster is as accurate.</p>\n",
                       escaped(experiment.error_is), escaped(experiment.seconds_are));
-  text += table_of(experiment);
+  text += html_table_of(experiment);
   if (!experiment.notes.empty()) text += "<ul>";
   for (const std::string& note : experiment.notes) text += fmt::format("<li>{}</li>", escaped(note));
   if (!experiment.notes.empty()) text += "</ul>\n";

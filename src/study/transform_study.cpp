@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/nan.hpp"
 #include "base/parallel.hpp"
 #include "base/repeated_time.hpp"
 #include "base/stopwatch.hpp"
@@ -25,7 +26,7 @@ namespace gaussdrift::study {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 constexpr const char* left_out = "left out: too dear";
 
 /// The case as far as its last output needs it.

@@ -18,7 +18,7 @@ namespace gaussdrift::sum {
 
 namespace {
 
-constexpr double rounding = 1e-14;  // of the same sums that the tolerance is relative to
+constexpr double rounding_of_pairs = 1e-14;  // of the same sums that the tolerance is relative to
 
 /// The sums without signs that farfield's promise is relative to, at one target.
 struct Unsigned {
@@ -71,7 +71,7 @@ void measure(const PairSumRequest& request, PairSums& result) {
     }
   }
   result.compared = count;
-  const double allowed = request.tolerance + rounding;
+  const double allowed = request.tolerance + rounding_of_pairs;
   result.measured = {{"the potential", worst[0].error(), allowed}, {"the field", worst[1].error(), allowed}};
   result.potential_of_itself = relative(std::sqrt(error[0]), std::sqrt(size[0]));
   result.field_of_itself = relative(std::sqrt(error[1]), std::sqrt(size[1]));

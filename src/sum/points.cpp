@@ -25,7 +25,7 @@ namespace gaussdrift::sum {
 namespace {
 
 constexpr int highest_order = 16;   // of fgtd
-constexpr double rounding = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
+constexpr double rounding_of_points = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
 
 template <int d>
 void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
@@ -48,7 +48,7 @@ void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
   for (const auto& combination : combinations) {
     result.error_bounds.emplace_back();
     if (result.choice.bound)
-      result.error_bounds.back() = (*result.choice.bound + rounding) *
+      result.error_bounds.back() = (*result.choice.bound + rounding_of_points) *
                                    fgtd::derivative_scale<d>(combination.front().derivative, request.sigma) *
                                    result.weight_total;
   }
@@ -56,8 +56,8 @@ void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {
 
 // Of each term, in the unit of the tolerance. Parameters by hand promise their bound, and nothing if they have none.
 double promised(const SumRequest& request, const fgtd::Choice& choice) {
-  if (!request.hermite) return request.tolerance + 2 * rounding;
-  return choice.bound ? *choice.bound + 2 * rounding : std::numeric_limits<double>::infinity();
+  if (!request.hermite) return request.tolerance + 2 * rounding_of_points;
+  return choice.bound ? *choice.bound + 2 * rounding_of_points : std::numeric_limits<double>::infinity();
 }
 
 template <int d>

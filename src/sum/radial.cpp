@@ -19,7 +19,7 @@ namespace gaussdrift::sum {
 
 namespace {
 
-constexpr double rounding = 1e-13;  // of the units (docs/rbf.md, "The promise")
+constexpr double rounding_of_radial = 1e-13;  // of the units (docs/rbf.md, "The promise")
 
 /// Why a kernel has no higher derivatives, and what to take instead.
 std::string why_no_higher(rbf::Kernel kernel) {
@@ -75,7 +75,7 @@ void sum(const RadialSumRequest& request, rbf::Options options, RadialSums& resu
   for (const auto& derivative : result.derivatives) {
     const auto order = static_cast<int>(order_of(derivative));
     result.units.push_back(rbf::largest_derivative(request.function, result.choice.range, order) * result.weight_total);
-    result.error_bounds.push_back((result.choice.bound + rounding) * result.units.back());
+    result.error_bounds.push_back((result.choice.bound + rounding_of_radial) * result.units.back());
   }
 }
 
@@ -97,7 +97,7 @@ void measure(const RadialSumRequest& request, RadialSums& result) {
     for (std::size_t i = 0; i < sample.rows.size(); ++i)
       worst.take(std::abs(result.values(sample.rows[i], column) - exact(static_cast<Eigen::Index>(i), column)));
     result.measured.push_back(
-        {result.columns[k], relative(worst.error(), result.units[k]), request.tolerance + 2 * rounding});
+        {result.columns[k], relative(worst.error(), result.units[k]), request.tolerance + 2 * rounding_of_radial});
   }
 }
 

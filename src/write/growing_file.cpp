@@ -5,13 +5,13 @@
 #include <system_error>
 #include <vector>
 
+#include "write/system_failure.hpp"
+
 namespace gaussdrift::write {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-[[noreturn]] void fail() { throw std::system_error(errno ? errno : EIO, std::generic_category()); }
 
 // Of a file that may be large.
 void copy_beginning(std::FILE* from, long size, PartFile& to) {

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "write/checkpoint.hpp"
+#include "write/system_failure.hpp"
 
 namespace gaussdrift::write {
 
@@ -23,8 +24,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* log_name = "outputs.raw";
-
-[[noreturn]] void fail() { throw std::system_error(errno, std::generic_category()); }
 
 struct Descriptor {
   explicit Descriptor(int opened) : number(opened) {}

@@ -16,6 +16,7 @@
 #include "base/seam.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
+#include "write/system_failure.hpp"
 
 namespace gaussdrift::write {
 
@@ -24,8 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view name_begin = ".gaussdrift-", name_end = ".part";
-
-[[noreturn]] void fail() { throw std::system_error(errno, std::generic_category()); }
 
 fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 

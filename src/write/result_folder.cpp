@@ -11,6 +11,7 @@
 #include "base/json_file.hpp"
 #include "gaussdrift/error.hpp"
 #include "write/atomic_file.hpp"
+#include "write/folder_names.hpp"
 #include "write/part_file.hpp"
 #include "write/provenance.hpp"
 
@@ -21,8 +22,6 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char* status_name = "status.json";
-constexpr const char* earlier_name = "earlier";
 
 struct FolderStatus {
   std::string kind;
@@ -61,11 +60,6 @@ bool is_there(const fs::path& folder) {
 void remove_results(const fs::path& folder, const OwnFiles& files) {
   files.remove_from(folder);
   OwnFiles({status_name}).remove_from(folder);
-}
-
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what) {
-  throw FileError(
-      fmt::format("cannot use {} as output folder: {}; choose another folder with --out", folder.string(), what));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "sim/grid_pieces.hpp"
 #include "write/atomic_file.hpp"
 #include "write/checkpoint.hpp"
+#include "write/folder_names.hpp"
 #include "write/output_files.hpp"
 #include "write/provenance.hpp"
 #include "write/series_table.hpp"
@@ -30,8 +31,6 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr const char* status_name = "status.json";
-constexpr const char* earlier_name = "earlier";
 constexpr std::size_t most_names = 40'000;  // in status.json, and as many as most_json_of_names has room for
 
 /// In how many pieces an output may be written.
@@ -123,11 +122,6 @@ std::string text_of(const json& status) { return status.dump(2, ' ', false, json
 
 /// Left by a process that was killed, this version's or an earlier one's: nothing is lost with it.
 bool is_leftover(const std::string& name) { return name == lock_name || name == "run.toml.part" || is_part_name(name); }
-
-[[noreturn]] void refuse(const fs::path& folder, const std::string& what) {
-  throw FileError(
-      fmt::format("cannot use {} as output folder: {}; choose another folder with --out", folder.string(), what));
-}
 
 /// The nearest folder above that is there tells how much is free.
 void check_space(const fs::path& folder, double bytes, double freed) {

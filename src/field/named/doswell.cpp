@@ -8,7 +8,7 @@ namespace gaussdrift::named {
 namespace {
 
 /// omega(r) = v_0 / R sech^2(r/R) tanh(r/R) / (r/R), v_0 = speed / max(sech^2 tanh) = 3 sqrt(3) / 2 speed.
-struct Omega {
+struct OmegaOfDoswell {
   double radius, speed;
 
   std::array<double, 2> parameters() const { return {radius, 1.5 * std::numbers::sqrt3 * speed / radius}; }
@@ -51,8 +51,8 @@ NamedField doswell() {
           .divergence = "0",
           .exact_flow = "rotation about center by the angle omega(r) (t - s)",
           .make = [](int, const Arguments& a) {
-            return std::make_unique<CircularField<Omega>>(Formula::doswell, point(a, "center"),
-                                                          Omega{number(a, "radius"), number(a, "speed")});
+            return std::make_unique<CircularField<OmegaOfDoswell>>(Formula::doswell, point(a, "center"),
+                                                          OmegaOfDoswell{number(a, "radius"), number(a, "speed")});
           }};
 }
 

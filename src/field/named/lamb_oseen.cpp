@@ -8,7 +8,7 @@ namespace gaussdrift::named {
 namespace {
 
 /// omega(r) = circulation / (2 pi r^2) (1 - exp(-r^2 / radius^2)).
-struct Omega {
+struct OmegaOfLambOseen {
   double circulation, radius;
 
   std::array<double, 2> parameters() const {
@@ -47,8 +47,8 @@ NamedField lamb_oseen() {
           .divergence = "0",
           .exact_flow = "rotation about center by the angle omega(r) (t - s)",
           .make = [](int, const Arguments& a) {
-            return std::make_unique<CircularField<Omega>>(Formula::lamb_oseen, point(a, "center"),
-                                                          Omega{number(a, "circulation"), number(a, "radius")});
+            return std::make_unique<CircularField<OmegaOfLambOseen>>(Formula::lamb_oseen, point(a, "center"),
+                                                          OmegaOfLambOseen{number(a, "circulation"), number(a, "radius")});
           }};
 }
 

@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 
+#include "base/nan.hpp"
 #include "field/samples/direct_sum.hpp"
 
 namespace gaussdrift {
@@ -12,7 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 // Calls with fewer points are sums over all pairs, which are as quick then.
 constexpr std::size_t few_points = 512;
 

@@ -9,13 +9,14 @@
 #include <limits>
 #include <optional>
 
+#include "base/nan.hpp"
 #include "base/parallel.hpp"
 
 namespace gaussdrift {
 
 namespace {
 
-constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 constexpr std::size_t block = 1024;
 constexpr double seconds_of_a_particle = 2e-7;
 
@@ -61,7 +62,7 @@ template <int d>
 double largest_singular_value(const double* gradient) {
   using Matrix = Eigen::Matrix<double, d, d, Eigen::RowMajor>;
   const Eigen::Map<const Matrix> matrix(gradient);
-  if (!matrix.allFinite()) return nan_number;  // a solver does not end on what is no number
+  if (!matrix.allFinite()) return nan;  // a solver does not end on what is no number
   if constexpr (d == 2) {
     const double a = matrix(0, 0), b = matrix(0, 1), c = matrix(1, 0), e = matrix(1, 1);
     return (std::hypot(a + e, b - c) + std::hypot(a - e, b + c)) / 2;
@@ -76,7 +77,7 @@ double largest_singular_value(const double* gradient) {
 std::vector<double> flow_map_gradients(const Particles& particles, const Lattice& lattice, const Folding& folding,
                                        int threads) {
   const auto d = static_cast<std::size_t>(particles.dimension);
-  std::vector<double> gradients(particles.size() * d * d, nan_number);
+  std::vector<double> gradients(particles.size() * d * d, nan);
   const Neighbours neighbours(particles, lattice, folding);
   const auto on_lattice = static_cast<std::int64_t>(lattice.size());
   for_blocks(particles.size(), threads, [&](std::size_t j) {
@@ -101,7 +102,7 @@ std::vector<double> flow_map_gradients(const Particles& particles, const Lattice
 
 std::vector<double> lyapunov_exponents(const std::vector<double>& gradients, int dimension, double t, int threads) {
   const std::size_t numbers = static_cast<std::size_t>(dimension) * static_cast<std::size_t>(dimension);
-  std::vector<double> exponents(gradients.size() / numbers, nan_number);
+  std::vector<double> exponents(gradients.size() / numbers, nan);
   if (t == 0) return exponents;
   for_blocks(exponents.size(), threads, [&](std::size_t j) {
     const double* const gradient = gradients.data() + j * numbers;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/nan.hpp"
 #include "sim/borders/edges.hpp"
 #include "sim/follow/flow_map.hpp"
 
@@ -12,7 +13,7 @@ namespace gaussdrift {
 
 namespace {
 
-constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 std::vector<double> remembered(const ParticlesThere& there, Kept what) {
   return there.particles.kept[static_cast<std::size_t>(what)];
@@ -21,7 +22,7 @@ std::vector<double> remembered(const ParticlesThere& there, Kept what) {
 double kept_of(const double* kept, Kept what) { return kept[static_cast<std::size_t>(what)]; }
 
 /// The time of the first exit, where there was one.
-double exit_or_nan(double time, double face, const TimeSpec& clock) { return face == 0 ? nan_number : clock.at(time); }
+double exit_or_nan(double time, double face, const TimeSpec& clock) { return face == 0 ? nan : clock.at(time); }
 
 GridFieldKind age() {
   return {.about = {.name = "age",
@@ -196,7 +197,7 @@ std::vector<FieldOnGrid> where_particles_began(const OutputSpec& output, const s
   for (const GridFieldKind* kind : particle_fields_of(output)) {
     const FieldOnGrid& field = fields[number++];
     if (!kind->about.is_on_grid) continue;
-    on_lattice.assign(there.lattice.size(), nan_number);
+    on_lattice.assign(there.lattice.size(), nan);
     for (std::size_t j = 0; j < id.size(); ++j)
       if (static_cast<std::size_t>(id[j]) < on_lattice.size())
         on_lattice[static_cast<std::size_t>(id[j])] = field.values[j];
@@ -207,7 +208,7 @@ std::vector<FieldOnGrid> where_particles_began(const OutputSpec& output, const s
     FieldOnGrid& there_shown = shown.emplace_back(FieldOnGrid{field.name, 1, std::vector<double>(evaluation.size())});
     for (std::size_t point = 0; point < there_shown.values.size(); ++point) {
       const std::size_t from = nearest.of(evaluation, point);
-      there_shown.values[point] = from == NearestPoint::none ? nan_number : on_lattice[from];
+      there_shown.values[point] = from == NearestPoint::none ? nan : on_lattice[from];
     }
   }
   return shown;

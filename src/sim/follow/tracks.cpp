@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/nan.hpp"
 #include "base/parallel.hpp"
 #include "field/velocity/value_seconds.hpp"
 #include "gaussdrift/error.hpp"
@@ -18,7 +19,7 @@ namespace gaussdrift {
 
 namespace {
 
-constexpr double nan_number = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 }  // namespace
 
@@ -150,7 +151,7 @@ TrackSamples Tracks::look(const Particles& particles, double time, const Density
     samples.place.insert(samples.place.end(), row.place.begin(), row.place.begin() + dimension_);
     samples.end.push_back(static_cast<int>(row.end));
   }
-  samples.values.assign(samples.size() * samples.components(), nan_number);
+  samples.values.assign(samples.size() * samples.components(), nan);
   if (has_density) add_density(rows, left, density_at, samples);
   ranks_.agree_on([&] {
     for (std::size_t first = 0, count = 0; first < rows.size(); first += count) {
