@@ -10,7 +10,9 @@ namespace gaussdrift::render {
 
 namespace {
 
-std::string big_endian_pair(long number) { return {static_cast<char>(number >> 8 & 0xFF), static_cast<char>(number & 0xFF)}; }
+std::string big_endian_pair(long number) {
+  return {static_cast<char>(number >> 8 & 0xFF), static_cast<char>(number & 0xFF)};
+}
 
 void write_apng(const Reel& reel, std::FILE* file) {
   constexpr long parts = 1000;  // of a second
@@ -27,10 +29,11 @@ void write_apng(const Reel& reel, std::FILE* file) {
     }
     const auto number = [](int n) { return big_endian(static_cast<std::size_t>(n)); };
     const int top = frame.height - part.bottom - part.rows;
-    put_bytes(file,
-              png_chunk("fcTL", big_endian(sequence++) + number(part.columns) + number(part.rows) + number(part.left) +
-                                    number(top) + big_endian_pair(reel.begin(i + 1, parts) - reel.begin(i, parts)) +
-                                    big_endian_pair(parts) + std::string(2, '\0')));  // stays, and replaces what was there
+    put_bytes(
+        file,
+        png_chunk("fcTL", big_endian(sequence++) + number(part.columns) + number(part.rows) + number(part.left) +
+                              number(top) + big_endian_pair(reel.begin(i + 1, parts) - reel.begin(i, parts)) +
+                              big_endian_pair(parts) + std::string(2, '\0')));  // stays, and replaces what was there
     const std::string pixels = png_pixels(frame, part.left, part.bottom, part.columns, part.rows);
     put_bytes(file, i == 0 ? png_chunk("IDAT", pixels) : png_chunk("fdAT", big_endian(sequence++) + pixels));
     before = std::move(frame);

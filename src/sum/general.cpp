@@ -82,7 +82,8 @@ void measure(const GeneralSumRequest& request, const Expression& kernel, General
                      [&](std::size_t i) { exact[i] = all_pairs<d>(kernel, request, sample.points.data() + i * d); });
   double squares = 0, values = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const double error = std::abs(result.values(sample.rows[i], 0) - exact[i].sum) - rounding_of_general * exact[i].size;
+    const double error =
+        std::abs(result.values(sample.rows[i], 0) - exact[i].sum) - rounding_of_general * exact[i].size;
     if (!(error <= 0)) squares += error * error;
     values += exact[i].sum * exact[i].sum;
   }

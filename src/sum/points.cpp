@@ -24,8 +24,9 @@ namespace gaussdrift::sum {
 
 namespace {
 
-constexpr int highest_order = 16;   // of fgtd
-constexpr double rounding_of_points = 3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
+constexpr int highest_order = 16;  // of fgtd
+constexpr double rounding_of_points =
+    3e-14;  // of every term, relative to |lambda| N_alpha (docs/fgtd.md, "The promise")
 
 template <int d>
 void sum(const SumRequest& request, fgtd::Options options, PointSums& result) {

@@ -22,7 +22,6 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
-
 struct FolderStatus {
   std::string kind;
   bool has_result = false, is_set_aside = false;

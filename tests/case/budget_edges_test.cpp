@@ -26,7 +26,7 @@ Case scene(const std::string& domain, const std::string& density, const std::vec
   return parse_case(case_text(tables), "scene.toml").spec;
 }
 
-Budget measured(const Case& spec) {
+Budget measured_budget(const Case& spec) {
   LastFrame::Kept last;
   Simulation simulation(spec, 1);
   simulation.observe(std::make_unique<LastFrame>(last, spec.output.times.back()));
@@ -54,11 +54,11 @@ TEST(BudgetWithEdges, IsThatOfTheSceneMovedAcrossTheSeam) {
   };
   const Case middle = scene(periodic, blob("x-0.13", "y+0.21"), {"sin(pi*y)+0.3", "0.5*cos(pi*x)"}, 41),
              corner = scene(periodic, blob("x-1.13", "y-0.79"), {"-sin(pi*y)+0.3", "-0.5*cos(pi*x)"}, 41);
-  expect_alike(measured(corner), measured(middle));
+  expect_alike(measured_budget(corner), measured_budget(middle));
   const auto predicted = [](const Case& spec) { return predict_budget(spec, make_scene(spec), Effort::whatever, 1); };
   expect_alike(predicted(corner), predicted(middle));
   // What is predicted of the whole is what a run finds.
-  EXPECT_NEAR(predicted(corner).total, measured(corner).total, 0.02 * measured(corner).total);
+  EXPECT_NEAR(predicted(corner).total, measured_budget(corner).total, 0.02 * measured_budget(corner).total);
 }
 
 TEST(BudgetWithEdges, IsThatOfTheSceneAndItsMirrorImage) {
@@ -67,7 +67,7 @@ TEST(BudgetWithEdges, IsThatOfTheSceneAndItsMirrorImage) {
   const std::vector<std::string> u{"sin(pi*x)*cos(pi*y)", "-cos(pi*x)*sin(pi*y)"};
   const Case whole = scene(square + "\nedges = [\"closed\", \"closed\"]", blob, u, 61),
              half = scene("min = [0, -1]\nmax = [1, 1]\nedges = [\"closed\", \"closed\"]", blob, u, 61);
-  expect_alike(measured(half), measured(whole));
+  expect_alike(measured_budget(half), measured_budget(whole));
 }
 
 TEST(BudgetWithEdges, LetsSettingsBeChosen) {

@@ -254,16 +254,16 @@ TEST(ParticleFields, TellWhenAndWhereTheDomainIsLeftFirst) {
   }
 }
 
-const std::vector<std::string> drifting = {edges("\"open\", \"unbounded\""),
-                                           "velocity.u=[\"1\", \"0.25*y\"]",
-                                           "particles.per_axis=11",
-                                           "time={end=1.25,step=0.1}",
-                                           "output.times=[0, 0.5, 1.25]",
-                                           "evaluate.per_axis=21",
-                                           all_fields};
+const std::vector<std::string> drifting_out = {edges("\"open\", \"unbounded\""),
+                                               "velocity.u=[\"1\", \"0.25*y\"]",
+                                               "particles.per_axis=11",
+                                               "time={end=1.25,step=0.1}",
+                                               "output.times=[0, 0.5, 1.25]",
+                                               "evaluate.per_axis=21",
+                                               all_fields};
 
 TEST(ParticleFields, OfThoseWhoHaveLeftStandWhereTheyBegan) {
-  const Seen seen = last_of(scene_of(with(full, drifting)));
+  const Seen seen = last_of(scene_of(with(full, drifting_out)));
   const FieldOnGrid& exits = seen.on_grid.at("exit_time");
   ASSERT_EQ(seen.lattice.points[0], 21u);
   EXPECT_EQ(seen.on_grid.count("age"), 0u);
@@ -317,8 +317,8 @@ void expect_same(const Seen& a, const Seen& b) {
 }
 
 TEST(ParticleFields, AreTheSameForThreadsRanksAndAfterAStop) {
-  const Case spec = scene_of(
-      with(with(full, drifting), {"particles.per_axis=101", "evaluate.tile_particles=500", "evaluate.per_axis=200"}));
+  const Case spec = scene_of(with(with(full, drifting_out),
+                                  {"particles.per_axis=101", "evaluate.tile_particles=500", "evaluate.per_axis=200"}));
   const Seen one = last_of(spec);
   expect_same(one, last_of(spec, 3));
   Seen shared;

@@ -17,7 +17,7 @@ namespace gaussdrift {
 namespace {
 
 /// exp(-r^2/0.04) of A and half of that of B, at rest, with more lines of each.
-std::string two(const std::string& of_a, const std::string& of_b, const std::string& more) {
+std::string two_that_spread(const std::string& of_a, const std::string& of_b, const std::string& more) {
   return "gaussdrift = 1\n[domain]\nmin = [-1.5, -1.5]\nmax = [1.5, 1.5]\n[velocity]\nu = [\"0\", \"0\"]\n"
          "[[density]]\nname = \"A\"\n" +
          of_a + "\nexpression = \"exp(-(x^2+y^2)/0.04)\"\n[[density]]\nname = \"B\"\n" + of_b +
@@ -25,7 +25,7 @@ std::string two(const std::string& of_a, const std::string& of_b, const std::str
          "0.05\n[evaluate]\nper_axis = 31\n[output]\nframes = 2\nvtk = []\nimages = []\nreport = \"none\"\n" +
          more;
 }
-Case spec_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+Case spec_of_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_case(text, "tracers.toml", overrides).spec;
 }
 const std::string spreading = "[effects.diffusion]\nD = 0.02\n";
@@ -39,9 +39,9 @@ std::string shown(double height, double spread) {
 }
 
 TEST(TracersThatDiffuse, SpreadByCoresAsWideAsTheirCoefficientsSay) {
-  const Case spec = spec_of(
-      two("diffusion = 0.005\nexact = \"" + shown(1, 0.02) + "\"", "exact = \"" + shown(0.5, 0.08) + "\"",
-          spreading + "[reference]\nkind = \"exact\"\nrho = \"" + shown(1, 0.02) + " + " + shown(0.5, 0.08) + "\"\n"));
+  const Case spec = spec_of_text(two_that_spread(
+      "diffusion = 0.005\nexact = \"" + shown(1, 0.02) + "\"", "exact = \"" + shown(0.5, 0.08) + "\"",
+      spreading + "[reference]\nkind = \"exact\"\nrho = \"" + shown(1, 0.02) + " + " + shown(0.5, 0.08) + "\"\n"));
   Simulation simulation(spec, 2);
   simulation.observe("look", [](const Frame& frame) {
     for (const TracerNumbers& tracer : frame.numbers.tracers) EXPECT_LT(tracer.error.value().linf, 1e-7) << tracer.name;
@@ -54,8 +54,8 @@ TEST(TracersThatDiffuse, SpreadByCoresAsWideAsTheirCoefficientsSay) {
   });
   simulation.run();
   // Also where one does not spread at all.
-  const Case still =
-      spec_of(two("diffusion = 0\nhalf_life = 0.5\nexact = \"0.5^(t/0.5)*" + shown(1, 0) + "\"", "", spreading));
+  const Case still = spec_of_text(
+      two_that_spread("diffusion = 0\nhalf_life = 0.5\nexact = \"0.5^(t/0.5)*" + shown(1, 0) + "\"", "", spreading));
   const RunSummary summary = Simulation(still, 1).run();
   // The rate is integrated by steps of rk4.
   EXPECT_LT(summary.frames.back().second.tracers[0].error.value().linf, 3e-7);  // 10 (ln 2 step/0.5)^5 / 120
@@ -72,7 +72,7 @@ double square(const Particles& particles, std::size_t tracer) {
 }
 
 TEST(TracersThatDiffuse, ExchangeEachItsOwnWeight) {
-  Simulation simulation(spec_of(two("diffusion = 0.005", "", exchanging)), 2);
+  Simulation simulation(spec_of_text(two_that_spread("diffusion = 0.005", "", exchanging)), 2);
   simulation.prepare();
   const Particles start = simulation.particles();
   const RunSummary summary = simulation.run();
@@ -90,8 +90,8 @@ TEST(TracersThatDiffuse, ReactWhileTheyExchange) {
   // A becomes B: A = exp(-k t) G(D_A), and both together keep their mass. <r^2> of B is that of what has come when.
   const double k = 2, end = 0.5, slow = 0.005, fast = 0.02, width = 0.04;
   const RunSummary summary = [&] {
-    const std::string text = two("gain = \"-2*A\"\ndiffusion = 0.005", "gain = \"2*A\"", exchanging);
-    Simulation simulation(spec_of(text, {"time.step=0.025"}), 1);
+    const std::string text = two_that_spread("gain = \"-2*A\"\ndiffusion = 0.005", "gain = \"2*A\"", exchanging);
+    Simulation simulation(spec_of_text(text, {"time.step=0.025"}), 1);
     const RunSummary of_run = simulation.run();
     // What was B from the start has spread for T; what was A until s, slowly until then and fast after.
     const double m_a = 1, m_b = 0.5;
@@ -114,9 +114,9 @@ TEST(TracersThatDiffuse, ReactWhileTheyExchange) {
 TEST(TracersThatDiffuse, ShareTheVolumesWithReactionsOfConcentrations) {
   // A' = -3 A^2 in u = 0.3 x, with so little diffusion that it does not count: as without it.
   const auto weights = [](const std::string& more) {
-    std::string text = two("gain = \"-3*A*A\"", "", more);
+    std::string text = two_that_spread("gain = \"-3*A*A\"", "", more);
     text.replace(text.find("\"0\", \"0\""), 8, "\"0.3*x\", \"0.3*y\"");
-    Simulation simulation(spec_of(text), 1);
+    Simulation simulation(spec_of_text(text), 1);
     const RunSummary summary = simulation.run();
     return summary.frames.back().second.tracers[0].mass;
   };
@@ -127,16 +127,19 @@ TEST(TracersThatDiffuse, ShareTheVolumesWithReactionsOfConcentrations) {
 TEST(TracersThatDiffuse, RefuseWhatTheMethodCannotDo) {
   const auto refused = [](const std::string& text, const std::vector<std::string>& overrides,
                           const std::string& words) {
-    const std::string message = message_of<Error>([&] { spec_of(text, overrides); });
+    const std::string message = message_of<Error>([&] { spec_of_text(text, overrides); });
     EXPECT_NE(message.find(words), std::string::npos) << message;
   };
-  const std::string own = two("diffusion = 0.005", "", spreading);
-  EXPECT_EQ(spec_of(case_text(spec_of(own), ".")).tracers[0].diffusion, 0.005);
-  refused(two("diffusion = 0.005", "", ""), {}, "A has a diffusion, and the case has no effect that diffuses");
+  const std::string own = two_that_spread("diffusion = 0.005", "", spreading);
+  EXPECT_EQ(spec_of_text(case_text(spec_of_text(own), ".")).tracers[0].diffusion, 0.005);
+  refused(two_that_spread("diffusion = 0.005", "", ""), {},
+          "A has a diffusion, and the case has no effect that diffuses");
   refused(own, {"effects.diffusion.D=0.001"}, "is less than the diffusion of A, 0.005");
   refused(own, {"effects.diffusion.method=random-walk"}, "a particle that walks carries all named densities along");
-  refused(two("diffusion = 0.005\ngain = \"-B\"", "", spreading), {}, "what A gains from others has been spread");
-  refused(two("diffusion = 0.005", "", "[effects.diffusion]\nD_axes = [0.01, 0.02]\n"), {}, "has no D, and named");
+  refused(two_that_spread("diffusion = 0.005\ngain = \"-B\"", "", spreading), {},
+          "what A gains from others has been spread");
+  refused(two_that_spread("diffusion = 0.005", "", "[effects.diffusion]\nD_axes = [0.01, 0.02]\n"), {},
+          "has no D, and named");
   refused(own, {"output.fields=[\"gradient\"]"}, "\"gradient\" is one of all densities");
   refused(resting_gaussian, {"density.diffusion=1"}, "\"diffusion\" goes with \"name\"");
 }

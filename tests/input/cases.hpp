@@ -1,6 +1,8 @@
 // Cases for the tests of the reader.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -76,6 +78,10 @@ inline std::string with(std::string text, const std::string& old_part, const std
   if (at == std::string::npos || text.find(old_part, at + 1) != std::string::npos)
     throw std::logic_error("\"" + old_part + "\" is not exactly once in the case");
   return text.replace(at, old_part.size(), new_part);
+}
+
+inline void expect_has(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
 }
 
 /// The message of the CaseError, or "" if the case is valid.

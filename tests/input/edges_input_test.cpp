@@ -14,10 +14,6 @@ std::string with_edges(const std::string& edges, const std::vector<std::string>&
   return errors(text, overrides);
 }
 
-void expect_has(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
-}
-
 TEST(Edges, AreOneWordOrTwoAnAxis) {
   const Case spec = parse_case(cone, "cone.toml", {"domain.edges=[\"periodic\", [\"closed\", \"open\"]]"}).spec;
   EXPECT_EQ(spec.domain.edges[0], (std::array{Edge::periodic, Edge::periodic}));

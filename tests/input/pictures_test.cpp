@@ -7,10 +7,6 @@
 namespace gaussdrift::input {
 namespace {
 
-void expect_has(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
-}
-
 std::string looks(const std::string& lines) { return errors(cone + "[output.pictures]\n" + lines + "\n"); }
 
 Case animated(const std::string& value) { return parse_case(cone, "cone.toml", {"output.animation=" + value}).spec; }

@@ -9,10 +9,6 @@
 namespace gaussdrift::input {
 namespace {
 
-void expect_has(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
-}
-
 std::string with_source(const std::string& lines, const std::string& more = "") {
   return errors(cone + "[[source]]\n" + lines + "\n" + more);
 }

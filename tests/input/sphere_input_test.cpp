@@ -34,10 +34,6 @@ std::string complaint(const CaseTables& tables, const std::string& more = "") {
   return errors(gaussdrift::case_text(tables) + more);
 }
 
-void expect_has(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
-}
-
 std::string with_domain(const std::string& lines) {
   CaseTables tables = on_earth();
   tables.domain = "coordinates = \"longitude latitude\"\n" + lines;

@@ -12,10 +12,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-template <int d>
-rbf::Points<d> cube(Index count, unsigned seed) {
-  return (0.5 * (naive::numbers(d, count, seed).array() + 1)).matrix();
-}
+using naive::cube;
 
 /// sin(3 x) cos(2 y) and the like, and its gradient.
 template <int d>

@@ -14,11 +14,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// Points in the unit cube.
-template <int d>
-rbf::Points<d> cube(Index count, unsigned seed) {
-  return (0.5 * (naive::numbers(d, count, seed).array() + 1)).matrix();
-}
+using naive::cube;
 
 /// Halton's points, which leave no large gaps as random ones do.
 template <int d>

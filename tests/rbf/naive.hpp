@@ -121,6 +121,12 @@ inline Eigen::MatrixXd numbers(Eigen::Index rows, Eigen::Index columns, unsigned
   return found;
 }
 
+/// Points in the unit cube.
+template <int d>
+rbf::Points<d> cube(Eigen::Index count, unsigned seed) {
+  return (0.5 * (numbers(d, count, seed).array() + 1)).matrix();
+}
+
 template <int d>
 struct Cloud {
   std::string name;

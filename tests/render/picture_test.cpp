@@ -15,11 +15,13 @@
 #include <thread>
 #include <vector>
 
+#include "base/nan.hpp"
 #include "gaussdrift/error.hpp"
 #include "message_of.hpp"
 #include "pictures.hpp"
 #include "render/axes.hpp"
 #include "render/contour_lines.hpp"
+#include "render/drawn.hpp"
 #include "render/read_png.hpp"
 #include "render/styles.hpp"
 #include "scratch_folder.hpp"
@@ -39,7 +41,7 @@ std::vector<Style> flat_styles() {
     if (style.about.shows(2) && !style.about.shows_error) flat.push_back(style);
   return flat;
 }
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 DensityGrid sampled(const Vector& min, const Vector& max, int per_axis,
                     const std::function<double(double, double)>& rho) {
@@ -75,15 +77,6 @@ TEST(WithoutPictures, APictureSaysWhyItCannotBeDrawn) {
   EXPECT_THROW(draw(find_style("surface"), cone(0, 0), {}, folder / "p.png"), CommandLineError);
   EXPECT_EQ(folder.count(), 0u);
 }
-
-Image drawn(const Style& style, const DensityGrid& density, const PictureOptions& options = {}) {
-  const ScratchFolder folder;
-  draw(style, density, options, folder / "p.png");
-  EXPECT_EQ(folder.count(), 1u);
-  return read_png(folder / "p.png");
-}
-
-std::size_t colours_of(const Image& image) { return std::set<Colour>(image.pixels.begin(), image.pixels.end()).size(); }
 
 int distance(const Colour& a, const Colour& b) {
   return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});

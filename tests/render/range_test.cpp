@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/nan.hpp"
 #include "render/colour.hpp"
 #include "render/picture.hpp"
 #include "render/ticks.hpp"
@@ -14,7 +15,8 @@ namespace gaussdrift::render {
 namespace {
 
 using Range = std::pair<double, double>;
-constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(RoundedRange, OfAConeIsZeroToOne) {
   EXPECT_EQ(rounded_range(0, 0.974870), Range(0, 1));

@@ -11,8 +11,10 @@
 #include <set>
 #include <vector>
 
+#include "base/nan.hpp"
 #include "gaussdrift/error.hpp"
 #include "pictures.hpp"
+#include "render/drawn.hpp"
 #include "render/read_png.hpp"
 #include "render/styles.hpp"
 #include "scratch_folder.hpp"
@@ -27,7 +29,7 @@ using ErrorPicture = Drawn;
 using Isosurface = Drawn;
 using SolidPicture = Drawn;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using base::nan;
 
 DensityGrid sampled(const Vector& min, const Vector& max, int per_axis,
                     const std::function<double(double, double, double)>& rho) {
@@ -110,26 +112,18 @@ std::vector<Style> solid_styles() {
   return solid;
 }
 
-Image drawn(const Style& style, const DensityGrid& density, const PictureOptions& options = {}) {
-  const ScratchFolder folder;
-  draw(style, density, options, folder / "p.png");
-  return read_png(folder / "p.png");
-}
-
-std::size_t colours_of(const Image& image) { return std::set<Colour>(image.pixels.begin(), image.pixels.end()).size(); }
-
 /// Pixel frames of the three panels, from a picture without a single number: red, each in one piece of its own.
-struct Found {
+struct PanelFrame {
   int left, right, bottom, top;
   int width() const { return right - left; }
   int height() const { return top - bottom; }
 };
 
-std::array<Found, 3> panels_of(DensityGrid density) {
+std::array<PanelFrame, 3> panels_of(DensityGrid density) {
   std::fill(density.rho.begin(), density.rho.end(), nan);
   const Image image = drawn(find_style("slices"), density);
   const auto bounds = [&](int x0, int x1, int y0, int y1) {
-    Found found{image.width, -1, image.height, -1};
+    PanelFrame found{image.width, -1, image.height, -1};
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x)
         if (image.at(x, y) == not_a_number)
@@ -139,7 +133,7 @@ std::array<Found, 3> panels_of(DensityGrid density) {
   };
   // The heading tells the number of missing values in the same red, above all panels.
   const int top = image.height - 110;
-  const Found all = bounds(0, image.width, 0, top);
+  const PanelFrame all = bounds(0, image.width, 0, top);
   // A column and a row of the picture without red part them.
   int gap_x = all.left, gap_y = all.bottom;
   while (bounds(gap_x, gap_x + 1, all.bottom, all.bottom + 20).right >= 0) ++gap_x;
@@ -148,7 +142,7 @@ std::array<Found, 3> panels_of(DensityGrid density) {
 }
 
 /// Brightest place of a panel as a share of its sides.
-std::array<double, 2> brightest(const Image& image, const Found& panel) {
+std::array<double, 2> brightest(const Image& image, const PanelFrame& panel) {
   double most = -1, sum_x = 0, sum_y = 0, count = 0;
   for (int y = panel.bottom + 3; y < panel.top - 3; ++y)
     for (int x = panel.left + 3; x < panel.right - 3; ++x) {
@@ -163,7 +157,7 @@ TEST_F(SlicesAndProjection, AreBrightestWhereTheDensityIsLargest) {
   const std::array<double, 3> at{0.25, 0.625, 0.75};  // a lattice point
   const auto density = ball(at[0], at[1], at[2]);
   const auto panels = panels_of(density);
-  for (const Found& panel : panels) EXPECT_EQ(panel.width(), panel.height()) << "equal aspect";
+  for (const PanelFrame& panel : panels) EXPECT_EQ(panel.width(), panel.height()) << "equal aspect";
   for (const char* style : {"slices", "projection"}) {
     const Image image = drawn(find_style(style), density);
     const auto xy = brightest(image, panels[0]), xz = brightest(image, panels[1]), zy = brightest(image, panels[2]);
@@ -183,7 +177,7 @@ TEST_F(Projection, ShowsWhatTheSlicesMiss) {
   for (std::size_t i = 0; i < density.rho.size(); ++i) density.rho[i] += second.rho[i];
   const auto panels = panels_of(density);
   const auto colour_at = [&](const Style& style, double x, double y) {
-    const Found& panel = panels[0];
+    const PanelFrame& panel = panels[0];
     return drawn(style, density)
         .at(panel.left + static_cast<int>(x * panel.width()), panel.bottom + static_cast<int>(y * panel.height()));
   };
@@ -223,7 +217,7 @@ TEST_F(ErrorPicture, IsBlueBelowWhiteAtAndRedAboveZero) {
   const auto panels = panels_of(error);
   const auto solid = drawn(find_style("error"), error, {.range_min = -1e-3, .range_max = 1e-3});
   const auto colour = [&](double share) {
-    const Found& panel = panels[0];
+    const PanelFrame& panel = panels[0];
     return solid.at(panel.left + static_cast<int>(share * panel.width()), panel.bottom + panel.height() / 3);
   };
   EXPECT_EQ(colour(0.15), blue_white_red(0));
@@ -235,8 +229,8 @@ TEST_F(ErrorPicture, IsBlueBelowWhiteAtAndRedAboveZero) {
 }
 
 /// Bounds of the pixels of about the colour of the solid surface, left of the colour bar and below the heading.
-Found solid_surface(const Image& image) {
-  Found found{image.width, -1, image.height, -1};
+PanelFrame solid_surface(const Image& image) {
+  PanelFrame found{image.width, -1, image.height, -1};
   for (int y = 0; y < image.height - 120; ++y)
     for (int x = 0; x < image.width - 180; ++x)
       if (const Colour& c = image.at(x, y); c[1] > c[2] + 30 && c[1] > c[0] + 20)
@@ -245,8 +239,8 @@ Found solid_surface(const Image& image) {
 }
 
 TEST_F(Isosurface, OfABallIsRoundAndMovesWithIt) {
-  const Found low = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.3)));
-  const Found high = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.7)));
+  const PanelFrame low = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.3)));
+  const PanelFrame high = solid_surface(drawn(find_style("isosurface"), ball(0.5, 0.5, 0.7)));
   ASSERT_GT(low.width(), 20);
   EXPECT_NEAR(low.width(), low.height(), 2);  // a pixel at either edge
   EXPECT_GT(high.bottom, low.bottom + 100);
@@ -255,7 +249,7 @@ TEST_F(Isosurface, OfABallIsRoundAndMovesWithIt) {
 
 TEST_F(Isosurface, LetsTheSolidOneShineThrough) {
   const Image image = drawn(find_style("isosurface"), ball(0.5, 0.5, 0.5));
-  const Found solid = solid_surface(image);
+  const PanelFrame solid = solid_surface(image);
   // Around it the clear ones tint the white background without hiding it.
   std::size_t tinted = 0;
   for (int x = solid.left - 60; x < solid.left; ++x) {

@@ -51,7 +51,7 @@ Particles of_rank(const Particles& all, const base::Communicator& ranks) {
   return some;
 }
 
-std::string state_of(std::string run, std::vector<std::string> outputs) {
+std::string state_on_ranks(std::string run, std::vector<std::string> outputs) {
   RunState parts{.run = std::move(run), .outputs = std::move(outputs)};
   return joined(parts);
 }
@@ -65,9 +65,9 @@ void write_on(int size, const ScratchFolder& folder, std::size_t count, std::vec
     CheckpointWriter writer(folder.path(), {}, {.in_haste = always, .piece_particles = in_a_piece}, ranks);
     const Particles own = of_rank(all, ranks);
     const bool first = ranks.rank() == 0;
-    writer.write(first ? "hash" : "", 1, 10, own, first ? state_of("first", {"one"}) : "");
+    writer.write(first ? "hash" : "", 1, 10, own, first ? state_on_ranks("first", {"one"}) : "");
     const CheckpointFacts facts =
-        writer.write(first ? "hash" : "", 2, 20, own, first ? state_of("second", {"one", "two"}) : "");
+        writer.write(first ? "hash" : "", 2, 20, own, first ? state_on_ranks("second", {"one", "two"}) : "");
     if (first) {
       EXPECT_EQ(facts.particles, count);
     }
@@ -120,7 +120,7 @@ TEST(CheckpointOnRanks, EachReadsSomePieces) {
       ASSERT_TRUE(checkpoint);
       EXPECT_EQ(checkpoint->facts.time, 2);
       EXPECT_EQ(checkpoint->facts.particles, 50u);
-      EXPECT_EQ(checkpoint->state, ranks.rank() == 0 ? state_of("second", {"one", "two"}) : "");
+      EXPECT_EQ(checkpoint->state, ranks.rank() == 0 ? state_on_ranks("second", {"one", "two"}) : "");
       const std::size_t pieces = 8,
                         most = (pieces + static_cast<std::size_t>(size) - 1) / static_cast<std::size_t>(size);
       EXPECT_LE(checkpoint->particles.size(), most * in_a_piece);
@@ -166,7 +166,7 @@ TEST(CheckpointOnRanks, AFailureOfOneRankLeavesTheOneBefore) {
   const Particles all = some_particles(50);
   const auto ends = ends_on_ranks(3, [&](base::Communicator& ranks) {
     CheckpointWriter writer(folder.path(), {}, {.piece_particles = in_a_piece}, ranks);
-    writer.write("hash", 3, 30, of_rank(all, ranks), ranks.rank() == 0 ? state_of("third", {"one", "two"}) : "");
+    writer.write("hash", 3, 30, of_rank(all, ranks), ranks.rank() == 0 ? state_on_ranks("third", {"one", "two"}) : "");
   });
   for (const std::exception_ptr& end : ends) {
     ASSERT_TRUE(end);

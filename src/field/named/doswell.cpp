@@ -51,8 +51,8 @@ NamedField doswell() {
           .divergence = "0",
           .exact_flow = "rotation about center by the angle omega(r) (t - s)",
           .make = [](int, const Arguments& a) {
-            return std::make_unique<CircularField<OmegaOfDoswell>>(Formula::doswell, point(a, "center"),
-                                                          OmegaOfDoswell{number(a, "radius"), number(a, "speed")});
+            return std::make_unique<CircularField<OmegaOfDoswell>>(
+                Formula::doswell, point(a, "center"), OmegaOfDoswell{number(a, "radius"), number(a, "speed")});
           }};
 }
 

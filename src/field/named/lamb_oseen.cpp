@@ -47,8 +47,9 @@ NamedField lamb_oseen() {
           .divergence = "0",
           .exact_flow = "rotation about center by the angle omega(r) (t - s)",
           .make = [](int, const Arguments& a) {
-            return std::make_unique<CircularField<OmegaOfLambOseen>>(Formula::lamb_oseen, point(a, "center"),
-                                                          OmegaOfLambOseen{number(a, "circulation"), number(a, "radius")});
+            return std::make_unique<CircularField<OmegaOfLambOseen>>(
+                Formula::lamb_oseen, point(a, "center"),
+                OmegaOfLambOseen{number(a, "circulation"), number(a, "radius")});
           }};
 }
 
