@@ -1,7 +1,11 @@
 # One static library a module, and the compiler flags that all of them share.
 
 add_library(gaussdrift_flags INTERFACE)
-target_compile_options(gaussdrift_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wno-unknown-pragmas)
+target_compile_options(gaussdrift_flags INTERFACE -Wall -Wextra -Wpedantic -Wno-unknown-pragmas)
+# Files that are compiled together share their unnamed namespace: what is local in one hides names of another.
+if(NOT GAUSSDRIFT_TOGETHER)
+  target_compile_options(gaussdrift_flags INTERFACE -Wshadow)
+endif()
 if(GAUSSDRIFT_WARNINGS_AS_ERRORS)
   target_compile_options(gaussdrift_flags INTERFACE -Werror)
 endif()

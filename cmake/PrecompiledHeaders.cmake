@@ -30,7 +30,6 @@ endfunction()
 # compile_together(target files): so many files of the target are compiled as one, so that what they include is parsed once
 # (docs/decisions/0058-files-compiled-together.md). Names in their unnamed namespaces must differ. Files with options of their own
 # are compiled alone. clang reads every file by itself, so the preset `clang` finds a file that lacks an include.
-option(GAUSSDRIFT_TOGETHER "Compile several files as one: a whole build takes half the time, one after a small change longer" ON)
 function(compile_together target files)
   if(GAUSSDRIFT_TOGETHER AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})

@@ -168,7 +168,9 @@ struct Plan {
 };
 
 Plan plan_of(const RenderOptions& options, bool locked) {
-  Plan plan{.field = options.field, .array = options.field == "rho" ? "" : options.field};
+  Plan plan;
+  plan.field = options.field;
+  if (options.field != "rho") plan.array = options.field;
   const bool of_frames = !options.animation.empty() && options.times.empty() && fs::is_directory(options.folder) &&
                          render::has_film_frames(options.folder);
   plan.drawable = is_case(options.folder) ? start_to_draw(options.folder)

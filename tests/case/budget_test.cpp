@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "accuracy/target.hpp"
+#include "case/built_in.hpp"
 #include "case_text.hpp"
 #include "field/velocity/expression_field.hpp"
 #include "gaussdrift/error.hpp"
@@ -20,10 +21,6 @@ namespace gaussdrift::accuracy {
 namespace {
 
 using std::numbers::pi;
-
-Case built_in(const std::string& name, const std::vector<std::string>& overrides) {
-  return gaussdrift::read_case(std::string(SOURCE_DIR) + "/cases/" + name + ".toml", overrides).spec;
-}
 
 Budget predicted(const Case& spec) { return predict_budget(spec, make_scene(spec), Effort::whatever, 0); }
 

@@ -13,6 +13,7 @@
 #include "accuracy/picture_seconds.hpp"
 #include "accuracy/target.hpp"
 #include "accuracy/trial.hpp"
+#include "case/built_in.hpp"
 #include "case_text.hpp"
 #include "gaussdrift/error.hpp"
 #include "gaussdrift/read_case.hpp"
@@ -35,10 +36,6 @@ std::string text_of(int dimension) {
 
 Case bump(std::vector<std::string> overrides, int dimension = 2) {
   return gaussdrift::parse_case(text_of(dimension), "bump.toml", overrides).spec;
-}
-
-Case built_in(const std::string& name, const std::vector<std::string>& overrides) {
-  return gaussdrift::read_case(SOURCE_DIR "/cases/" + name + ".toml", overrides).spec;
 }
 
 TEST(Trial, OfAFewParticlesIsTheCase) {

@@ -14,7 +14,7 @@ namespace {
 // exp(-25) of the density lies outside the domain.
 const std::string width = "(0.05+4*0.03*t)";
 
-double largest_error(const std::vector<std::string>& overrides, const std::string& rho) {
+double largest_error_of_spreading(const std::vector<std::string>& overrides, const std::string& rho) {
   std::vector<std::string> all{"effects.diffusion.D=0.03", "evaluate.tolerance=1e-11", "reference.kind=exact",
                                "reference.rho=" + rho};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -26,20 +26,22 @@ double largest_error(const std::vector<std::string>& overrides, const std::strin
 
 TEST(CoreSpreading, DiffusesAGaussianExactly) {
   const std::string rho = "0.04/" + width + "*exp(-(x^2+y^2)/" + width + ")";
-  EXPECT_LT(largest_error({}, rho), 2.5e-11);  // the transform's tolerance 1e-11, and the tail exp(-25) = 1.4e-11
+  EXPECT_LT(largest_error_of_spreading({}, rho),
+            2.5e-11);  // the transform's tolerance 1e-11, and the tail exp(-25) = 1.4e-11
 }
 
 TEST(CoreSpreading, KeepsTheCoefficientsOfDerivatives) {
   // gauss4 smooths by 1 - eps^2/4 Laplacian, eps that of the start: applied to the Gaussian above.
   const std::string rho =
       "0.04/" + width + "*exp(-(x^2+y^2)/" + width + ")*(1-0.01*((x^2+y^2)/" + width + "-1)/" + width + ")";
-  EXPECT_LT(largest_error({"particles.cutoff=gauss4"}, rho), 2.5e-11);  // as above
+  EXPECT_LT(largest_error_of_spreading({"particles.cutoff=gauss4"}, rho), 2.5e-11);  // as above
 }
 
 TEST(CoreSpreading, IsExactInARigidMotion) {
   // Around the origin with angle t, from (0.1, 0).
   const std::string rho = "0.04/" + width + "*exp(-((x-0.1*cos(t))^2+(y-0.1*sin(t))^2)/" + width + ")";
-  const double error = largest_error({"velocity.u=[\"-y\", \"x\"]", "density.center=[0.1, 0]", "time.step=0.01"}, rho);
+  const double error =
+      largest_error_of_spreading({"velocity.u=[\"-y\", \"x\"]", "density.center=[0.1, 0]", "time.step=0.01"}, rho);
   EXPECT_LT(
       error,
       1.2e-10);  // exp(-(0.9/0.2)^2) = 2e-9 of the density lies outside, its nearest blobs far from the grid: 4e-11
@@ -91,7 +93,7 @@ TEST(CoreSpreading, WarnsOfTheStrainBetweenTwoRemeshings) {
 
 TEST(CoreSpreading, GoesTogetherWithReaction) {
   const std::string rho = "exp(-2*t)*0.04/" + width + "*exp(-(x^2+y^2)/" + width + ")";
-  EXPECT_LT(largest_error({"effects.reaction.rate=2"}, rho), 2.5e-11);  // as at rest
+  EXPECT_LT(largest_error_of_spreading({"effects.reaction.rate=2"}, rho), 2.5e-11);  // as at rest
 }
 
 TEST(CoreSpreading, IsConstructedAloneAndKeepsNoArrays) {

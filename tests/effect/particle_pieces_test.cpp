@@ -25,7 +25,7 @@ struct Piece {
   std::vector<double> velocity;
   int rank = 0;
 };
-using Pieces = std::map<std::size_t, Piece>;
+using PiecesByNumber = std::map<std::size_t, Piece>;
 
 Particles none() {
   Particles particles;
@@ -63,8 +63,8 @@ std::vector<double> velocities_of(const Particles& particles) {
 }
 
 // The particles lie anywhere: here by their number, and the last rank has none.
-Pieces handed_out(const Particles& all, std::size_t pieces, int size) {
-  Pieces seen;
+PiecesByNumber handed_out(const Particles& all, std::size_t pieces, int size) {
+  PiecesByNumber seen;
   std::mutex mutex;
   for (const auto& end : ends_on_ranks(size, [&](base::Communicator& ranks) {
          std::vector<std::size_t> own;
@@ -90,7 +90,7 @@ TEST(ParticlePieces, AreAllParticlesByIdOnAnyNumberOfRanks) {
     for (const std::size_t pieces : {1u, 2u, 5u})
       for (const int size : {1, 2, 3, 8}) {
         if (pieces > count) continue;
-        const Pieces seen = handed_out(all, pieces, size);
+        const PiecesByNumber seen = handed_out(all, pieces, size);
         ASSERT_EQ(seen.size(), pieces);
         Particles together = none();
         int last = 0;
@@ -131,9 +131,9 @@ TEST(ParticlePieces, AFailingReceiverEndsAllRanks) {
 }
 
 // What a run hands out, beside a run that does not.
-class Watch : public Observer {
+class WatchOfPieces : public Observer {
  public:
-  Watch(std::map<int, Pieces>& seen, std::mutex& mutex, std::size_t& most_held)
+  WatchOfPieces(std::map<int, PiecesByNumber>& seen, std::mutex& mutex, std::size_t& most_held)
       : seen_(seen), mutex_(mutex), most_held_(most_held) {}
   std::string name() const override { return "watch"; }
   bool takes_particle_pieces() const override { return true; }
@@ -147,7 +147,7 @@ class Watch : public Observer {
   }
 
  private:
-  std::map<int, Pieces>& seen_;
+  std::map<int, PiecesByNumber>& seen_;
   std::mutex& mutex_;
   std::size_t& most_held_;
 };
@@ -169,12 +169,12 @@ TEST(ParticlePieces, OfARunAreItsParticlesAndNobodyGathersThem) {
   plain.run();
   const Case spec = scene_of(with_pieces);
   for (const int size : {1, 2, 5}) {
-    std::map<int, Pieces> seen;
+    std::map<int, PiecesByNumber> seen;
     std::mutex mutex;
     std::size_t most_held = 0;
     for (const auto& end : ends_on_ranks(size, [&](base::Communicator& ranks) {
            Simulation simulation(spec, 1, ranks);
-           simulation.observe(std::make_unique<Watch>(seen, mutex, most_held));
+           simulation.observe(std::make_unique<WatchOfPieces>(seen, mutex, most_held));
            simulation.run();
          }))
       if (end) std::rethrow_exception(end);

@@ -11,7 +11,7 @@ using farfield::Method;
 
 // Rounding of a term, relative to it: coordinates, square root, powers, products, seven at 1.1e-16. 64 terms of random
 // sign add little. Measured 2.6e-16.
-constexpr double rounding = 7.7e-16;
+constexpr double rounding_of_a_sum = 7.7e-16;
 
 template <int d>
 void expect_exact(Kernel kernel, const naive::Points<d>& sources, const naive::Points<d>& targets,
@@ -20,8 +20,8 @@ void expect_exact(Kernel kernel, const naive::Points<d>& sources, const naive::P
   const farfield::Plan<d> plan(kernel, sources, targets, options);
   const auto errors =
       naive::errors<d>(plan.evaluate(charges), naive::sum<d>(kernel, sources, targets, charges, core_radius));
-  EXPECT_LE(errors.potential, rounding) << to_string(kernel) << " " << d << "D";
-  EXPECT_LE(errors.field, rounding) << to_string(kernel) << " " << d << "D";
+  EXPECT_LE(errors.potential, rounding_of_a_sum) << to_string(kernel) << " " << d << "D";
+  EXPECT_LE(errors.field, rounding_of_a_sum) << to_string(kernel) << " " << d << "D";
 }
 
 TEST(FarfieldDirect, EqualsTheDefinition) {

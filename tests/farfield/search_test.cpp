@@ -10,6 +10,7 @@
 #include "farfield/farfield.hpp"
 #include "farfield/naive.hpp"
 
+namespace search_test {
 namespace {
 
 using farfield::Kernel;
@@ -276,3 +277,4 @@ TEST(FarfieldSearch, ACrowdThatFacesOneChargeKeepsThePromise) {
 }
 
 }  // namespace
+}  // namespace search_test

@@ -16,7 +16,7 @@ class KilledCase : public Faults, public testing::WithParamInterface<std::string
 
 TEST_P(KilledCase, GoesOnWithTheSameBits) {
   const long calls = begin_with("run '" SOURCE_DIR "/cases/" + GetParam() +
-                                ".toml' --set particles.per_axis=30 --set evaluate.per_axis=15 --set "
+                                ".toml' --set particles.per_axis=31 --set evaluate.per_axis=15 --set "
                                 "output.images=[] --set 'output.report=\"none\"' --set output.checkpoint=1e-9")
                          .calls;
   for (const long at : spread(0, calls, std::max(1L, faults_of_a_test(1) / 20))) suffer(killed_at(at), of_kills);

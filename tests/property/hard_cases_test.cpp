@@ -358,7 +358,7 @@ TEST_P(HardCase, OfWeightsOfThirtyDecadesAndBothSigns) {
 // Refusals
 
 template <class Exception, class Action>
-std::string message(const Action& action) {
+std::string message_of_refusal(const Action& action) {
   try {
     action();
   } catch (const Exception& exception) {
@@ -377,19 +377,21 @@ TEST_P(HardCase, OfInputThatIsNotFiniteIsRefusedByNameAndIndex) {
   };
   fgtd::Plan<2> plan(points, weights, 30.0, options(1e-6));
   const Eigen::MatrixXd before = plan.evaluate(points);
-  EXPECT_EQ(message<Refusal>([&] { fgtd::Plan<2>(wrong(points, 1, 150, not_a_number), weights, 30.0, options(1e-6)); }),
+  EXPECT_EQ(message_of_refusal<Refusal>(
+                [&] { fgtd::Plan<2>(wrong(points, 1, 150, not_a_number), weights, 30.0, options(1e-6)); }),
             "fgtd: source 150, coordinate 1 is nan; sources must be finite");
-  EXPECT_EQ(message<Refusal>([&] { fgtd::Plan<2>(points, wrong(weights, 7, 1, -infinite), 30.0, options(1e-6)); }),
-            "fgtd: weight 7, column 1 is -inf; weights must be finite");
-  EXPECT_EQ(message<Refusal>([&] { plan.set_weights(wrong(weights, 199, 0, not_a_number)); }),
+  EXPECT_EQ(
+      message_of_refusal<Refusal>([&] { fgtd::Plan<2>(points, wrong(weights, 7, 1, -infinite), 30.0, options(1e-6)); }),
+      "fgtd: weight 7, column 1 is -inf; weights must be finite");
+  EXPECT_EQ(message_of_refusal<Refusal>([&] { plan.set_weights(wrong(weights, 199, 0, not_a_number)); }),
             "fgtd: weight 199, column 0 is nan; weights must be finite");
-  EXPECT_EQ(message<Refusal>([&] { plan.evaluate(wrong(points, 0, 42, infinite)); }),
+  EXPECT_EQ(message_of_refusal<Refusal>([&] { plan.evaluate(wrong(points, 0, 42, infinite)); }),
             "fgtd: target 42, coordinate 0 is inf; targets must be finite");
-  EXPECT_EQ(message<Refusal>([&] {
+  EXPECT_EQ(message_of_refusal<Refusal>([&] {
               plan.evaluate(fgtd::TensorGrid{{{0, 1}, {0, not_a_number}}});
             }),
             "fgtd: grid, axis 1, node 1 is nan; nodes must be finite");
-  EXPECT_EQ(message<Refusal>([&] { fgtd::Plan<2>(points, weights, infinite, options(1e-6)); }),
+  EXPECT_EQ(message_of_refusal<Refusal>([&] { fgtd::Plan<2>(points, weights, infinite, options(1e-6)); }),
             "fgtd: sigma = inf, must be positive and finite");
   EXPECT_EQ(plan.evaluate(points), before);  // a refusal leaves the plan as it was
 }
