@@ -163,8 +163,8 @@ constexpr double smallest_folded_tolerance = 1e-11;
 /// @throws InvalidArgument, ToleranceError  as a Plan
 template <int d>
 std::size_t near_copies(const Options& options);
-extern template std::size_t near_copies<2>(const Options& options);
-extern template std::size_t near_copies<3>(const Options& options);
+extern template std::size_t near_copies<2>(const Options& options);  ///< in the plane
+extern template std::size_t near_copies<3>(const Options& options);  ///< in space
 
 // ---------------------------------------------------------------------------------------------------------------
 // Results

@@ -40,9 +40,14 @@ std::string lower(std::string text) {
 }
 
 /// From what is simplest to what needs more; a topic that is not here comes last.
-constexpr std::string_view order[] = {
-    "flows in the plane", "flows in space",        "velocities from data", "edges, land and the sphere", "sources",
-    "diffusion",          "reactions and tracers", "charges and vortices"};
+constexpr std::string_view order[] = {"flows in the plane",
+                                      "flows in space",
+                                      "velocities from data",
+                                      "edges, land and the sphere",
+                                      "sources",
+                                      "diffusion and random walks",
+                                      "reactions and tracers",
+                                      "charges and vortices"};
 
 bool comes_before(const Example& a, const Example& b) {
   const auto rank = [](const Example& example) { return std::find(std::begin(order), std::end(order), example.topic); };

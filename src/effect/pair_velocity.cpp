@@ -40,10 +40,11 @@ PairVelocity::PairVelocity(double tolerance, int threads, base::Communicator* ra
       ranks_(ranks && ranks->size() > 1 ? ranks : nullptr),
       axes_(axes_of(domain)) {
   if (ranks_ && (domain.has(Edge::periodic) || domain.has(Edge::closed)))
-    throw InputError(fmt::format(
-        "the velocities that particles and their images beyond periodic and closed edges give each other are summed on "
-        "one rank alone, and there are {}. Run the case on one rank, with as many threads as the machine has.",
-        ranks_->size()));
+    throw InputError(
+        fmt::format("velocities that images of particles beyond periodic and closed edges give are summed on one rank "
+                    "alone, so that "
+                    "{} ranks cannot share this case; start it on one rank",
+                    ranks_->size()));
   if (ranks_) farfield_ranks_ = std::make_unique<FarfieldRanks>(*ranks_);
 }
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "effect/catalogue.hpp"
 #include "input/registry.hpp"
 
 namespace gaussdrift::input {
@@ -26,7 +28,15 @@ struct Form {
   std::string_view note = {};  // a line of its own below
 };
 
+/// The table of the effect by which a density spreads.
+std::string table_of_spreading() {
+  for (const NamedEffect& effect : effects())
+    if (effect.traits.diffuses) return table_of(effect);
+  throw std::logic_error("no effect lets a density spread");
+}
+
 const std::vector<Form>& forms() {
+  static const std::string spreading = table_of_spreading();
   static const std::vector<Form> all = {
       {"case", true, false, {{"title", "\"A blank scene\"", {}, true}, {"cite", "\"\""}}},
       {"params", false, false, {}, "R = 0.25"},
@@ -61,7 +71,7 @@ const std::vector<Form>& forms() {
         {"vtk", "[\"density\", \"particles\"]", {}, true},
         {"images", "[\"heatmap\", \"surface\"]", "[\"projection\", \"slices\"]", true},
         {"fields", "[\"gradient\", \"velocity\"]"}}},
-      {"effects.diffusion", false, false, {{"D", "0.001"}}, "All effects:  gaussdrift explain effects"},
+      {spreading, false, false, {{"D", "0.001"}}, "All effects:  gaussdrift explain effects"},
       {"accuracy", false, false, {{"target", "0.01"}}},
       {"check", false, true, {{"what", "\"Linf\""}, {"max", "0.1"}, {"at", "\"pi/2\""}}},
   };

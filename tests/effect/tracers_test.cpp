@@ -101,9 +101,9 @@ TEST(Tracers, HaveTheirWeightsInFilesOfParticles) {
   const auto looks = [](Simulation& simulation) {
     simulation.observe("look", [](const Frame& frame) {
       ASSERT_TRUE(frame.particle_fields);
-      ASSERT_EQ(frame.particle_fields->size(), 2u);
+      ASSERT_EQ(frame.particle_fields->size(), 3u);  // after core_radius
       for (const std::size_t k : {0u, 1u}) {
-        const FieldOnGrid& weights = (*frame.particle_fields)[k];
+        const FieldOnGrid& weights = (*frame.particle_fields)[1 + k];
         EXPECT_EQ(weights.name, k == 0 ? "alpha_A" : "alpha_B");
         EXPECT_EQ(weights.values, frame.particles->tracers[k]);
       }
@@ -123,9 +123,9 @@ TEST(Tracers, HaveTheirWeightsInFilesOfParticles) {
     void frame(const Frame& /*frame*/) override {}
     void particle_piece(const Frame& /*frame*/, const ParticlePiece& piece) override {
       ASSERT_TRUE(piece.fields);
-      EXPECT_EQ((*piece.fields)[1].name, "alpha_B");
+      EXPECT_EQ((*piece.fields)[2].name, "alpha_B");
       for (std::size_t j = 0; j < piece.particles->size(); ++j)
-        EXPECT_EQ((*piece.fields)[0].values[j] + (*piece.fields)[1].values[j], piece.particles->alpha[j]);
+        EXPECT_EQ((*piece.fields)[1].values[j] + (*piece.fields)[2].values[j], piece.particles->alpha[j]);
       seen_ += piece.particles->size();
     }
 

@@ -210,6 +210,7 @@ TEST(Pages, EveryCommandOfTroubleAndUsageRuns) {
   write_file(folder / "wind.csv", scattered("x,y,z,u", 4));
   write_file(folder / "cone.toml", coarse_cone());
   write_file(folder / "bay.toml", bay_with_eddy());
+  write_file(folder / "quakes.txt", "# depth longitude latitude\n10 0.5 1\n12 -1 0.25\n30 2 -3\n");
   for (const char* name : {"docs/trouble.md", "docs/usage.md"}) {
     const Page page = read_page(name);
     int commands = 0;

@@ -239,8 +239,8 @@ TEST(Run, RefusesAFolderThatCannotBe) {
 TEST(Run, StopsAtAFullDiskAndKeepsWhatWasWritten) {
   const ScratchFolder folder;
   write_file(folder / "small.toml", small_case);
-  // No file may grow beyond 16 blocks of 512 bytes: settings fit, a frame of 40 x 40 doubles does not.
-  const Outcome run = gaussdrift_in(folder, "run small.toml", "ulimit -f 16;");
+  // No file may grow beyond 32 blocks of 512 bytes: settings and view.py fit, a frame of 40 x 40 doubles does not.
+  const Outcome run = gaussdrift_in(folder, "run small.toml", "ulimit -f 32;");
   EXPECT_EQ(run.exit_code, 6) << run.err;
   EXPECT_NE(run.err.find("density_0000.vti"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("File too large"), std::string::npos) << run.err;  // the reason as the system gives it
