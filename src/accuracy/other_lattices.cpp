@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "accuracy/probes.hpp"
 #include "particle/subset.hpp"
@@ -55,6 +56,16 @@ void weigh(Particles& particles, const Scene& scene) {
     particles.alpha[j] *= scene.seeding.cell(particles.position[1][j]);
 }
 
+/// The middle of cell i of an axis, and which part of the cell lies in the domain.
+std::pair<double, double> middle_and_part(const Domain& domain, const Lattice& lattice, int axis, std::size_t i) {
+  const bool first = i == 0, last = i == lattice.points[axis];
+  const auto a = static_cast<std::size_t>(axis);
+  if (first && rim_of(domain, axis).periodic) return {domain.max[a] - lattice.spacing / 2, 1};
+  if (first) return {domain.min[a], 0.5};
+  if (last) return {domain.max[a], 0.5};
+  return {lattice.coordinate(axis, i) - lattice.spacing / 2, 1};
+}
+
 }  // namespace
 
 Particles at_start(const Particles& particles, const std::vector<std::size_t>& chosen, const Scene& scene) {
@@ -73,21 +84,15 @@ Particles between(const Particles& start, const Scene& scene, const Domain& doma
   const Lattice& lattice = scene.seeding;
   Particles moved;
   moved.dimension = start.dimension;
-  std::vector<double> parts;  // of a cell that lie in the domain
+  std::vector<double> parts;
   for (std::size_t cell : cells_around(start, lattice, domain)) {
-    double part = 1;
+    parts.push_back(1);
     for (int k = 0; k < start.dimension; ++k) {
-      const std::size_t i = cell % (lattice.points[k] + 1);
-      const bool first = i == 0, last = i == lattice.points[k];
-      const bool periodic = rim_of(domain, k).periodic;
-      if ((first && !periodic) || last) part /= 2;
-      moved.position[k].push_back(first && !periodic ? domain.min[k]
-                                  : first || last    ? domain.max[k]
-                                                     : lattice.coordinate(k, i) - lattice.spacing / 2);
-      if (first && periodic) moved.position[k].back() -= lattice.spacing / 2;
+      const auto [middle, part] = middle_and_part(domain, lattice, k, cell % (lattice.points[k] + 1));
+      moved.position[k].push_back(middle);
+      parts.back() *= part;
       cell /= lattice.points[k] + 1;
     }
-    parts.push_back(part);
     moved.id.push_back(0);
   }
   weigh(moved, scene);

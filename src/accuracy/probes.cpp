@@ -94,7 +94,7 @@ double reach_of(const Cutoff& cutoff, double widths) {
 
 std::vector<std::size_t> near(const std::vector<Probe>& probes, const Particles& particles, double reach,
                               const Domain& domain) {
-  const Folding folding = domain.on_sphere() ? Folding() : folding_of(domain);  // chords know no edges
+  const Folding folding = folding_of_blobs(domain);
   std::vector<std::size_t> of;
   Particles images;
   if (folding.folds()) images = with_images(particles, folding, reach, &of);

@@ -109,12 +109,9 @@ std::optional<Settings> try_lattice(Case spec, int per_axis, double overlap, Sea
   return search.tried.back();
 }
 
-/// The nearest number, upwards first, with which the lattice divides all axes that are periodic or closed. Throws where
-/// there is none.
+/// The nearest number with which the lattice divides all axes that are periodic or closed. Throws where there is none.
 int with_whole_cells(const Domain& domain, int per_axis) {
-  for (int away = 0; away < per_axis; ++away)
-    for (const int near : {per_axis + away, per_axis - away})
-      if (near >= 2 && !axis_without_whole_cells(domain, near)) return near;
+  if (const std::vector<int> good = per_axis_with_whole_cells(domain, per_axis, 1); !good.empty()) return good.front();
   throw InputError(
       "no settings can be chosen for this accuracy: no lattice divides the lengths of all axes that are periodic or "
       "closed. Make the lengths of the domain small multiples of one length");

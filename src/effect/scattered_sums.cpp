@@ -158,8 +158,10 @@ fgtd::Points<d> ScatteredSums<d>::points(const std::vector<std::size_t>& chosen)
 template <int d>
 Eigen::MatrixXd ScatteredSums<d>::of(const Eigen::MatrixXd& weights) {
   const bool several = ranks_.size() > 1;
-  const Eigen::MatrixXd local = of_.empty() ? weights : rows_of(weights, of_);
-  const Eigen::MatrixXd all = several ? to_owners(local) : local;
+  Eigen::MatrixXd theirs;  // of images, and of what came from other ranks
+  if (!of_.empty()) theirs = rows_of(weights, of_);
+  if (several) theirs = to_owners(of_.empty() ? weights : theirs);
+  const Eigen::MatrixXd& all = several || !of_.empty() ? theirs : weights;
   Eigen::MatrixXd sums(all.rows(), all.cols());
   ranks_.agree_on([&] {
     try {
@@ -177,7 +179,8 @@ Eigen::MatrixXd ScatteredSums<d>::of(const Eigen::MatrixXd& weights) {
     }
   });
   if (several) return from_owners(sums, count_);
-  return sums.topRows(static_cast<Eigen::Index>(count_));
+  sums.conservativeResize(static_cast<Eigen::Index>(count_), Eigen::NoChange);  // those of images come last
+  return sums;
 }
 
 template class ScatteredSums<2>;

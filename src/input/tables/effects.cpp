@@ -158,16 +158,12 @@ void refuse_edges(Reader& in, const NamedEffect& effect, const EffectSpec& value
   const Entry* edges = in.find("domain", "edges");
   if (!edges || !spec.domain.has_edges()) return;
   const EffectTraits& traits = effect.traits;
-  std::string reason;
-  if (traits.adds_particles.of(values, spec.domain.dimension)) reason = traits.adds_particles.words;
-  if (traits.replaces_particles.of(values, spec.domain.dimension)) reason = traits.replaces_particles.words;
-  if (traits.knows_edges) reason.clear();
-  if (!reason.empty()) {
-    in.diagnostics.error(
-        edges->value.place,
-        fmt::format("domain.edges does not go with [{}]: {}, on a lattice that has no edges", table_of(effect), reason),
-        traits.diffuses ? "method = \"core-spreading\" goes with edges, and so does \"random-walk\""
-                        : "leave out one of them");
+  for (const Trait* trait : {&traits.adds_particles, &traits.replaces_particles}) {
+    if (traits.knows_edges || !trait->of(values, spec.domain.dimension)) continue;
+    in.diagnostics.error(edges->value.place,
+                         fmt::format("domain.edges does not go with [{}]: {}, on a lattice that has no edges",
+                                     table_of(effect), trait->words),
+                         "leave out one of them");
     return;
   }
   if (!traits.particles_interact) return;

@@ -96,10 +96,7 @@ void refuse_broken_cells(Reader& in, const Domain& domain, const Number& count) 
   if (!broken) return;
   const auto k = static_cast<std::size_t>(*broken);
   const double longest = longest_side(domain.dimension, domain.min, domain.max);
-  std::vector<int> good;  // the nearest numbers with which all axes have whole cells
-  for (int away = 1; away < per_axis && good.size() < 2; ++away)
-    for (const int other : {per_axis - away, per_axis + away})
-      if (other >= 2 && !axis_without_whole_cells(domain, other)) good.push_back(other);
+  std::vector<int> good = per_axis_with_whole_cells(domain, per_axis, 2);
   std::sort(good.begin(), good.end());
   in.diagnostics.error(
       count.written ? count.written->place : in.source.end(),

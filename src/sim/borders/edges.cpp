@@ -115,6 +115,8 @@ Folding folding_of(const Domain& domain) {
   return Folding(axes);
 }
 
+Folding folding_of_blobs(const Domain& domain) { return domain.on_sphere() ? Folding() : folding_of(domain); }
+
 namespace {
 
 /// Along this axis particles and images of them are one lattice.
@@ -152,6 +154,14 @@ std::optional<int> axis_without_whole_cells(const Domain& domain, int per_axis) 
       return k;
   }
   return std::nullopt;
+}
+
+std::vector<int> per_axis_with_whole_cells(const Domain& domain, int per_axis, std::size_t most) {
+  std::vector<int> good;
+  for (int away = 0; away < per_axis && good.size() < most; ++away)
+    for (const int other : {per_axis + away, per_axis - away})
+      if (other >= 2 && (away > 0 || good.empty()) && !axis_without_whole_cells(domain, other)) good.push_back(other);
+  return good;
 }
 
 std::vector<std::string> misfits_at_faces(const VelocityField& velocity, const Domain& domain, const TimeSpec& time) {
@@ -209,8 +219,8 @@ Domain domain_of_sum(const Case& spec, double elapsed) {
 }
 
 const Particles& summed_particles(const Domain& domain, const Particles& particles, double reach, Particles& images) {
-  const Folding folding = folding_of(domain);
-  if (!folding.folds() || domain.on_sphere()) return particles;  // chords know no edges
+  const Folding folding = folding_of_blobs(domain);
+  if (!folding.folds()) return particles;
   images = with_images(particles, folding, reach);
   return images;
 }

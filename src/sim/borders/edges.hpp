@@ -34,6 +34,9 @@ std::string coast_words(AtCoast rule);
 /// How places beyond periodic and closed faces lie in the domain.
 Folding folding_of(const Domain& domain);
 
+/// The same for sums of blobs: on a sphere they are functions of chords, which know no edges.
+Folding folding_of_blobs(const Domain& domain);
+
 /// A length so short that a particle which is beyond a face by less is still on it: particles that start on a face
 /// stay there in many flows, but for rounding.
 double rounding_of(const Domain& domain);
@@ -46,6 +49,10 @@ Lattice seeding_lattice(const Domain& domain, int per_axis);
 
 /// The first axis that folds and whose length is no multiple of the spacing of that lattice; empty: none.
 std::optional<int> axis_without_whole_cells(const Domain& domain, int per_axis);
+
+/// Numbers near this one, itself among them, with which no axis is without whole cells: at least `most` of them, the nearest
+/// first and the larger of two that are as near. Fewer where there are no more below twice the number.
+std::vector<int> per_axis_with_whole_cells(const Domain& domain, int per_axis, std::size_t most);
 
 /// What is wrong at the faces with a velocity that is to go on beyond them in images of the domain: sentences for people,
 /// from a sample of points and of times of the run. None: it goes on smoothly. The velocity is that at times of the clock.
