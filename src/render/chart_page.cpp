@@ -35,6 +35,7 @@ Sheet without_title(const Chart& chart) {
 
 }  // namespace
 
+std::string frame_style() { return page_file("frame.css"); }
 std::string chart_style() { return page_file("chart.css"); }
 std::string chart_script() { return page_file("chart.js"); }
 

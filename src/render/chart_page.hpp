@@ -18,7 +18,9 @@ struct ChartPageFile {
 /// Generated from src/render/page/ by cmake/EmbedFiles.cmake.
 const std::vector<ChartPageFile>& chart_page_files();
 
-/// Goes into a style element. Needs colours --ink and --quiet.
+/// Goes into the style element of a page before all else: colours, letters and tables of the pages that have charts.
+std::string frame_style();
+/// Goes into the same element. Needs colours --ink and --quiet.
 std::string chart_style();
 /// Goes into a script element at the end of the page.
 std::string chart_script();

@@ -94,9 +94,9 @@ std::string to_html(const Study& study) {
       "<meta http-equiv=Content-Security-Policy content=\"default-src 'none';img-src data:;style-src "
       "'unsafe-inline';script-src 'unsafe-inline'\">\n"
       "<title>What accuracy costs: {0}</title>\n<link rel=icon "
-      "href=\"data:,\">\n<style>\n{1}{2}</style>\n</head>\n<body>\n"
+      "href=\"data:,\">\n<style>\n{1}{2}{3}</style>\n</head>\n<body>\n"
       "<h1>What accuracy costs: {0}</h1>\n",
-      title, study_page_files().front().bytes, render::chart_style());
+      title, render::frame_style(), study_page_files().front().bytes, render::chart_style());
   // What whole runs cost comes first.
   std::for_each(study.experiments.rbegin(), study.experiments.rend(),
                 [&](const Experiment& experiment) { text += section_of(study, experiment); });
