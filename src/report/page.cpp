@@ -94,7 +94,8 @@ class Page {
         "'unsafe-inline';script-src 'unsafe-inline'\">"
         "<title>{0}</title><style>{1}</style>\n<h1>{0}</h1><p class=quiet>{2}, by gaussdrift {3}</p>\n<p "
         "class=verdict id=verdict>{4}</p>\n",
-        escaped(title.empty() ? name : title), render::frame_style() + page_file("page.css") + render::chart_style(), escaped(name),
+        escaped(title.empty() ? name : title), render::frame_style() + page_file("page.css") + render::chart_style(),
+        escaped(name),
         escaped(get(provenance_, "version").is_string() ? provenance_.at("version").get<std::string>() : ""),
         verdict(summary_));
     if (const json complete = get(summary_, "complete"); complete.is_boolean() && !complete.get<bool>())
